@@ -1,0 +1,42 @@
+// Counts to relative luminance.
+//
+//   Y = w_r R + w_g G + w_b B,   R, G, B = (counts - black) / (full_scale - black) / exposure_s
+//
+// Y is proportional to luminance: L = cdm2_per_count_s * Y (cd/m2 per unit of Y). Pixels at or above the
+// saturation level, their neighbours (a saturated pixel may have bled or been resampled), and those below the
+// dark limit are not valid. Float files have no quantisation: there only counts at or below black are dark.
+// Source: the luminance weights of the session format, 0.265 R + 0.670 G + 0.065 B.
+#ifndef LUXFIT_CALIB_LUMINANCE_H_
+#define LUXFIT_CALIB_LUMINANCE_H_
+
+#include <Eigen/Core>
+#include <array>
+
+#include "calib/image.h"
+
+namespace luxfit {
+
+using PixelMask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  // true: usable
+
+struct LuminanceOptions {
+  Eigen::Vector3d weights{0.265, 0.670, 0.065};
+  double black_level_counts = 0;
+  double saturation_fraction = 0.97;  // of full scale; sensors bend before they clip
+  double dark_fraction = 2e-4;        // of full scale: below it quantisation and read noise dominate
+  int saturation_margin_px = 2;       // neighbours of saturated pixels left out
+};
+
+struct LuminanceImage {
+  std::array<ImagePlane, 3> relative_rgb;  // the channels in the same unit: Y is their weighted sum
+  ImagePlane relative_luminance;           // per second of exposure, full scale = 1 at 1 s
+  PixelMask valid;
+  PixelMask saturated;  // with its margin; what is neither valid nor saturated is too dark
+};
+
+// Throws std::invalid_argument if exposure_s is not positive or the photo is empty.
+LuminanceImage ToRelativeLuminance(const Photo& photo, double exposure_s,
+                                   const LuminanceOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_H_

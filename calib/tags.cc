@@ -1,0 +1,252 @@
+#include "calib/tags.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "calib/internal/tag_family.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kSaturatedFraction = 0.97;  // of the plane's largest value: luminaires in view
+constexpr double kWhitePercentile = 0.99;    // of the pixels that are not saturated
+constexpr int kPercentileStride = 5;         // every fifth pixel of the plane is sample enough
+
+using DetectorPtr = std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>;
+using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
+
+// The value shown as white. Luminaires in view are hundreds of times as bright as walls: scaling to the
+// largest value would leave a tag a handful of grey levels.
+float WhiteLevel(const ImagePlane& grey) {
+  float largest = 0;
+  for (Eigen::Index i = 0; i < grey.size(); ++i) {
+    if (std::isfinite(grey.data()[i])) largest = std::max(largest, grey.data()[i]);
+  }
+  std::vector<float> sample;
+  sample.reserve(static_cast<std::size_t>(grey.size() / kPercentileStride + 1));
+  for (Eigen::Index i = 0; i < grey.size(); i += kPercentileStride) {
+    if (grey.data()[i] < kSaturatedFraction * largest) sample.push_back(grey.data()[i]);
+  }
+  if (sample.empty()) return largest;
+  const auto white = sample.begin() + static_cast<std::ptrdiff_t>(kWhitePercentile * (sample.size() - 1));
+  std::nth_element(sample.begin(), white, sample.end());
+  return *white > 0 ? *white : largest;
+}
+
+std::vector<uint8_t> ToDisplay(const ImagePlane& grey, double gamma) {
+  constexpr int kLevels = 4096;
+  std::vector<uint8_t> table(kLevels + 1);
+  for (int i = 0; i <= kLevels; ++i) {
+    // Entries are spaced by the square root of the value: the dark end, where gamma is steep, stays fine.
+    const double value = std::pow(static_cast<double>(i) / kLevels, 2);
+    table[static_cast<std::size_t>(i)] = static_cast<uint8_t>(std::lround(255 * std::pow(value, 1 / gamma)));
+  }
+  const float white = WhiteLevel(grey);
+  const float scale = white > 0 ? 1 / white : 0;
+  std::vector<uint8_t> display(static_cast<std::size_t>(grey.size()));
+  for (Eigen::Index i = 0; i < grey.size(); ++i) {
+    const float value = grey.data()[i] * scale;
+    const float shown = std::isnan(value) ? 1.0f : std::clamp(value, 0.0f, 1.0f);
+    display[static_cast<std::size_t>(i)] = table[static_cast<std::size_t>(std::sqrt(shown) * kLevels)];
+  }
+  return display;
+}
+
+double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
+  double sum_px = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum_px += (corners_px[(i + 1) % 4] - corners_px[i]).norm();
+  return sum_px / 4;
+}
+
+TagDetection ToHouse(const apriltag_detection_t& found) {
+  TagDetection tag;
+  tag.id = found.id;
+  tag.decision_margin = found.decision_margin;
+  // libapriltag: bottom-left, bottom-right, top-right, top-left; centre of the first pixel at (0.5, 0.5).
+  constexpr std::array<std::size_t, 4> kTheirCorner = {3, 2, 1, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double* p = found.p[kTheirCorner[i]];
+    tag.corners_px[i] = Eigen::Vector2d(p[0] - 0.5, p[1] - 0.5);
+  }
+  tag.side_px = MeanSide(tag.corners_px);
+  tag.corner_sigma_px = DetectorCornerSigmaPx(tag.side_px);
+  return tag;
+}
+
+// Detections of one tag (or of one of several copies of it) in several photos.
+using Cluster = std::vector<TagDetection>;
+
+Eigen::Vector2d Center(const TagDetection& tag) {
+  return (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]) / 4;
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+double LargestCornerDistance(const TagDetection& tag, const std::array<Eigen::Vector2d, 4>& corners_px) {
+  double largest_px = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    largest_px = std::max(largest_px, (tag.corners_px[i] - corners_px[i]).norm());
+  return largest_px;
+}
+
+std::array<Eigen::Vector2d, 4> MedianCorners(const Cluster& cluster) {
+  std::array<Eigen::Vector2d, 4> median_px;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 2; ++axis) {
+      std::vector<double> values;
+      for (const TagDetection& tag : cluster) values.push_back(tag.corners_px[i][axis]);
+      median_px[i][axis] = Median(values);
+    }
+  }
+  return median_px;
+}
+
+// The detections that the mean is taken of.
+Cluster WithoutOutliers(const Cluster& cluster) {
+  double least_sigma_px = cluster.front().corner_sigma_px;
+  for (const TagDetection& tag : cluster) least_sigma_px = std::min(least_sigma_px, tag.corner_sigma_px);
+  // Where some photos could be refined and others not (clipped whites, a shadow), the others add bias only.
+  constexpr double kMuchWorse = 3;
+  Cluster precise;
+  for (const TagDetection& tag : cluster) {
+    if (tag.corner_sigma_px <= kMuchWorse * least_sigma_px) precise.push_back(tag);
+  }
+  constexpr double kOutlierSigmas = 5;  // beyond it a shadow's edge or an occluder
+  const std::array<Eigen::Vector2d, 4> median_px = MedianCorners(precise);
+  Cluster kept;
+  for (const TagDetection& tag : precise) {
+    if (LargestCornerDistance(tag, median_px) <= kOutlierSigmas * tag.corner_sigma_px) kept.push_back(tag);
+  }
+  return kept.empty() ? precise : kept;
+}
+
+TagDetection CombineCluster(const Cluster& cluster, double systematic_fraction) {
+  const Cluster kept = WithoutOutliers(cluster);
+  TagDetection combined = kept.front();
+  for (Eigen::Vector2d& corner_px : combined.corners_px) corner_px.setZero();
+  combined.decision_margin = 0;
+  double weight_sum = 0;
+  for (const TagDetection& tag : kept) {
+    const double weight = 1 / (tag.corner_sigma_px * tag.corner_sigma_px);
+    for (std::size_t i = 0; i < 4; ++i) combined.corners_px[i] += weight * tag.corners_px[i];
+    weight_sum += weight;
+    combined.decision_margin = std::max(combined.decision_margin, tag.decision_margin);
+  }
+  for (Eigen::Vector2d& corner_px : combined.corners_px) corner_px /= weight_sum;
+
+  const double count = static_cast<double>(kept.size());
+  const double single_variance = count / weight_sum;
+  const double common = systematic_fraction * systematic_fraction;
+  double chi2 = 0;  // of the photos about the mean
+  for (const TagDetection& tag : kept) {
+    const double sigma_px = tag.corner_sigma_px;
+    for (std::size_t i = 0; i < 4; ++i) {
+      chi2 += (tag.corners_px[i] - combined.corners_px[i]).squaredNorm() / (sigma_px * sigma_px);
+    }
+  }
+  const double degrees_of_freedom = 8 * (count - 1);
+  const double scatter_of_mean = degrees_of_freedom > 0 ? chi2 / degrees_of_freedom / weight_sum : 0;
+  combined.corner_sigma_px =
+      std::sqrt(common * single_variance + std::max((1 - common) * single_variance / count, scatter_of_mean));
+  combined.side_px = MeanSide(combined.corners_px);
+  return combined;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 4> TagCornersInWorld(const SurveyedTag& tag) {
+  const double half_m = tag.size_m / 2;
+  const Eigen::Vector3d up = half_m * tag.up_in_world;
+  const Eigen::Vector3d right = half_m * tag.up_in_world.cross(tag.normal_in_world);
+  const Eigen::Vector3d& c = tag.center_in_world;
+  return {c - right + up, c + right + up, c + right - up, c - right - up};
+}
+
+double DetectorCornerSigmaPx(double side_px) {
+  // Measured on area-integrated renders with lens blur 0.7 px; below 16 px extrapolated as 1 / side.
+  constexpr std::array<std::pair<double, double>, 5> kTable = {
+      {{16, 0.22}, {24, 0.14}, {40, 0.055}, {80, 0.045}, {160, 0.04}}};
+  // Photos sharper than the pixel grid are aliased, and gamma moves edges: 0.1 px more, independent of the
+  // size.
+  constexpr double kAliasingPx = 0.1;
+  double blurred_px = kTable.back().second;
+  if (side_px <= kTable.front().first) {
+    blurred_px = kTable.front().second * kTable.front().first / std::max(side_px, 1.0);
+  } else {
+    for (std::size_t i = 0; i + 1 < kTable.size(); ++i) {
+      if (side_px >= kTable[i + 1].first) continue;
+      const double t = (side_px - kTable[i].first) / (kTable[i + 1].first - kTable[i].first);
+      blurred_px = (1 - t) * kTable[i].second + t * kTable[i + 1].second;
+      break;
+    }
+  }
+  return std::hypot(blurred_px, kAliasingPx);
+}
+
+std::vector<TagDetection> DetectTags(const ImagePlane& grey, const DetectTagsOptions& options) {
+  const TagFamilyPtr family = MakeTagFamily(options.family);
+  if (!(options.display_gamma > 0)) throw std::invalid_argument("DetectTags: display_gamma: expected > 0");
+  if (grey.size() == 0) throw std::invalid_argument("DetectTags: the plane is empty");
+
+  const DetectorPtr detector(apriltag_detector_create(), apriltag_detector_destroy);
+  detector->nthreads = 1;
+  detector->quad_decimate = 1;  // decimation misses a third of the tags below 40 px
+  detector->refine_edges = true;
+  apriltag_detector_add_family(detector.get(), family.get());
+
+  std::vector<uint8_t> display = ToDisplay(grey, options.display_gamma);
+  image_u8_t view = {static_cast<int32_t>(grey.cols()), static_cast<int32_t>(grey.rows()),
+                     static_cast<int32_t>(grey.cols()), display.data()};
+  const DetectionsPtr found(apriltag_detector_detect(detector.get(), &view), apriltag_detections_destroy);
+
+  std::vector<TagDetection> tags;
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* detection = nullptr;
+    zarray_get(found.get(), i, &detection);
+    const TagDetection tag = ToHouse(*detection);
+    if (tag.side_px < options.min_side_px || tag.decision_margin < options.min_decision_margin) continue;
+    tags.push_back(tag);
+  }
+  // The detector's own order depends on its hash table.
+  std::sort(tags.begin(), tags.end(), [](const TagDetection& a, const TagDetection& b) {
+    if (a.id != b.id) return a.id < b.id;
+    return a.corners_px[0].x() < b.corners_px[0].x();
+  });
+  return tags;
+}
+
+std::vector<TagDetection> CombineDetections(const std::vector<std::vector<TagDetection>>& photos,
+                                            const CombineDetectionsOptions& options) {
+  std::map<int, std::vector<Cluster>> clusters_by_id;
+  for (const std::vector<TagDetection>& photo : photos) {
+    for (const TagDetection& tag : photo) {
+      std::vector<Cluster>& clusters = clusters_by_id[tag.id];
+      const auto same_place = std::find_if(clusters.begin(), clusters.end(), [&tag](const Cluster& cluster) {
+        return (Center(cluster.front()) - Center(tag)).norm() < 0.5 * tag.side_px;
+      });
+      if (same_place != clusters.end()) {
+        same_place->push_back(tag);
+      } else {
+        clusters.push_back({tag});
+      }
+    }
+  }
+  std::vector<TagDetection> combined;
+  for (const auto& [id, clusters] : clusters_by_id) {
+    for (const Cluster& cluster : clusters)
+      combined.push_back(CombineCluster(cluster, options.systematic_fraction));
+  }
+  return combined;
+}
+
+}  // namespace luxfit
