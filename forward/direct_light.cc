@@ -1,0 +1,121 @@
+#include "forward/direct_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace luxfit {
+namespace {
+
+constexpr int kMaxOrder = 12;
+
+// Quadrature rules are made once: they depend on nothing but shape and order.
+const std::vector<SurfaceSample>& SurfaceRule(LuminaireShape shape, int order) {
+  using Rules = std::array<std::vector<SurfaceSample>, kMaxOrder + 1>;
+  static const auto make = [](LuminaireShape s) {
+    Rules rules;
+    for (int n = 1; n <= kMaxOrder; ++n) rules[static_cast<size_t>(n)] = SampleSurface(s, n);
+    return rules;
+  };
+  static const Rules rectangle = make(LuminaireShape::kRectangle), disc = make(LuminaireShape::kDisc);
+  static const std::vector<SurfaceSample> point = SampleSurface(LuminaireShape::kPoint, 1);
+  if (shape == LuminaireShape::kRectangle) return rectangle[static_cast<size_t>(order)];
+  if (shape == LuminaireShape::kDisc) return disc[static_cast<size_t>(order)];
+  return point;
+}
+
+int OrderFor(const Luminaire& luminaire, const Eigen::Vector3d& p) {
+  const double size = luminaire.size_m.maxCoeff();
+  const double distance = (p - luminaire.position).norm();
+  return std::clamp(2 + static_cast<int>(std::ceil(3 * size / std::max(distance, 1e-3))), 2, kMaxOrder);
+}
+
+Eigen::Vector2d SidesOf(const Luminaire& luminaire) {
+  if (luminaire.shape == LuminaireShape::kDisc) return Eigen::Vector2d::Constant(luminaire.size_m[0]);
+  return luminaire.size_m;
+}
+
+}  // namespace
+
+DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                                            const Eigen::Vector3d& normal) {
+  DirectIlluminance sum;
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector2d sides = SidesOf(luminaire);
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, OrderFor(luminaire, p_in_world))) {
+    const Eigen::Vector3d to_lamp = luminaire.position + sample.a * sides[0] * axes.along +
+                                    sample.b * sides[1] * axes.across - p_in_world;
+    const double r2 = to_lamp.squaredNorm();
+    const double height = normal.dot(to_lamp);
+    if (height <= 0 || r2 < 1e-12) continue;
+    const double r = std::sqrt(r2);
+    const double cosine_gamma = -luminaire.aim.dot(to_lamp) / r;
+    const Intensity intensity = IntensityPerLumen(luminaire, cosine_gamma);
+    if (intensity.cd_per_lm == 0) continue;
+    // E = I(c) h / r^3 with h = n . t, c = -aim . t / r, t = to_lamp.
+    const double geometry = sample.weight * height / (r2 * r);
+    const double illuminance = intensity.cd_per_lm * geometry;
+    const Eigen::Vector3d d_cosine = -luminaire.aim / r - cosine_gamma / r2 * to_lamp;
+    const Eigen::Vector3d gradient = intensity.d_cosine * geometry * d_cosine +
+                                     intensity.cd_per_lm * sample.weight / (r2 * r) * normal -
+                                     3 * illuminance / r2 * to_lamp;
+    sum.lx_per_lm += illuminance;
+    sum.d_position += gradient;
+    // Tilting turns the lobe, and the surface with it: along -> along - t aim.
+    const double aim_gradient = gradient.dot(luminaire.aim);
+    sum.d_tilt += -intensity.d_cosine * geometry / r *
+                      Eigen::Vector2d(axes.along.dot(to_lamp), axes.across.dot(to_lamp)) -
+                  aim_gradient * Eigen::Vector2d(sample.a * sides[0], sample.b * sides[1]);
+    if (luminaire.shape == LuminaireShape::kDisc) {
+      sum.d_size[0] += gradient.dot(sample.a * axes.along + sample.b * axes.across);
+    } else {
+      sum.d_size +=
+          Eigen::Vector2d(sample.a * gradient.dot(axes.along), sample.b * gradient.dot(axes.across));
+    }
+    sum.d_exponent += intensity.d_exponent * geometry;
+  }
+  return sum;
+}
+
+namespace {
+
+// Calls use(point, weight) for every surface point in front of the receiver that it sees.
+template <typename Use>
+void ForEachVisiblePoint(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p,
+                         const Eigen::Vector3d& normal, int order, const Use& use) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector2d sides = SidesOf(luminaire);
+  const Eigen::Vector3d start = LiftedOff(p, normal);
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::clamp(order, 1, kMaxOrder))) {
+    const Eigen::Vector3d point =
+        luminaire.position + sample.a * sides[0] * axes.along + sample.b * sides[1] * axes.across;
+    if (normal.dot(point - p) > 0 && !rays.Occluded(start, point)) use(point, sample.weight);
+  }
+}
+
+}  // namespace
+
+double OccludedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
+                                   const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
+                                   int order) {
+  double sum = 0;
+  ForEachVisiblePoint(
+      rays, luminaire, p_in_world, normal, order, [&](const Eigen::Vector3d& point, double weight) {
+        const Eigen::Vector3d to_lamp = point - p_in_world;
+        const double r = to_lamp.norm();
+        const double cosine_gamma = -luminaire.aim.dot(to_lamp) / r;
+        sum +=
+            weight * IntensityPerLumen(luminaire, cosine_gamma).cd_per_lm * normal.dot(to_lamp) / (r * r * r);
+      });
+  return sum;
+}
+
+double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                       const Eigen::Vector3d& normal, int order) {
+  double fraction = 0;
+  ForEachVisiblePoint(rays, luminaire, p_in_world, normal, order,
+                      [&](const Eigen::Vector3d&, double weight) { fraction += weight; });
+  return fraction;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,60 @@
+// Illuminance of any receiver from any luminaire, direct and interreflected, with derivatives.
+//
+//   E_rk = V_rk D_rk + sum_j F_rj M_jk,     M_k = Exitance(patch mean of V D_k)        lx per lm of luminaire
+//   k
+//
+// D: direct illuminance, V: visible share, F: form factors, M: exitance. Derivatives with respect to a
+// luminaire's parameter take the same path with dD in place of D (light is linear in what the luminaires put
+// in), one more column each and no further factorisation; those with respect to a material's reflectance are
+// Transport::ExitanceDerivative. All are exact for frozen visibility: the motion of shadow edges is left out.
+//
+// Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k * materials +
+// m.
+#ifndef LUXFIT_FORWARD_ILLUMINANCE_H_
+#define LUXFIT_FORWARD_ILLUMINANCE_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/luminaire.h"
+#include "forward/room.h"
+
+namespace luxfit {
+
+enum class LuminaireQuantity {
+  kPositionX,
+  kPositionY,
+  kPositionZ,  // m, world axes
+  kExponent,   // m of cosine-power
+  kSizeAlong,
+  kSizeAcross,  // m
+  kTiltAlong,
+  kTiltAcross,  // rad: aim + t1 along + t2 across, at t = 0
+};
+
+struct LuminaireParameter {
+  int luminaire = 0;
+  LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
+};
+
+struct Illuminance {
+  Eigen::MatrixXf total;        // receivers x luminaires, lx per lm
+  Eigen::MatrixXf direct;       // its direct part
+  Eigen::MatrixXf d_luminaire;  // receivers x parameters
+  Eigen::MatrixXf d_albedo;     // receivers x (luminaires * materials)
+};
+
+struct DerivativeRequest {
+  std::vector<LuminaireParameter> parameters;
+  std::vector<int> materials;
+};
+
+// `albedo` by material of the scene.
+Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
+                               const LuminaireVisibility& visibility,
+                               const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
+                               const DerivativeRequest& derivatives = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_ILLUMINANCE_H_

@@ -1,0 +1,18 @@
+// Dense single-precision kernels of BLAS and LAPACK under Eigen's types: the library picks its kernels for
+// the processor at run time, so the build needs no processor flags.
+#ifndef LUXFIT_FORWARD_INTERNAL_DENSE_H_
+#define LUXFIT_FORWARD_INTERNAL_DENSE_H_
+
+#include <Eigen/Core>
+
+namespace luxfit {
+
+// Lower Cholesky factor in place (column-major, only the lower triangle is read and written); false: not
+// positive definite.
+bool CholeskyInPlace(Eigen::MatrixXf& lower);
+// Solves L L^T X = B in place.
+void CholeskySolveInPlace(const Eigen::MatrixXf& lower, Eigen::MatrixXf& right);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_INTERNAL_DENSE_H_

@@ -1,0 +1,176 @@
+#include "forward/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace luxfit {
+namespace {
+
+int CountFor(double length, double size) {
+  return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
+}
+
+// A cell of a grid over a facet: the parallelogram (i, j), or the lower or upper triangle of it.
+struct Cell {
+  int i, j;
+  bool upper;
+};
+
+Element MakeElement(const Facet& facet, const Cell& cell, int cells_u, int cells_v, int patch) {
+  const double du = 1.0 / cells_u, dv = 1.0 / cells_v;
+  Element element;
+  element.normal = facet.Normal();
+  element.patch = patch;
+  element.edge_u = du * facet.edge_u;
+  element.edge_v = dv * facet.edge_v;
+  element.origin = facet.PointAt(cell.i * du, cell.j * dv);
+  if (cell.upper) {  // the triangle opposite the cell's far corner
+    element.origin = facet.PointAt((cell.i + 1) * du, (cell.j + 1) * dv);
+    element.edge_u = -element.edge_u;
+    element.edge_v = -element.edge_v;
+  }
+  const bool triangle = facet.kind == FacetKind::kTriangle;
+  element.center = element.origin + (triangle ? 1.0 / 3 : 0.5) * (element.edge_u + element.edge_v);
+  element.area_m2 = (triangle ? 0.5 : 1.0) * element.edge_u.cross(element.edge_v).norm();
+  return element;
+}
+
+// Share of an element that is not inside a solid: of rays from points spread over it, those that do not meet
+// a back.
+double FreeShare(const RayScene& rays, const Element& element, bool triangle) {
+  constexpr int kSide = 4;
+  int free = 0, total = 0;
+  for (int i = 0; i < kSide; ++i) {
+    for (int j = 0; j < kSide; ++j) {
+      double u = (i + 0.41) / kSide, v = (j + 0.57) / kSide;
+      if (triangle && u + v > 1) continue;
+      const Eigen::Vector3d origin = element.origin + u * element.edge_u + v * element.edge_v;
+      // A solid's inside shows backs in every direction; slanted so as not to run along edges.
+      const Eigen::Vector3d direction = element.normal +
+                                        0.31 * element.edge_u.normalized() * (i % 2 == 0 ? 1 : -1) +
+                                        0.17 * element.edge_v.normalized() * (j % 2 == 0 ? 1 : -1);
+      const RayHit hit = rays.Trace(LiftedOff(origin, element.normal), direction);
+      ++total;
+      if (hit.facet < 0 || hit.front) ++free;
+    }
+  }
+  return static_cast<double>(free) / total;
+}
+
+// The cells of an n x n triangular grid within sub-triangle `patch` of a triangle cut n_patch-fold, refined
+// m-fold.
+std::vector<Cell> CellsOfTrianglePatch(const Cell& patch, int m) {
+  std::vector<Cell> cells;
+  for (int j = 0; j < m; ++j) {
+    for (int i = 0; i + j < m; ++i) {
+      const int base_i = patch.i * m, base_j = patch.j * m;
+      if (!patch.upper) {
+        cells.push_back({base_i + i, base_j + j, false});
+        if (i + j < m - 1) cells.push_back({base_i + i, base_j + j, true});
+      } else {  // mirrored through the middle of the patch's cell
+        cells.push_back({base_i + m - 1 - i, base_j + m - 1 - j, true});
+        if (i + j < m - 1) cells.push_back({base_i + m - 1 - i, base_j + m - 1 - j, false});
+      }
+    }
+  }
+  return cells;
+}
+
+class Subdivision {
+ public:
+  Subdivision(const Scene& scene, const RayScene& rays, const PatchesOptions& options)
+      : scene_(scene), rays_(rays), options_(options) {
+    for (size_t f = 0; f < scene.facets.size(); ++f) AddFacet(static_cast<int>(f));
+  }
+  Patches result;
+
+ private:
+  void AddFacet(int index) {
+    const Facet& facet = scene_.facets[static_cast<size_t>(index)];
+    const bool triangle = facet.kind == FacetKind::kTriangle;
+    double length_u = facet.edge_u.norm(), length_v = facet.edge_v.norm();
+    if (triangle) length_u = length_v = std::max({length_u, length_v, (facet.edge_u - facet.edge_v).norm()});
+    const int patches_u = CountFor(length_u, options_.patch_size_m);
+    const int patches_v = CountFor(length_v, options_.patch_size_m);
+    const int elements_u = CountFor(length_u / patches_u, options_.element_size_m);
+    const int elements_v = CountFor(length_v / patches_v, options_.element_size_m);
+    FacetGrid grid;
+    grid.cells_u = patches_u * elements_u;
+    grid.cells_v = patches_v * elements_v;
+    grid.halves = triangle ? 2 : 1;
+    grid.element_of_cell.assign(grid.Index(0, grid.cells_v, false), -1);
+    result.grids.push_back(grid);
+    result.kinds.push_back(facet.kind);
+    for (int j = 0; j < patches_v; ++j) {
+      for (int i = 0; i < patches_u; ++i) {
+        if (!triangle) {
+          std::vector<Cell> cells;
+          for (int b = 0; b < elements_v; ++b) {
+            for (int a = 0; a < elements_u; ++a)
+              cells.push_back({i * elements_u + a, j * elements_v + b, false});
+          }
+          AddPatch(index, cells);
+        } else if (i + j < patches_u) {
+          AddPatch(index, CellsOfTrianglePatch({i, j, false}, elements_u));
+          if (i + j < patches_u - 1) AddPatch(index, CellsOfTrianglePatch({i, j, true}, elements_u));
+        }
+      }
+    }
+  }
+
+  void AddPatch(int facet_index, const std::vector<Cell>& cells) {
+    const Facet& facet = scene_.facets[static_cast<size_t>(facet_index)];
+    FacetGrid& grid = result.grids.back();
+    Patch patch;
+    patch.facet = facet_index;
+    patch.material = facet.material;
+    patch.first_element = static_cast<int>(result.elements.size());
+    patch.center.setZero();
+    const bool triangle = facet.kind == FacetKind::kTriangle;
+    for (const Cell& cell : cells) {
+      Element element =
+          MakeElement(facet, cell, grid.cells_u, grid.cells_v, static_cast<int>(result.patches.size()));
+      const double free_share = FreeShare(rays_, element, triangle);
+      if (free_share == 0) continue;
+      element.area_m2 *= free_share;
+      grid.element_of_cell[grid.Index(cell.i, cell.j, cell.upper)] = static_cast<int>(result.elements.size());
+      patch.area_m2 += element.area_m2;
+      patch.center += element.area_m2 * element.center;
+      ++patch.element_count;
+      result.elements.push_back(element);
+    }
+    if (patch.element_count == 0) return;
+    patch.center /= patch.area_m2;
+    result.patches.push_back(patch);
+  }
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const PatchesOptions& options_;
+};
+
+}  // namespace
+
+int Patches::ElementAt(int facet, double u, double v) const {
+  const FacetGrid& grid = grids[static_cast<size_t>(facet)];
+  const double x = u * grid.cells_u, y = v * grid.cells_v;
+  int i = std::clamp(static_cast<int>(x), 0, grid.cells_u - 1);
+  int j = std::clamp(static_cast<int>(y), 0, grid.cells_v - 1);
+  if (kinds[static_cast<size_t>(facet)] == FacetKind::kParallelogram) {
+    return grid.element_of_cell[grid.Index(i, j, false)];
+  }
+  bool upper = (x - i) + (y - j) > 1;
+  if (i + j >= grid.cells_u) i = grid.cells_u - 1 - j;  // rounding past the hypotenuse
+  if (i + j == grid.cells_u - 1) upper = false;
+  return grid.element_of_cell[grid.Index(i, j, upper)];
+}
+
+Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions& options) {
+  if (!(options.element_size_m > 0) || !(options.patch_size_m >= options.element_size_m)) {
+    throw std::invalid_argument("Subdivide: expected 0 < element_size_m <= patch_size_m");
+  }
+  return Subdivision(scene, rays, options).result;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,90 @@
+#include "forward/room.h"
+
+#include <tbb/parallel_for.h>
+
+#include "forward/direct_light.h"
+
+namespace luxfit {
+namespace {
+
+constexpr int kSensorOrder = 12;  // few sensors: afford the finest rule
+
+float ElementVisibility(const RayScene& rays, const Element& element, bool triangle,
+                        const Luminaire& luminaire, int order) {
+  // Probes at the quarter points; those of a triangle pulled into it.
+  const double scale = triangle ? 2.0 / 3 : 1.0;
+  float sum = 0;
+  int front = 0;
+  for (const double u : {0.25, 0.75}) {
+    for (const double v : {0.25, 0.75}) {
+      if (triangle && u + v > 1) continue;
+      const Eigen::Vector3d p = element.origin + scale * u * element.edge_u + scale * v * element.edge_v;
+      sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, order));
+      ++front;
+    }
+  }
+  return sum / static_cast<float>(front);
+}
+
+}  // namespace
+
+Room MakeRoom(Scene scene, const RoomOptions& options) {
+  RayScene rays(scene);
+  Patches patches = Subdivide(scene, rays, options.patches);
+  FormFactors form_factors = ComputeFormFactors(rays, patches, options.form_factors);
+  TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
+  return {std::move(scene), std::move(rays), std::move(patches), std::move(form_factors),
+          std::move(transport)};
+}
+
+Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
+                        const std::vector<Sensor>& sensors) {
+  Receivers receivers{elements, sensors, {}, {}};
+  const Eigen::Index rows = static_cast<Eigen::Index>(elements.size() + sensors.size());
+  receivers.gather.resize(rows, static_cast<Eigen::Index>(room.patches.patches.size()));
+  Eigen::Index row = 0;
+  for (const int e : elements) {
+    receivers.gather.row(row++) = room.form_factors.element_to_patch.row(e);
+    receivers.points.push_back({room.patches.elements[static_cast<size_t>(e)].center,
+                                room.patches.elements[static_cast<size_t>(e)].normal});
+  }
+  // Without patches there is nothing to gather from.
+  tbb::parallel_for(size_t{0}, room.patches.patches.empty() ? 0 : sensors.size(), [&](size_t i) {
+    receivers.gather.row(row + static_cast<Eigen::Index>(i)) =
+        SensorFormFactors(room.rays, room.patches, sensors[i].position, sensors[i].normal);
+  });
+  receivers.points.insert(receivers.points.end(), sensors.begin(), sensors.end());
+  return receivers;
+}
+
+LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
+                                      const std::vector<Luminaire>& luminaires, int order) {
+  const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
+  const size_t elements = room.patches.elements.size();
+  LuminaireVisibility visibility;
+  visibility.elements.resize(static_cast<Eigen::Index>(elements), lamps);
+  visibility.receivers.resize(receivers.count(), lamps);
+  tbb::parallel_for(size_t{0}, elements, [&](size_t e) {
+    const Element& element = room.patches.elements[e];
+    const int facet = room.patches.patches[static_cast<size_t>(element.patch)].facet;
+    const bool triangle = room.patches.kinds[static_cast<size_t>(facet)] == FacetKind::kTriangle;
+    for (Eigen::Index k = 0; k < lamps; ++k) {
+      visibility.elements(static_cast<Eigen::Index>(e), k) =
+          ElementVisibility(room.rays, element, triangle, luminaires[static_cast<size_t>(k)], order);
+    }
+  });
+  for (size_t i = 0; i < receivers.elements.size(); ++i) {
+    visibility.receivers.row(static_cast<Eigen::Index>(i)) = visibility.elements.row(receivers.elements[i]);
+  }
+  tbb::parallel_for(size_t{0}, receivers.sensors.size(), [&](size_t i) {
+    const Sensor& sensor = receivers.sensors[i];
+    const Eigen::Index row = static_cast<Eigen::Index>(receivers.elements.size() + i);
+    for (Eigen::Index k = 0; k < lamps; ++k) {
+      visibility.receivers(row, k) = static_cast<float>(VisibleFraction(
+          room.rays, luminaires[static_cast<size_t>(k)], sensor.position, sensor.normal, kSensorOrder));
+    }
+  });
+  return visibility;
+}
+
+}  // namespace luxfit

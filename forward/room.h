@@ -1,0 +1,63 @@
+// A room made ready for light: everything that depends on geometry alone, computed once.
+//
+// Receivers are the places whose illuminance is asked for: elements of the room first (in the order given),
+// then sensor points. An empty scene is allowed: then all light is direct.
+//
+// Throws as its parts do (Subdivide, ComputeFormFactors).
+// Source: see forward/form_factors.h and forward/transport.h.
+#ifndef LUXFIT_FORWARD_ROOM_H_
+#define LUXFIT_FORWARD_ROOM_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/form_factors.h"
+#include "forward/luminaire.h"
+#include "forward/patches.h"
+#include "forward/scene.h"
+#include "forward/transport.h"
+#include "forward/visibility.h"
+
+namespace luxfit {
+
+struct RoomOptions {
+  PatchesOptions patches;
+  FormFactorOptions form_factors;
+};
+
+struct Room {
+  Scene scene;
+  RayScene rays;
+  Patches patches;
+  FormFactors form_factors;
+  TransportGeometry transport;
+};
+Room MakeRoom(Scene scene, const RoomOptions& options = {});
+
+struct Sensor {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;  // unit
+};
+
+struct Receivers {
+  std::vector<int> elements;  // indices into room.patches.elements
+  std::vector<Sensor> sensors;
+  FormFactorMatrix gather;     // receivers x patches
+  std::vector<Sensor> points;  // centre and normal of every receiver
+  int count() const { return static_cast<int>(points.size()); }
+};
+Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
+                        const std::vector<Sensor>& sensors);
+
+// Share of each luminaire that each place sees: elements x luminaires and receivers x luminaires, in [0, 1].
+// Elements are probed at 2 x 2 points against `order` points a side of the luminaire, sensors at their point.
+struct LuminaireVisibility {
+  Eigen::MatrixXf elements;
+  Eigen::MatrixXf receivers;
+};
+LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
+                                      const std::vector<Luminaire>& luminaires, int order = 3);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_ROOM_H_

@@ -1,0 +1,121 @@
+#include "forward/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace luxfit {
+namespace {
+
+constexpr unsigned kTriangles = 0, kQuads = 1;  // geometry ids
+
+struct Corner {
+  float x, y, z;
+};
+
+Corner ToCorner(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+RTCRay MakeRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, float tfar) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x());
+  ray.org_y = static_cast<float>(origin.y());
+  ray.org_z = static_cast<float>(origin.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tfar = tfar;
+  ray.mask = std::numeric_limits<unsigned>::max();  // Debian's build compares masks; 0 would hit nothing
+  return ray;
+}
+
+}  // namespace
+
+struct RayScene::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<int> facet_of_triangle, facet_of_quad;
+
+  ~State() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void Attach(RTCGeometryType type, unsigned id, unsigned corners, const std::vector<Corner>& vertices) {
+    if (vertices.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device, type);
+    auto* out = static_cast<Corner*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Corner), vertices.size()));
+    std::copy(vertices.begin(), vertices.end(), out);
+    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, corners == 3 ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4,
+        corners * sizeof(unsigned), vertices.size() / corners));
+    for (unsigned i = 0; i < vertices.size(); ++i) index[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+  state_->device = rtcNewDevice("");
+  if (state_->device == nullptr)
+    throw std::runtime_error("Embree: expected a device, got none (SSE2 is needed)");
+  state_->scene = rtcNewScene(state_->device);
+  // Robust: rays through the common edge of two facets must hit one of them.
+  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
+  std::vector<Corner> triangles, quads;
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    const Facet& facet = scene.facets[f];
+    const bool quad = facet.kind == FacetKind::kParallelogram;
+    std::vector<Corner>& vertices = quad ? quads : triangles;
+    vertices.push_back(ToCorner(facet.origin));
+    vertices.push_back(ToCorner(facet.PointAt(1, 0)));
+    if (quad) vertices.push_back(ToCorner(facet.PointAt(1, 1)));
+    vertices.push_back(ToCorner(facet.PointAt(0, 1)));
+    (quad ? state_->facet_of_quad : state_->facet_of_triangle).push_back(static_cast<int>(f));
+  }
+  state_->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);
+  state_->Attach(RTC_GEOMETRY_TYPE_QUAD, kQuads, 4, quads);
+  rtcCommitScene(state_->scene);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+RayHit RayScene::Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+  RTCRayHit query{};
+  query.ray = MakeRay(origin, direction, std::numeric_limits<float>::infinity());
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene, &context, &query);
+  RayHit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  const bool quad = query.hit.geomID == kQuads;
+  hit.facet = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID];
+  hit.distance = query.ray.tfar;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  hit.front =
+      query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z <
+      0;
+  return hit;
+}
+
+bool RayScene::Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d direction = to - from;
+  const double length = direction.norm();
+  if (length <= 1e-5) return false;
+  RTCRay ray = MakeRay(from, direction, static_cast<float>(1.0 - 1e-5 / length));
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+}  // namespace luxfit
