@@ -1,0 +1,23 @@
+// Reflectance by colour channel, once luminaires and camera scale are known.
+//
+// The radiosity model is fitted to each channel by itself with everything but the reflectances held, so
+// interreflection carries the colour of what reflects it. Assumes that the luminaires are neutral in the
+// camera's RGB: where they are not, their tint is in the reflectances of all materials alike.
+//
+// Reflectances in 0..1, one column a material, rows red, green, blue; NaN for materials that `fit` held
+// fixed.
+// Source: house; the model is inverse/light_model.h.
+#ifndef LUXFIT_INVERSE_ALBEDO_RGB_H_
+#define LUXFIT_INVERSE_ALBEDO_RGB_H_
+
+#include <Eigen/Core>
+
+#include "inverse/fit_luminaires.h"
+
+namespace luxfit {
+
+Eigen::Matrix3Xd EstimateAlbedoRgb(const Room& room, const LightData& data, const LuminaireFit& fit);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_ALBEDO_RGB_H_

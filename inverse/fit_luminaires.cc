@@ -1,0 +1,316 @@
+#include "inverse/fit_luminaires.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace luxfit {
+namespace {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Everything that one inner solve holds still.
+struct FrozenProblem {
+  const LightModel& model;
+  const LightState& base;  // tilts are relative to its aims
+  const std::vector<Parameter>& parameters;
+  Eigen::VectorXd data;
+  Eigen::VectorXd root_weight;                         // sqrt(w) / sigma, 0 for rows left out
+  std::vector<std::pair<int, ParameterPrior>> priors;  // parameter, knowledge
+};
+
+class ModelCost : public ceres::CostFunction {
+ public:
+  explicit ModelCost(const FrozenProblem& problem) : problem_(problem) {
+    set_num_residuals(
+        static_cast<int>(problem.data.size() + static_cast<Eigen::Index>(problem.priors.size())));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.parameters.size()));
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const Eigen::Index n = static_cast<Eigen::Index>(problem_.parameters.size()), rows = problem_.data.size();
+    const Eigen::Map<const Eigen::VectorXd> x(blocks[0], n);
+    const bool with_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
+    const Prediction prediction = problem_.model.Predict(
+        WithParameters(problem_.base, problem_.parameters, x), problem_.parameters, with_jacobian);
+    if (!prediction.value.allFinite()) return false;
+    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
+    r.head(rows) = (prediction.value - problem_.data).cwiseProduct(problem_.root_weight);
+    if (with_jacobian) {
+      Eigen::Map<RowMajorMatrix> j(jacobians[0], num_residuals(), n);
+      j.topRows(rows) = problem_.root_weight.asDiagonal() * prediction.jacobian;
+      j.bottomRows(num_residuals() - rows).setZero();
+    }
+    for (size_t p = 0; p < problem_.priors.size(); ++p) {
+      const auto& [parameter, prior] = problem_.priors[p];
+      const Eigen::Index row = rows + static_cast<Eigen::Index>(p);
+      r[row] = (x[parameter] - prior.mean) / prior.sigma;
+      if (with_jacobian) jacobians[0][row * n + parameter] = 1 / prior.sigma;
+    }
+    return true;
+  }
+
+ private:
+  const FrozenProblem& problem_;
+};
+
+double SolveInner(const FrozenProblem& problem, int max_iterations, Eigen::VectorXd& x) {
+  if (x.size() == 0) {  // everything is given: nothing to solve, and Ceres aborts on an empty block
+    const double* const block = x.data();
+    Eigen::VectorXd residuals(problem.data.size());
+    ModelCost(problem).Evaluate(&block, residuals.data(), nullptr);
+    return 0.5 * residuals.squaredNorm();
+  }
+  ceres::Problem ceres_problem;
+  ceres_problem.AddResidualBlock(new ModelCost(problem), nullptr, x.data());
+  for (size_t i = 0; i < problem.parameters.size(); ++i) {
+    ceres_problem.SetParameterLowerBound(x.data(), static_cast<int>(i), problem.parameters[i].lower);
+    ceres_problem.SetParameterUpperBound(x.data(), static_cast<int>(i), problem.parameters[i].upper);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = max_iterations;
+  options.function_tolerance = 1e-6;  // the outer loop goes on from here
+  options.parameter_tolerance = 1e-7;
+  options.initial_trust_region_radius = 10;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &ceres_problem, &summary);
+  return summary.final_cost;
+}
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class OuterLoop {
+ public:
+  OuterLoop(const Room& room, const LightData& data, const LightState& start,
+            const std::vector<ParameterPrior>& priors, const FitLuminairesOptions& options)
+      : room_(room), data_(data), options_(options), model_(room, data) {
+    fit_.state = start;
+    fit_.relative_sigma = options.initial_relative_sigma;
+    fit_.parameters = FreeParameters(room, start);
+    for (const ParameterPrior& prior : priors) AddPrior(prior);
+    values_.resize(model_.row_count());
+    const size_t observations = data.observations.size();
+    for (size_t i = 0; i < observations; ++i) {
+      values_[static_cast<Eigen::Index>(i)] = data.observations[i].relative_luminance;
+    }
+    for (size_t i = 0; i < data.readings.size(); ++i) {
+      values_[static_cast<Eigen::Index>(observations + i)] = data.readings[i].illuminance_lx;
+    }
+  }
+
+  LuminaireFit Run() {
+    if (!HasData()) {
+      fit_.message = "no observation and no reading to fit to";
+      return fit_;
+    }
+    bool settled = false;
+    for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
+      fit_.outer_iterations = outer + 1;
+      const LightState before = fit_.state;
+      Refresh();
+      const FrozenProblem problem{model_, before, fit_.parameters, values_, root_weight_, priors_};
+      Eigen::VectorXd x = PackParameters(before, fit_.parameters);
+      fit_.cost = SolveInner(problem, options_.max_inner_iterations, x);
+      fit_.state = WithParameters(before, fit_.parameters, x);
+      settled = outer >= 2 && LargestMove(before, fit_.state) < options_.position_tolerance_m &&
+                (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
+                 fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
+    }
+    Refresh();
+    fit_.status = settled ? FitStatus::kConverged : FitStatus::kNotConverged;
+    fit_.message = settled ? "converged" : "luminaires still moved after the last outer iteration";
+    Conclude();
+    return fit_;
+  }
+
+ private:
+  void AddPrior(const ParameterPrior& prior) {
+    for (size_t i = 0; i < fit_.parameters.size(); ++i) {
+      const Parameter& p = fit_.parameters[i];
+      const bool same = p.kind == prior.kind && p.index == prior.index &&
+                        (p.kind != ParameterKind::kLuminaire || p.quantity == prior.quantity);
+      if (same) priors_.push_back({static_cast<int>(i), prior});
+    }
+  }
+
+  bool HasData() const {
+    return !data_.observations.empty() ||
+           std::any_of(data_.readings.begin(), data_.readings.end(), [](const Reading& r) { return r.used; });
+  }
+
+  // Visibility, model error and weights at the present state.
+  void Refresh() {
+    model_.FreezeVisibility(fit_.state, options_.visibility_order);
+    const std::vector<bool> penumbra = model_.InPenumbra();
+    fit_.predicted = model_.Predict(fit_.state, {}, false).value;
+    const Eigen::VectorXd residual = fit_.predicted - values_;
+    relative_sigma_before_ = fit_.relative_sigma;
+    EstimateRelativeSigma(residual, penumbra);
+    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
+    fit_.weight.setZero(values_.size());
+    root_weight_.setZero(values_.size());
+    for (Eigen::Index i = 0; i < values_.size(); ++i) {
+      const bool usable = i < observations ? !penumbra[static_cast<size_t>(i)]
+                                           : data_.readings[static_cast<size_t>(i - observations)].used;
+      if (!usable) continue;
+      const double sigma = SigmaOf(i);
+      const double z = residual[i] / (options_.robust_sigmas * sigma);
+      // Readings are few and each was meant: they are not down-weighted unless they are the bulk of the data.
+      fit_.weight[i] = i < observations || observations == 0 ? 1 / (1 + z * z) : 1;
+      root_weight_[i] = std::sqrt(fit_.weight[i]) / sigma;
+    }
+  }
+
+  double SigmaOf(Eigen::Index row) const {
+    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
+    if (row < observations) {
+      const Observation& o = data_.observations[static_cast<size_t>(row)];
+      return std::sqrt(o.variance + std::pow(fit_.relative_sigma * o.relative_luminance, 2));
+    }
+    const Reading& reading = data_.readings[static_cast<size_t>(row - observations)];
+    const double model = observations == 0 ? fit_.relative_sigma * reading.illuminance_lx : 0;
+    return std::hypot(reading.sigma_lx, model);
+  }
+
+  // f such that the median absolute normalised residual is that of a Gaussian; a damped fixed point.
+  void EstimateRelativeSigma(const Eigen::VectorXd& residual, const std::vector<bool>& penumbra) {
+    for (int k = 0; k < 3; ++k) {
+      std::vector<double> absolute;
+      for (Eigen::Index i = 0; i < residual.size(); ++i) {
+        const Eigen::Index observations = static_cast<Eigen::Index>(penumbra.size());
+        if (i < observations && penumbra[static_cast<size_t>(i)]) continue;
+        if (i >= observations &&
+            (observations > 0 || !data_.readings[static_cast<size_t>(i - observations)].used))
+          continue;
+        absolute.push_back(std::abs(residual[i]) / SigmaOf(i));
+      }
+      if (absolute.empty()) return;
+      fit_.relative_sigma =
+          std::clamp(fit_.relative_sigma * Median(absolute) / 0.6745, options_.min_relative_sigma, 1.0);
+    }
+  }
+
+  static double LargestMove(const LightState& a, const LightState& b) {
+    double move = 0;
+    for (size_t k = 0; k < a.luminaires.size(); ++k) {
+      move = std::max(move, (a.luminaires[k].position - b.luminaires[k].position).norm());
+    }
+    return move;
+  }
+
+  // Covariance, what is undetermined, predictions of the readings.
+  void Conclude() {
+    Prediction prediction = model_.Predict(fit_.state, fit_.parameters, options_.covariance);
+    fit_.predicted = prediction.value;
+    fit_.reading_direct_lx = prediction.reading_direct_lx;
+    const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
+    for (size_t i = 0; i < fit_.parameters.size(); ++i) {
+      const Parameter& p = fit_.parameters[i];
+      const double margin = 1e-6 * std::max(1.0, p.upper - p.lower);
+      const double value = x[static_cast<Eigen::Index>(i)];
+      if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
+    }
+    if (!options_.covariance || fit_.parameters.empty()) return;
+    const Eigen::MatrixXd jacobian = root_weight_.asDiagonal() * prediction.jacobian;
+    const Eigen::VectorXd residual = (prediction.value - values_).cwiseProduct(root_weight_);
+    Eigen::MatrixXd hessian = jacobian.transpose() * jacobian;
+    for (const auto& [parameter, prior] : priors_)
+      hessian(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    const Eigen::MatrixXd inverse = InvertAndNameNullDirections(hessian);
+    const Eigen::MatrixXd sandwich = inverse * ClusterScatter(jacobian, residual) * inverse;
+    // The larger of the two in every parameter: scale the sandwich up, keep its correlations.
+    Eigen::VectorXd scale = Eigen::VectorXd::Ones(inverse.rows());
+    for (Eigen::Index i = 0; i < scale.size(); ++i) {
+      if (sandwich(i, i) > 0 && inverse(i, i) > sandwich(i, i))
+        scale[i] = std::sqrt(inverse(i, i) / sandwich(i, i));
+    }
+    fit_.covariance = scale.asDiagonal() * sandwich * scale.asDiagonal();
+    const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
+    const Eigen::MatrixXd reading_jacobian = prediction.jacobian.bottomRows(readings);
+    fit_.reading_sigma_lx =
+        (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal().cwiseSqrt();
+  }
+
+  Eigen::MatrixXd InvertAndNameNullDirections(const Eigen::MatrixXd& hessian) {
+    const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * hessian *
+                                                               unit.asDiagonal());
+    constexpr double kSingular = 1e-10;  // of the scaled Hessian: parameters correlated to better than 1e-10
+    const double largest = eigen.eigenvalues().maxCoeff();
+    Eigen::VectorXd inverse = Eigen::VectorXd::Zero(hessian.rows());
+    for (Eigen::Index d = 0; d < hessian.rows(); ++d) {
+      if (eigen.eigenvalues()[d] > kSingular * largest) {
+        inverse[d] = 1 / eigen.eigenvalues()[d];
+        continue;
+      }
+      for (Eigen::Index i = 0; i < hessian.rows(); ++i) {
+        if (std::abs(eigen.eigenvectors()(i, d)) > 0.1) {
+          fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].name);
+        }
+      }
+      fit_.status = FitStatus::kUndetermined;
+      fit_.message = "the data leave a combination of parameters undetermined";
+    }
+    const Eigen::MatrixXd vectors = unit.asDiagonal() * eigen.eigenvectors();
+    return vectors * inverse.asDiagonal() * vectors.transpose();
+  }
+
+  // sum over clusters of g g^T, g the cluster's share of the gradient; readings and priors stand alone.
+  Eigen::MatrixXd ClusterScatter(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) const {
+    std::map<std::pair<int, int>, Eigen::VectorXd> gradients;
+    const Eigen::Index n = jacobian.cols();
+    Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(n, n);
+    for (size_t i = 0; i < data_.observations.size(); ++i) {
+      const Observation& o = data_.observations[i];
+      const Eigen::Index row = static_cast<Eigen::Index>(i);
+      if (root_weight_[row] == 0) continue;
+      const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
+      const int facet = room_.patches.patches[static_cast<size_t>(patch)].facet;
+      Eigen::VectorXd& g = gradients.try_emplace({facet, o.state}, Eigen::VectorXd::Zero(n)).first->second;
+      g += residual[row] * jacobian.row(row).transpose();
+    }
+    for (const auto& [key, g] : gradients) scatter += g * g.transpose();
+    const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
+    const Eigen::MatrixXd reading_jacobian = jacobian.bottomRows(readings);
+    scatter += ReadingScatter(residual.tail(readings)) * reading_jacobian.transpose() * reading_jacobian;
+    for (const auto& [parameter, prior] : priors_)
+      scatter(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    return scatter;
+  }
+
+  // Mean square of the readings' normalised residuals, never below 1: a reading's stated sigma counts even
+  // where the fit passes through it (a scale reading leaves no residual). One mean for all: max(1, z^2) of
+  // each would be 1.48 on average where nothing is wrong.
+  double ReadingScatter(const Eigen::VectorXd& residual) const {
+    const Eigen::Index used = (root_weight_.tail(residual.size()).array() > 0).count();
+    return used > 0 ? std::max(1.0, residual.squaredNorm() / static_cast<double>(used)) : 1.0;
+  }
+
+  const Room& room_;
+  const LightData& data_;
+  const FitLuminairesOptions& options_;
+  LightModel model_;
+  LuminaireFit fit_;
+  std::vector<std::pair<int, ParameterPrior>> priors_;
+  Eigen::VectorXd values_, root_weight_;
+  double relative_sigma_before_ = 0;
+};
+
+}  // namespace
+
+LuminaireFit FitLuminaires(const Room& room, const LightData& data, const LightState& start,
+                           const std::vector<ParameterPrior>& priors, const FitLuminairesOptions& options) {
+  return OuterLoop(room, data, start, priors, options).Run();
+}
+
+}  // namespace luxfit

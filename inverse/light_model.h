@@ -1,0 +1,110 @@
+// The model that the fit inverts: parameters -> what photos and luxmeters should read, with its Jacobian.
+//
+//   photo:  Y_es  = c rho_m(e) / pi * sum_k d_sk Phi_k E_ek(theta)        relative luminance of element e in
+//   state s meter:  E_rs  = sum_k d_sk Phi_k E_rk(theta)                          lx
+//
+// d: dimming, Phi: flux, E: illuminance per lumen (forward/illuminance.h), rho: albedo, c: camera scale,
+// relative luminance per cd/m2. Free parameters are stacked in one vector; fluxes, exponents and the camera
+// scale as logarithms, so that they stay positive and scales separate; positions and sizes in metres; tilts
+// in radians about the start's aim.
+//
+// Rows: observations in their order, then readings. Jacobian rows x parameters, exact for frozen visibility.
+// Throws std::invalid_argument for indices out of range.
+#ifndef LUXFIT_INVERSE_LIGHT_MODEL_H_
+#define LUXFIT_INVERSE_LIGHT_MODEL_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forward/illuminance.h"
+#include "forward/room.h"
+#include "inverse/observe.h"
+
+namespace luxfit {
+
+// What is free of one luminaire.
+struct FreeQuantities {
+  bool position = true;
+  bool flux = true;
+  bool exponent = false;
+  bool size = false;
+  bool tilt = false;
+};
+
+struct Reading {
+  Sensor sensor;
+  int state = 0;
+  double illuminance_lx = 0;
+  double sigma_lx = 0;
+  bool used = false;  // false: only predicted
+};
+
+struct LightData {
+  std::vector<Eigen::VectorXd> dimming;  // one a state, by luminaire
+  std::vector<Observation> observations;
+  std::vector<Reading> readings;
+};
+
+struct LightState {
+  std::vector<Luminaire> luminaires;
+  std::vector<FreeQuantities> free;  // one a luminaire
+  Eigen::VectorXd albedo;            // by material
+  std::vector<bool> albedo_free;
+  double camera_scale = 1;  // relative luminance per cd/m2
+  bool camera_scale_free = true;
+};
+
+enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale };
+
+struct Parameter {
+  ParameterKind kind = ParameterKind::kLuminaire;
+  int index = 0;  // of the luminaire or the material
+  LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
+  double lower = 0, upper = 0;
+  std::string name;  // "position x of A", "albedo of floor", ...
+};
+
+// The free parameters in their order, with bounds: positions within the room's bounding box (a luminaire
+// hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
+std::vector<Parameter> FreeParameters(const Room& room, const LightState& state);
+Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parameter>& parameters);
+LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
+                          const Eigen::VectorXd& x);
+
+struct Prediction {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd jacobian;           // empty if not asked for
+  Eigen::VectorXd reading_direct_lx;  // direct part of each reading
+};
+
+class LightModel {
+ public:
+  // Keeps references: `room` and `data` must outlive it.
+  LightModel(const Room& room, const LightData& data);
+
+  // Sets the visible shares that Predict uses, for the luminaires where they now are (ComputeVisibility's
+  // order).
+  void FreezeVisibility(const LightState& state, int order = 3);
+  // Rows of the observations that a shadow edge crosses: a luminaire dimmed to more than `min_dimming` is
+  // seen in part.
+  std::vector<bool> InPenumbra(double min_dimming = 0.02) const;
+  Prediction Predict(const LightState& state, const std::vector<Parameter>& parameters,
+                     bool with_jacobian) const;
+
+  int row_count() const { return static_cast<int>(receiver_of_row_.size()); }
+
+ private:
+  const Room& room_;
+  const LightData& data_;
+  Receivers receivers_;
+  std::vector<int> receiver_of_row_;
+  std::vector<int> state_of_row_;
+  std::vector<int> material_of_row_;  // -1 for readings
+  LuminaireVisibility visibility_;
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_LIGHT_MODEL_H_
