@@ -1,0 +1,87 @@
+#include "apps/commands.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/plan_svg.h"
+#include "apps/stages.h"
+
+namespace luxfit {
+namespace {
+
+RunContext MakeContext(const CommandOptions& options, const Session& session) {
+  RunContext context;
+  context.out = std::filesystem::absolute(options.out).lexically_normal().string();
+  context.provenance = {options.command_line, session.input_files};
+  return context;
+}
+
+void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+}  // namespace
+
+int RunCommand(const CommandOptions& options) {
+  const Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  nlohmann::json result;
+  std::string plan;
+  {
+    const StageTimer total(context, "total", "");
+    const Room room = LoadRoom(session, context);
+    const RegisteredSession registered = RegisterSession(session, context);
+    const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
+    const SessionFit fit = FitSession(session, room, observations, context);
+    result = ResultJson(session, room, registered, fit, context);
+    plan = PlanSvg(session, room.scene, result);
+  }
+  result["timing_s"] = context.timing_s;
+  const std::string path = context.out + "/result.json";
+  if (!plan.empty()) WriteText(context.out + "/plan.svg", plan);
+  WriteJson(path, result);
+  Print(options.json ? result.dump(2) + "\n" : ResultTables(result));
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int RegisterCommand(const CommandOptions& options) {
+  const Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  LoadRoom(session, context);
+  const RegisteredSession registered = RegisterSession(session, context);
+  nlohmann::json result = ReadJson(context.out + "/stages/register.json");
+  if (options.json) {
+    Print(result.dump(2) + "\n");
+    return 0;
+  }
+  for (const nlohmann::json& view : result["views"]) {
+    const nlohmann::json& sigma = view["position_sigma_m"];
+    std::printf("%-8s %d tags, reprojection RMS %.3f px, camera centre ± %.1f %.1f %.1f mm\n",
+                view["view"].get<std::string>().c_str(), view["tags_used"].get<int>(),
+                view["reprojection_rms_px"].get<double>(), 1e3 * sigma[0].get<double>(),
+                1e3 * sigma[1].get<double>(), 1e3 * sigma[2].get<double>());
+  }
+  nlohmann::json warnings;
+  warnings["warnings"] = nlohmann::json::array();
+  for (const Warning& w : context.warnings)
+    warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
+  Print(WarningText(warnings));
+  return 0;
+}
+
+int CheckCommand(const CommandOptions& options) {
+  const nlohmann::json result = ReadJson(options.out + "/result.json");
+  if (result.value("format", "") != "luxfit-result-1") {
+    throw std::runtime_error(
+        options.out +
+        "/result.json: format: expected \"luxfit-result-1\"; run `luxfit run` into this folder");
+  }
+  if (options.json) {
+    Print(nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}}.dump(2) + "\n");
+  } else {
+    Print(LuxmeterTable(result));
+  }
+  return result["status"] == "done" ? 0 : 1;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,27 @@
+// The subcommands: each returns the process's exit status (0 done, 1 the data do not determine what was
+// asked).
+//
+// Throws std::runtime_error for bad input (exit status 2, given by main).
+// Source: docs/session-format.md, "Commands".
+#ifndef LUXFIT_APPS_COMMANDS_H_
+#define LUXFIT_APPS_COMMANDS_H_
+
+#include <string>
+
+namespace luxfit {
+
+struct CommandOptions {
+  std::string session;       // path of session.toml
+  std::string out;           // folder; nothing is written outside it
+  std::string command_line;  // as typed, for the artifacts
+  bool json = false;         // print the result as JSON on standard output
+};
+
+int RunCommand(const CommandOptions& options);
+int RegisterCommand(const CommandOptions& options);
+// Reads OUT/result.json.
+int CheckCommand(const CommandOptions& options);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_COMMANDS_H_

@@ -1,0 +1,78 @@
+#include "apps/internal/session_camera.h"
+
+#include "apps/internal/session_files.h"
+
+namespace luxfit {
+namespace {
+
+void CheckBoard(const TomlCursor& board) {
+  board.ExpectKeys({"type", "columns", "rows", "tag_size_m", "square_size_m", "marker_size_m", "spacing"});
+  board.Require("type", "aprilgrid, chessboard or charuco").OneOf({"aprilgrid", "chessboard", "charuco"});
+  for (const char* key : {"columns", "rows"})
+    if (const auto count = board.Find(key)) count->WholeNumber("a number of tags or squares");
+  for (const char* key : {"tag_size_m", "square_size_m", "marker_size_m"})
+    if (const auto size = board.Find(key)) size->NumberAbove(0, "m");
+  if (const auto spacing = board.Find("spacing")) spacing->NumberAbove(0, "tag sizes");
+}
+
+void CheckCalibrationImages(const TomlCursor& table) {
+  if (const auto board = table.Find("board")) CheckBoard(*board);
+  const auto images = table.Find("calibration_images");
+  if (!images) return;
+  images->Text("a file pattern");
+  throw NotAvailable(*images, "intrinsics = \"camera.yaml\" (OpenCV YAML)");
+}
+
+std::string ReadIntrinsics(const TomlCursor& table, const std::string& folder) {
+  const TomlCursor value = table.Require("intrinsics", "a file of intrinsics (OpenCV YAML or XML)");
+  const std::string extension = ExtensionOf(value.Text("a file of intrinsics (OpenCV YAML or XML)"));
+  if (extension != ".yaml" && extension != ".yml" && extension != ".xml")
+    throw NotAvailable(value, "an OpenCV calibration (.yaml, .yml or .xml)");
+  return AbsolutePath(FindFile(value, folder));
+}
+
+Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
+  Eigen::Vector3d weights = value.Vector("three weights [r, g, b]");
+  if (weights.sum() <= 0)
+    throw value.Error("expected weights of a sum > 0, got " + value.Shown() +
+                      "; the default is [0.265, 0.670, 0.065]");
+  return weights;
+}
+
+// The one value that this version serves; any other is known to the format or names a file.
+std::string ReadOnly(const TomlCursor& table, const std::string& key, const std::string& served) {
+  const auto value = table.Find(key);
+  if (!value || value->Text("\"" + served + "\"") == served) return served;
+  throw NotAvailable(*value, "\"" + served + "\"");
+}
+
+SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
+  table.ExpectKeys({"id", "intrinsics", "calibration_images", "board", "response", "vignetting",
+                    "black_level", "cdm2_per_count_s", "luminance_weights"});
+  SessionCamera camera;
+  CheckCalibrationImages(table);
+  camera.intrinsics = ReadIntrinsics(table, folder);
+  camera.response = ReadOnly(table, "response", "linear");
+  camera.vignetting = ReadOnly(table, "vignetting", "none");
+  if (const auto black = table.Find("black_level"))
+    camera.black_level_counts = black->NumberAtLeast(0, "counts");
+  if (const auto scale = table.Find("cdm2_per_count_s"))
+    camera.cdm2_per_count_s = scale->NumberAtLeast(0, "cd/m2 per (count / s); 0: unknown");
+  if (const auto weights = table.Find("luminance_weights"))
+    camera.luminance_weights = ReadLuminanceWeights(*weights);
+  return camera;
+}
+
+}  // namespace
+
+std::vector<SessionCamera> ReadCameras(const TomlCursor& list, const std::string& folder) {
+  const std::vector<TomlCursor> tables = list.Elements("a list of tables [[camera]]");
+  std::vector<SessionCamera> cameras;
+  cameras.reserve(tables.size());
+  for (const TomlCursor& table : tables) cameras.push_back(ReadCamera(table, folder));
+  const std::vector<std::string> ids = UniqueIds(tables);
+  for (size_t i = 0; i < cameras.size(); ++i) cameras[i].id = ids[i];
+  return cameras;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,152 @@
+#include "apps/internal/session_luminaires.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+
+#include "apps/internal/session_files.h"
+
+namespace luxfit {
+namespace {
+
+// How many lengths a shape has: the disc's and the sphere's diameter; the rectangle's along heading and
+// across.
+const std::map<std::string, size_t>& LengthsOfShape() {
+  static const std::map<std::string, size_t> lengths{
+      {"point", 0}, {"disc", 1}, {"rectangle", 2}, {"sphere", 1}};
+  return lengths;
+}
+
+std::string ReadPhotometry(const TomlCursor& value) {
+  const std::vector<std::string> names{"auto", "isotropic", "lambertian", "cosine_power"};
+  const std::string text = value.Text("a distribution");
+  const std::string extension = ExtensionOf(text);
+  if (extension == ".ies" || extension == ".ldt")
+    throw NotAvailable(value, "\"auto\", \"isotropic\", \"lambertian\" or \"cosine_power\"");
+  return value.OneOf(names);
+}
+
+std::vector<double> ReadSize(const TomlCursor& value) {
+  std::vector<double> size_m;
+  if (!value.IsArray()) return {value.NumberAbove(0, "m")};
+  for (const TomlCursor& length : value.Elements("lengths")) size_m.push_back(length.NumberAbove(0, "m"));
+  return size_m;
+}
+
+std::optional<std::string> ReadShape(const TomlCursor& table, size_t lengths_given) {
+  const auto shape = table.Find("shape");
+  const auto size = table.Find("size_m");
+  if (!shape) {
+    if (size && lengths_given != 1 && lengths_given != 2)
+      throw size->Error("expected one or two lengths, got " + size->Shown() +
+                        "; write [0.6, 0.6] for a rectangle");
+    return std::nullopt;
+  }
+  const std::string name = shape->OneOf({"point", "disc", "rectangle", "sphere"});
+  const size_t expected = LengthsOfShape().at(name);
+  if (!size || lengths_given == expected) return name;
+  const std::string lengths = expected == 0   ? "no size"
+                              : expected == 1 ? "one length, the diameter"
+                                              : "two lengths";
+  throw size->Error("expected " + lengths + " for shape " + shape->Shown() + ", got " + size->Shown() +
+                    (expected == 0 ? "; remove the key or change the shape"
+                                   : "; write " + std::string(expected == 1 ? "[0.2]" : "[0.6, 0.6]")));
+}
+
+// Reads a sigma, which means nothing without its value.
+std::optional<double> ReadSigma(const TomlCursor& table, const std::string& key, const std::string& value_key,
+                                const std::string& unit) {
+  const auto sigma = table.Find(key);
+  if (!sigma) return std::nullopt;
+  if (!table.Find(value_key))
+    throw sigma->Error("expected " + value_key + " beside it, got none; add " + value_key +
+                       " or remove the sigma");
+  return sigma->NumberAtLeast(0, unit);
+}
+
+SessionLuminaire ReadLuminaire(const TomlCursor& table) {
+  table.ExpectKeys({"id", "photometry", "shape", "size_m", "position_m", "position_sigma_m", "aim", "heading",
+                    "flux_lm", "flux_sigma_lm"});
+  SessionLuminaire luminaire;
+  if (const auto photometry = table.Find("photometry")) luminaire.photometry = ReadPhotometry(*photometry);
+  if (const auto size = table.Find("size_m")) luminaire.size_m = ReadSize(*size);
+  luminaire.shape = ReadShape(table, luminaire.size_m.size());
+  if (const auto position = table.Find("position_m"))
+    luminaire.position_m = position->Vector("a point [x, y, z]");
+  luminaire.position_sigma_m = ReadSigma(table, "position_sigma_m", "position_m", "m; 0: fixed");
+  if (const auto aim = table.Find("aim")) luminaire.aim = aim->Direction("a direction [x, y, z]");
+  if (const auto heading = table.Find("heading")) {
+    luminaire.heading = heading->Direction("a direction [x, y, z]");
+    const Eigen::Vector3d aim = luminaire.aim.value_or(Eigen::Vector3d(0, 0, -1));
+    if (luminaire.heading->cross(aim).norm() < 1e-3)
+      throw heading->Error("expected a direction across the aim, got " + heading->Shown() +
+                           ", which is along it; give the direction of the C0 half-plane");
+  }
+  if (const auto flux = table.Find("flux_lm")) luminaire.flux_lm = flux->NumberAbove(0, "lm");
+  luminaire.flux_sigma_lm = ReadSigma(table, "flux_sigma_lm", "flux_lm", "lm; 0: fixed");
+  return luminaire;
+}
+
+void CheckLuminairesSection(const TomlCursor& section, size_t named) {
+  section.ExpectKeys({"count", "max"});
+  if (const auto most = section.Find("max")) {
+    const int max = most->WholeNumber("a number of luminaires");
+    if (static_cast<size_t>(max) < named)
+      throw most->Error("expected at least the " + std::to_string(named) +
+                        " luminaires that are named, got " + most->Shown() + "; raise it or remove the key");
+  }
+  const auto count = section.Find("count");
+  if (!count) return;
+  if (count->IsText()) {
+    count->OneOf({"estimate"});
+    throw NotAvailable(*count, "luminaires named by [states] or [[luminaire]]");
+  }
+  const int number = count->WholeNumber("\"estimate\" or a number of luminaires");
+  if (static_cast<size_t>(number) != named)
+    throw count->Error("expected " + std::to_string(named) + ", the number of luminaires that [states] and " +
+                       "[[luminaire]] name, got " + count->Shown() + "; name the others, or remove the key");
+}
+
+}  // namespace
+
+std::vector<SessionState> ReadStates(const TomlCursor& section) {
+  std::vector<SessionState> states;
+  for (const auto& [id, table] : section.Members()) {
+    SessionState state{id, {}};
+    for (const auto& [luminaire, value] : table.Members()) {
+      const double dimming = value.Number("a dimming in 0..1");
+      if (dimming < 0 || dimming > 1)
+        throw value.Error("expected a dimming in 0..1, got " + value.Shown() + "; 30 % is written 0.3");
+      state.dimming[luminaire] = dimming;
+    }
+    states.push_back(std::move(state));
+  }
+  if (states.empty())
+    throw section.Error("expected at least one state, got none; write A = { A = 1.0 } or remove the section");
+  return states;
+}
+
+std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session) {
+  std::vector<SessionLuminaire> luminaires;
+  if (const auto list = session.Find("luminaire")) {
+    const std::vector<TomlCursor> tables = list->Elements("a list of tables [[luminaire]]");
+    for (const TomlCursor& table : tables) luminaires.push_back(ReadLuminaire(table));
+    const std::vector<std::string> ids = UniqueIds(tables);
+    for (size_t i = 0; i < luminaires.size(); ++i) luminaires[i].id = ids[i];
+  }
+  if (const auto states = session.Find("states")) {
+    for (const auto& state : states->Members()) {
+      for (const auto& member : state.value.Members()) {
+        const bool is_known = std::any_of(luminaires.begin(), luminaires.end(),
+                                          [&](const SessionLuminaire& one) { return one.id == member.name; });
+        if (is_known) continue;
+        luminaires.emplace_back();
+        luminaires.back().id = member.name;
+      }
+    }
+  }
+  if (const auto section = session.Find("luminaires")) CheckLuminairesSection(*section, luminaires.size());
+  return luminaires;
+}
+
+}  // namespace luxfit

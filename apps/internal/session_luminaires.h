@@ -1,0 +1,28 @@
+// The sections [states], [luminaires] and [[luminaire]] of a session.
+//
+// Throws std::runtime_error("FILE:LINE: key: ...") for dimmings outside 0..1, ids that two luminaires share,
+// shapes whose size does not fit, sigmas without a value, and values that the format knows and this version
+// cannot serve.
+//
+// Source: docs/session-format.md.
+#ifndef LUXFIT_APPS_INTERNAL_SESSION_LUMINAIRES_H_
+#define LUXFIT_APPS_INTERNAL_SESSION_LUMINAIRES_H_
+
+#include <string>
+#include <vector>
+
+#include "apps/internal/toml_reader.h"
+#include "apps/session.h"
+
+namespace luxfit {
+
+// In file order, dimming of each luminaire named.
+std::vector<SessionState> ReadStates(const TomlCursor& section);
+
+// [[luminaire]] in file order, then those that only [states] names, in its order. `session` is the whole
+// document.
+std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_INTERNAL_SESSION_LUMINAIRES_H_

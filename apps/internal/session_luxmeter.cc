@@ -1,0 +1,138 @@
+#include "apps/internal/session_luxmeter.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "apps/internal/session_files.h"
+#include "apps/internal/session_states.h"
+#include "apps/name_pattern.h"
+#include "apps/suggest.h"
+
+namespace luxfit {
+namespace {
+
+std::string NameOf(const SessionReading& reading) { return reading.id + "@" + reading.state; }
+
+SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vector<SessionState>& states) {
+  SessionReading reading;
+  reading.line = row.line;
+  reading.id = CsvText(table, row, "id");
+  if (reading.id.empty())
+    throw CsvError(table, row, "id", "expected a name, got nothing; name the place, such as L1");
+  for (int axis = 0; axis < 3; ++axis) {
+    reading.position_m[axis] = CsvNumber(table, row, std::string(1, "xyz"[axis]) + "_m");
+    reading.normal[axis] = CsvNumber(table, row, "n" + std::string(1, "xyz"[axis]));
+  }
+  if (reading.normal.norm() < 1e-9)
+    throw CsvError(
+        table, row, "nx,ny,nz",
+        "expected the direction that the meter faces, got 0,0,0; 0,0,1 is a meter that lies on its back");
+  reading.normal.normalize();
+  reading.state = StateOfRow(table, row, states);
+  reading.is_measured = !CsvText(table, row, "lux").empty();
+  if (!reading.is_measured) return reading;
+  reading.illuminance_lx = CsvNumber(table, row, "lux");
+  if (reading.illuminance_lx < 0)
+    throw CsvError(table, row, "lux",
+                   "expected >= 0, got " + Quoted(CsvText(table, row, "lux")) +
+                       "; correct it, or leave it empty where nothing was measured");
+  return reading;
+}
+
+std::vector<SessionReading> ReadReadings(const CsvTable& table, const std::vector<SessionState>& states) {
+  std::vector<SessionReading> readings;
+  std::map<std::string, int> line_of_name;
+  for (const CsvRow& row : table.rows) {
+    readings.push_back(ReadRow(table, row, states));
+    const auto [first, is_new] = line_of_name.emplace(NameOf(readings.back()), row.line);
+    if (!is_new)
+      throw CsvError(table, row, "id",
+                     "expected one reading per id and state, got " + Quoted(first->first) + " in line " +
+                         std::to_string(first->second) + " too; give this one another id, or remove it");
+  }
+  return readings;
+}
+
+bool Matches(const SessionReading& reading, const std::string& pattern) {
+  const size_t at = pattern.find('@');
+  if (at == std::string::npos) return MatchesPattern(reading.id, pattern);
+  return MatchesPattern(reading.id, pattern.substr(0, at)) &&
+         MatchesPattern(reading.state, pattern.substr(at + 1));
+}
+
+// The pattern of this list that matches each reading; "" for none.
+std::vector<std::string> PatternOfEach(const TomlCursor& section, const std::string& key,
+                                       const std::vector<SessionReading>& readings) {
+  std::vector<std::string> pattern_of(readings.size());
+  const auto list = section.Find(key);
+  if (!list) return pattern_of;
+  for (const TomlCursor& element : list->Elements("a list of patterns such as [\"L1@all\"]")) {
+    const std::string pattern = element.Text("a pattern, id or id@state");
+    std::vector<std::string> names;
+    bool matches_any = false;
+    for (size_t i = 0; i < readings.size(); ++i) {
+      names.push_back(NameOf(readings[i]));
+      if (!Matches(readings[i], pattern)) continue;
+      matches_any = true;
+      pattern_of[i] = pattern;
+      if (!readings[i].is_measured)
+        throw element.Error("expected readings that were measured, got " + Quoted(names.back()) + " (line " +
+                            std::to_string(readings[i].line) +
+                            ") without lux; fill it in or narrow the pattern");
+    }
+    if (!matches_any)
+      throw element.Error("expected a pattern that matches a reading (such as " + Quoted(names.front()) +
+                          "), got " + Quoted(pattern) + ", which matches none" +
+                          (NearestName(pattern, names)
+                               ? DidYouMean(pattern, names)
+                               : "; a pattern is id or id@state, with * for any text"));
+  }
+  return pattern_of;
+}
+
+std::vector<SessionReading> WithRoles(const TomlCursor& section, std::vector<SessionReading> readings) {
+  const std::vector<std::string> fit = PatternOfEach(section, "fit", readings);
+  const std::vector<std::string> scale = PatternOfEach(section, "scale", readings);
+  for (size_t i = 0; i < readings.size(); ++i) {
+    if (!fit[i].empty() && !scale[i].empty())
+      throw section.Require("fit", "patterns")
+          .Error("expected one role for each reading, got " + Quoted(NameOf(readings[i])) +
+                 " matched by fit " + Quoted(fit[i]) + " and by scale " + Quoted(scale[i]) +
+                 "; narrow one of the patterns");
+    if (!fit[i].empty()) readings[i].role = ReadingRole::kFit;
+    if (!scale[i].empty()) readings[i].role = ReadingRole::kScale;
+  }
+  return readings;
+}
+
+// Half of the class's total error, which is expanded with k = 2.
+double CommonSigma(const std::string& meter_class) {
+  static const std::map<std::string, double> total_error{{"L", 0.03}, {"A", 0.05}, {"B", 0.10}, {"C", 0.20}};
+  const auto at = total_error.find(meter_class);
+  return at == total_error.end() ? 0 : at->second / 2;
+}
+
+}  // namespace
+
+CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
+  section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class"});
+  const std::string path = FindFile(section.Require("readings", "the table of readings (CSV)"), folder);
+  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", "lux"}, {}});
+}
+
+SessionLuxmeter LuxmeterOf(const TomlCursor& section, const CsvTable& table,
+                           const std::vector<SessionState>& states) {
+  SessionLuxmeter luxmeter;
+  luxmeter.readings_path = AbsolutePath(table.path);
+  luxmeter.readings = WithRoles(section, ReadReadings(table, states));
+  const auto sensitivity = section.Find("sensitivity");
+  if (sensitivity && sensitivity->Text("\"cosine\"") != "cosine")
+    throw NotAvailable(*sensitivity, "\"cosine\"");
+  if (const auto meter_class = section.Find("class"))
+    luxmeter.meter_class = meter_class->OneOf({"L", "A", "B", "C"});
+  luxmeter.common_sigma = CommonSigma(luxmeter.meter_class);
+  return luxmeter;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,25 @@
+// The sections [scene], [tags] and [registration] of a session.
+//
+// Each takes its section and the session's folder, and throws std::runtime_error("FILE:LINE: key: ...").
+//
+// Source: docs/session-format.md.
+#ifndef LUXFIT_APPS_INTERNAL_SESSION_SCENE_H_
+#define LUXFIT_APPS_INTERNAL_SESSION_SCENE_H_
+
+#include <string>
+
+#include "apps/internal/toml_reader.h"
+#include "apps/session.h"
+
+namespace luxfit {
+
+SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder);
+
+SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder);
+
+// The method: auto | tags.
+std::string ReadRegistrationSection(const TomlCursor& section);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_INTERNAL_SESSION_SCENE_H_

@@ -1,0 +1,172 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/stages.h"
+#include "inverse/luxmeter_check.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+json Vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Standard deviation of a parameter; 0 where it is not free, NaN where the data do not determine it.
+double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {}) {
+  for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
+    const Parameter& p = fit.parameters[i];
+    const bool same =
+        p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
+    if (!same) continue;
+    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.name) == 0;
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    // NaN is written as null: no number rather than a confident one.
+    return known ? std::sqrt(fit.covariance(row, row)) : std::numeric_limits<double>::quiet_NaN();
+  }
+  return 0;
+}
+
+json ViewsJson(const Session& session, const Registration& registration) {
+  json views = json::array();
+  for (const RegisteredView& view : registration.views) {
+    const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
+    json rotation = json::array();
+    for (int r = 0; r < 3; ++r) rotation.push_back(Vector(world_from_cam.linear().row(r).transpose()));
+    views.push_back({{"view", view.view},
+                     {"camera", session.cameras[static_cast<size_t>(view.camera)].id},
+                     {"position_m", Vector(world_from_cam.translation())},
+                     {"R_scene_from_camera", rotation},
+                     {"method", "tags"},
+                     {"tags", view.tags_used},
+                     {"reprojection_rms_px", view.reprojection_rms_px},
+                     {"position_sigma_m", Vector(view.position_sigma_m)}});
+  }
+  return views;
+}
+
+json MaterialsJson(const Session& session, const Room& room, const SessionFit& fit) {
+  json materials = json::array();
+  for (size_t m = 0; m < room.scene.materials.size(); ++m) {
+    const std::string& name = room.scene.materials[m];
+    const bool given = session.scene->known_albedo_rgb.count(name) > 0;
+    const bool estimated = fit.fit.state.albedo_free[m];
+    json material = {{"name", name}, {"source", given ? "given" : (estimated ? "estimated" : "unseen")}};
+    material["albedo"] =
+        given || estimated ? json(fit.fit.state.albedo[static_cast<Eigen::Index>(m)]) : json();
+    const Eigen::Vector3d rgb = given ? session.scene->known_albedo_rgb.at(name)
+                                      : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
+    material["albedo_rgb"] = rgb.allFinite() ? Vector(rgb) : json();
+    material["sigma"] = SigmaOf(fit.fit, ParameterKind::kAlbedo, static_cast<int>(m));
+    materials.push_back(material);
+  }
+  return materials;
+}
+
+json SizeJson(const Luminaire& luminaire) {
+  if (luminaire.shape == LuminaireShape::kPoint) return json::array();
+  if (luminaire.shape == LuminaireShape::kRectangle) return {luminaire.size_m[0], luminaire.size_m[1]};
+  return json::array({luminaire.size_m[0]});
+}
+
+json LuminairesJson(const SessionFit& fit) {
+  json luminaires = json::array();
+  for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
+    if (!fit.luminaire_found[k]) continue;
+    const Luminaire& luminaire = fit.fit.state.luminaires[k];
+    const int index = static_cast<int>(k);
+    const auto sigma = [&](LuminaireQuantity quantity) {
+      return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
+    };
+    json entry = {{"id", luminaire.id},
+                  {"position_m", Vector(luminaire.position)},
+                  {"position_sigma_m",
+                   {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
+                    sigma(LuminaireQuantity::kPositionZ)}},
+                  {"aim", Vector(luminaire.aim)},
+                  {"photometry", ToString(luminaire.distribution)},
+                  {"shape", ToString(luminaire.shape)},
+                  {"size_m", SizeJson(luminaire)}};
+    // Without an absolute scale a number of lumens would be made up.
+    entry["flux_lm"] = fit.absolute ? json(luminaire.flux_lm) : json();
+    entry["flux_sigma_lm"] =
+        fit.absolute ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
+    if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
+    if (luminaire.distribution == Distribution::kCosinePower) {
+      entry["cosine_exponent"] = luminaire.cosine_exponent;
+      entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
+    }
+    luminaires.push_back(entry);
+  }
+  return luminaires;
+}
+
+std::string RoleName(ReadingRole role) {
+  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
+}
+
+void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
+  result["luxmeter"] = json::array();
+  std::vector<CheckedReading> checked;
+  const Eigen::Index first = static_cast<Eigen::Index>(fit.data.observations.size());
+  for (size_t i = 0; i < session.luxmeter.readings.size() && fit.fit.predicted.size() > 0; ++i) {
+    const SessionReading& given = session.luxmeter.readings[i];
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    const double sigma = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
+    const CheckedReading reading{given.illuminance_lx, fit.fit.predicted[first + row],
+                                 fit.data.readings[i].sigma_lx, sigma};
+    json entry = {{"id", given.id},
+                  {"state", given.state},
+                  {"role", RoleName(given.role)},
+                  {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
+    entry["predicted_lux"] = fit.absolute ? json(reading.predicted_lx) : json();
+    entry["direct_lux"] = fit.absolute ? json(fit.fit.reading_direct_lx[row]) : json();
+    entry["sigma_lux"] = fit.absolute ? json(sigma) : json();
+    if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
+    if (given.is_measured && fit.absolute) entry["z"] = ZScore(reading);
+    result["luxmeter"].push_back(entry);
+    if (given.role == ReadingRole::kCheck && given.is_measured && fit.absolute) checked.push_back(reading);
+  }
+  const LuxmeterSummary summary = SummarizeLuxmeter(checked);
+  result["summary"] = {{"mean_abs_error_lux", summary.mean_abs_error_lx},
+                       {"mean_abs_error_percent", summary.mean_abs_error_percent},
+                       {"max_abs_error_percent", summary.max_abs_error_percent},
+                       {"readings_checked", summary.readings_checked}};
+}
+
+}  // namespace
+
+json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
+                const SessionFit& fit, const RunContext& context) {
+  json result = ProvenanceJson("luxfit-result-1", context.provenance);
+  result["session"] = session.name;
+  result["status"] = context.undetermined ? "undetermined" : "done";
+  result["views"] = ViewsJson(session, registered.registration);
+  result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
+  result["materials"] = MaterialsJson(session, room, fit);
+  result["luminaires"] = LuminairesJson(fit);
+  AddLuxmeter(session, fit, result);
+  result["choices"] = json::array();
+  for (const Choice& c : context.choices) {
+    result["choices"].push_back(
+        {{"what", c.what}, {"chosen", c.chosen}, {"among", c.among}, {"because", c.because}});
+  }
+  result["warnings"] = json::array();
+  for (const Warning& w : context.warnings) {
+    result["warnings"].push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
+  }
+  result["timing_s"] = context.timing_s;
+  result["model"] = {{"patches", room.patches.patches.size()},
+                     {"elements", room.patches.elements.size()},
+                     {"bounces", "all"},
+                     {"rays_escaped_fraction", room.form_factors.escaped_fraction},
+                     {"observations", fit.data.observations.size()},
+                     {"parameters", fit.fit.parameters.size()},
+                     {"relative_model_error", fit.fit.relative_sigma}};
+  return result;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,99 @@
+#include "apps/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "apps/internal/session_camera.h"
+#include "apps/internal/session_files.h"
+#include "apps/internal/session_luminaires.h"
+#include "apps/internal/session_luxmeter.h"
+#include "apps/internal/session_photos.h"
+#include "apps/internal/session_scene.h"
+#include "apps/internal/session_states.h"
+#include "apps/internal/toml_reader.h"
+#include "apps/suggest.h"
+
+namespace luxfit {
+namespace fs = std::filesystem;
+namespace {
+
+void ExpectSessionFile(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    const fs::path inside = fs::path(path) / "session.toml";
+    const bool has_session = fs::is_regular_file(inside, error);
+    throw InputError({path}, "session",
+                     "expected a session file (TOML), got a folder; " +
+                         (has_session ? "did you mean " + Quoted(inside.string()) + "?"
+                                      : std::string("name the session file in it")));
+  }
+  FindFile({path}, "session", "", path);
+}
+
+std::string ReadName(const TomlCursor& root, const std::string& path) {
+  if (const auto name = root.Find("name")) return name->Text("a name");
+  return fs::path(AbsolutePath(path)).parent_path().filename().string();
+}
+
+// The tables need the states, and a session without [states] has the one that its tables name.
+Session WithTables(const TomlCursor& root, const std::string& folder, Session session) {
+  const auto photos = root.Find("photos");
+  const auto luxmeter = root.Find("luxmeter");
+  std::vector<CsvTable> tables;
+  if (photos) tables.push_back(ReadPhotoTable(*photos, folder));
+  if (luxmeter) tables.push_back(ReadReadingTable(*luxmeter, folder));
+  if (const auto states = root.Find("states")) {
+    session.states = ReadStates(*states);
+  } else {
+    session.states = {OnlyState(tables, session.luminaires)};
+  }
+  if (photos) {
+    session.photos = PhotosOf(tables.front(), folder, session.cameras, session.states);
+    session.photos_path = AbsolutePath(tables.front().path);
+  }
+  if (luxmeter) session.luxmeter = LuxmeterOf(*luxmeter, tables.back(), session.states);
+  return session;
+}
+
+// Every file of the session, each once, in the order of the format.
+std::vector<std::string> InputFiles(const Session& session) {
+  std::vector<std::string> files{session.path};
+  const auto add = [&](const std::string& file) {
+    if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  };
+  if (session.scene) add(session.scene->mesh);
+  add(session.tags.map_path);
+  for (const SessionCamera& camera : session.cameras) add(camera.intrinsics);
+  add(session.photos_path);
+  for (const SessionPhoto& photo : session.photos) add(photo.file);
+  add(session.luxmeter.readings_path);
+  return files;
+}
+
+}  // namespace
+
+Session ReadSession(const std::string& path) {
+  ExpectSessionFile(path);
+  const toml::table document = ReadTomlFile(path);
+  const TomlCursor root(document, {path, 1}, "");
+  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "photos", "states", "luminaires",
+                   "luminaire", "luxmeter"});
+  const std::string folder = fs::path(path).parent_path().string();
+  Session session;
+  session.name = ReadName(root, path);
+  session.path = AbsolutePath(path);
+  if (const auto scene = root.Find("scene")) session.scene = ReadSceneSection(*scene, folder);
+  if (const auto tags = root.Find("tags")) session.tags = ReadTagsSection(*tags, folder);
+  if (const auto registration = root.Find("registration"))
+    session.registration_method = ReadRegistrationSection(*registration);
+  if (const auto cameras = root.Find("camera")) session.cameras = ReadCameras(*cameras, folder);
+  session.luminaires = ReadLuminaires(root);
+  session = WithTables(root, folder, std::move(session));
+  session.input_files = InputFiles(session);
+  return session;
+}
+
+}  // namespace luxfit

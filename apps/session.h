@@ -1,0 +1,117 @@
+// The session: one TOML file and the tables it names, read, checked and resolved to absolute paths.
+//
+// Units are those of the format: m, s, lm, lx; `scene.unit` is turned into metres per mesh unit. What the
+// file leaves out is an empty optional or an empty list, never a made-up value.
+//
+// Throws std::runtime_error("FILE:LINE: key: expected ..., got ...") for anything malformed: unknown keys
+// (with the nearest known one), missing files, wrong headers, decimal commas, unknown camera, state or
+// luminaire names, duplicate ids.
+//
+// Source: docs/session-format.md.
+#ifndef LUXFIT_APPS_SESSION_H_
+#define LUXFIT_APPS_SESSION_H_
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/tags.h"
+
+namespace luxfit {
+
+struct SessionScene {
+  std::string mesh;  // absolute path
+  double metres_per_unit = 1;
+  std::string unit = "m";
+  std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance
+};
+
+struct SessionTags {
+  std::string family = "tag36h11";
+  std::string map_path;  // empty: no map was given
+  std::vector<SurveyedTag> survey;
+};
+
+struct SessionCamera {
+  std::string id;
+  std::string intrinsics;  // absolute path, empty: none
+  std::string response = "linear";
+  std::string vignetting = "none";
+  double black_level_counts = 0;
+  double cdm2_per_count_s = 0;  // 0: unknown
+  Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
+};
+
+struct SessionPhoto {
+  std::string file;  // absolute path, checked to exist
+  int camera = 0;    // index into cameras
+  std::string view;
+  std::string state;
+  double exposure_s = 0;
+  int line = 0;  // in the photo table
+};
+
+struct SessionState {
+  std::string id;
+  std::map<std::string, double> dimming;  // luminaire id -> 0..1
+};
+
+struct SessionLuminaire {
+  std::string id;
+  std::string photometry = "auto";   // isotropic | lambertian | cosine_power | auto | a path to .ies or .ldt
+  std::optional<std::string> shape;  // point | disc | rectangle | sphere
+  std::vector<double> size_m;
+  std::optional<Eigen::Vector3d> position_m;
+  std::optional<double> position_sigma_m;
+  std::optional<Eigen::Vector3d> aim;      // unit
+  std::optional<Eigen::Vector3d> heading;  // unit
+  std::optional<double> flux_lm;
+  std::optional<double> flux_sigma_lm;
+};
+
+enum class ReadingRole { kFit, kScale, kCheck };
+
+struct SessionReading {
+  std::string id;
+  Eigen::Vector3d position_m;
+  Eigen::Vector3d normal;  // unit
+  std::string state;
+  bool is_measured = true;    // false: the lux field is empty, to be predicted only
+  double illuminance_lx = 0;  // 0 where not measured
+  ReadingRole role = ReadingRole::kCheck;
+  int line = 0;  // in the readings table
+};
+
+struct SessionLuxmeter {
+  std::string readings_path;  // empty: no [luxmeter] section
+  std::vector<SessionReading> readings;
+  std::string meter_class;  // "", L, A, B, C
+  // Relative standard uncertainty of one reading that all readings share (calibration), from the class; 0 if
+  // none given.
+  double common_sigma = 0;
+};
+
+struct Session {
+  std::string name;
+  std::string path;  // absolute path of the session file
+  std::optional<SessionScene> scene;
+  SessionTags tags;
+  std::string registration_method = "auto";  // auto | tags
+  std::vector<SessionCamera> cameras;
+  std::string photos_path;  // empty: no [photos] section
+  std::vector<SessionPhoto> photos;
+  std::vector<SessionState>
+      states;  // in file order; absent in the file: one state named by the tables, all on
+  std::vector<SessionLuminaire>
+      luminaires;  // [[luminaire]], completed by those that [states] names, in that order
+  SessionLuxmeter luxmeter;
+  std::vector<std::string> input_files;  // every file read or referred to, for hashing
+};
+
+Session ReadSession(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_SESSION_H_

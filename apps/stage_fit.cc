@@ -1,0 +1,368 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "apps/stages.h"
+#include "inverse/albedo_rgb.h"
+#include "inverse/first_guess.h"
+
+namespace luxfit {
+namespace {
+
+// Relative standard uncertainty of a reading whose meter's class is not given: between DIN 5032-7 classes L
+// and B.
+constexpr double kUnknownMeterSigma = 0.02;
+// Observed elements used until the models are chosen: positions are then known to a few millimetres.
+constexpr int kMaxElementsToChoose = 3000;
+// A material with fewer observed elements is as good as unseen.
+constexpr int kMinElementsOfMaterial = 3;
+
+Distribution DistributionFrom(const std::string& photometry) {
+  if (photometry == "isotropic") return Distribution::kIsotropic;
+  if (photometry == "lambertian") return Distribution::kLambertian;
+  return Distribution::kCosinePower;
+}
+
+LuminaireShape ShapeFrom(const SessionLuminaire& given) {
+  const std::string shape = given.shape.value_or("point");
+  if (shape == "disc") return LuminaireShape::kDisc;
+  if (shape == "rectangle") return LuminaireShape::kRectangle;
+  if (shape == "sphere") return LuminaireShape::kSphere;
+  return LuminaireShape::kPoint;
+}
+
+// Everything between session and inversion; a class because each step adds to the same few things.
+class FitStage {
+ public:
+  FitStage(const Session& session, const Room& room, const std::vector<Observation>& observations,
+           RunContext& context)
+      : session_(session), room_(room), context_(context) {
+    FillStates();
+    FillReadings();
+    result_.data.observations = MergeViews(observations).observations;
+    FillKnown();
+  }
+
+  SessionFit Run() {
+    const StageTimer timer(
+        context_, "fit",
+        fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
+                    result_.data.observations.size(), used_readings_, session_.luminaires.size()));
+    {
+      const StageTimer guess_timer(context_, "guess", "where the luminaires may be");
+      Start();
+    }
+    // The models are chosen from a part of the data; the last fit sees all of it.
+    LightData part = result_.data;
+    part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
+    FitLuminairesOptions quick;
+    quick.covariance = false;
+    LuminaireFit fit = FitLuminaires(room_, part, start_, priors_, quick);
+    if (fit.IsUsable()) {
+      std::vector<OpenChoice> open;
+      for (size_t k = 0; k < start_.luminaires.size(); ++k) {
+        const SessionLuminaire& given = session_.luminaires[k];
+        open.push_back({given.photometry == "auto" && result_.luminaire_found[k],
+                        !given.shape.has_value() && result_.luminaire_found[k]});
+      }
+      const ModelChoice choice = [&] {
+        const StageTimer choose_timer(context_, "choose",
+                                      "the simplest model of each luminaire that the data support");
+        return ChooseLuminaireModels(room_, result_.data, fit.state, open, priors_);
+      }();
+      for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
+      fit = FitLuminaires(room_, result_.data, choice.state, priors_);
+    }
+    result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
+    result_.fit = std::move(fit);
+    RecordOutcome();
+    return std::move(result_);
+  }
+
+ private:
+  void FillStates() {
+    for (const SessionState& state : session_.states) {
+      Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session_.luminaires.size()));
+      for (size_t k = 0; k < session_.luminaires.size(); ++k) {
+        const auto on = state.dimming.find(session_.luminaires[k].id);
+        if (on != state.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
+      }
+      result_.data.dimming.push_back(dimming);
+    }
+  }
+
+  void FillReadings() {
+    const SessionLuxmeter& meter = session_.luxmeter;
+    const double relative = meter.common_sigma > 0 ? meter.common_sigma : kUnknownMeterSigma;
+    for (const SessionReading& given : meter.readings) {
+      Reading reading;
+      reading.sensor = {given.position_m, given.normal};
+      for (size_t s = 0; s < session_.states.size(); ++s) {
+        if (session_.states[s].id == given.state) reading.state = static_cast<int>(s);
+      }
+      reading.illuminance_lx = given.illuminance_lx;
+      reading.sigma_lx = relative * std::max(given.illuminance_lx, 1e-3);
+      reading.used = given.role != ReadingRole::kCheck;
+      used_readings_ += reading.used ? 1 : 0;
+      result_.data.readings.push_back(reading);
+    }
+    if (!meter.readings.empty() && meter.common_sigma == 0) {
+      context_.choices.push_back(
+          {"uncertainty of a reading",
+           fmt::format("{:g} % (1 sigma)", 100 * kUnknownMeterSigma),
+           {},
+           "luxmeter.class is not given; class B (10 % expanded) would be 5 %, L 1.5 %"});
+    }
+  }
+
+  // Reflectances, camera scale: known, to be estimated, or out of reach.
+  void FillKnown() {
+    const std::vector<std::string>& materials = room_.scene.materials;
+    std::vector<std::set<int>> seen(materials.size());
+    for (const Observation& o : result_.data.observations) {
+      const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
+      seen[static_cast<size_t>(room_.patches.patches[static_cast<size_t>(patch)].material)].insert(o.element);
+    }
+    start_.albedo = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(materials.size()), 0.5);
+    start_.albedo_free.assign(materials.size(), false);
+    for (size_t m = 0; m < materials.size(); ++m) {
+      const bool observed = static_cast<int>(seen[m].size()) >= kMinElementsOfMaterial;
+      const auto known = session_.scene->known_albedo_rgb.find(materials[m]);
+      if (known != session_.scene->known_albedo_rgb.end()) {
+        const Eigen::Vector3d weights = session_.cameras.empty() ? Eigen::Vector3d(0.265, 0.670, 0.065)
+                                                                 : session_.cameras[0].luminance_weights;
+        start_.albedo[static_cast<Eigen::Index>(m)] = weights.dot(known->second);
+      } else if (observed) {
+        start_.albedo_free[m] = true;
+      } else if (!result_.data.observations.empty()) {
+        context_.warnings.push_back(
+            {"material_unseen",
+             fmt::format("the reflectance of \"{}\" is not determined: no photo shows it; 0.5 was "
+                         "taken for the light that it reflects",
+                         materials[m]),
+             fmt::format("photograph it, or give scene.albedo.{}", materials[m])});
+      }
+    }
+    start_.camera_scale_free = !result_.data.observations.empty();
+    if (!session_.cameras.empty() && session_.cameras[0].cdm2_per_count_s > 0) {
+      // Full scale 1 of a 16-bit photo at 1 s.
+      start_.camera_scale =
+          1 / (session_.cameras[0].cdm2_per_count_s * (65535.0 - session_.cameras[0].black_level_counts));
+      start_.camera_scale_free = false;
+    }
+  }
+
+  void Start() {
+    const FirstGuess guess = GuessLuminaires(room_, result_.data);
+    for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
+      if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
+    }
+    for (size_t k = 0; k < session_.luminaires.size(); ++k) AddLuminaire(guess, static_cast<int>(k));
+    if (!guess.separable) {
+      context_.warnings.push_back(
+          {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
+           "photograph each luminaire in at least one state without the others, or give position_m"});
+    }
+    SettleScale();
+  }
+
+  void AddLuminaire(const FirstGuess& guess, int index) {
+    const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(index)];
+    const LuminaireGuess& guessed = guess.luminaires[static_cast<size_t>(index)];
+    Luminaire luminaire;
+    FreeQuantities free;
+    luminaire.id = given.id;
+    luminaire.distribution = DistributionFrom(given.photometry);
+    luminaire.shape = ShapeFrom(given);
+    const bool automatic = given.photometry == "auto";
+    if (automatic && guessed.found) luminaire.cosine_exponent = std::max(1.0, guessed.cosine_exponent);
+    free.exponent = luminaire.distribution == Distribution::kCosinePower;
+    luminaire.size_m.setConstant(0.3);
+    if (!given.size_m.empty()) luminaire.size_m = {given.size_m.front(), given.size_m.back()};
+    free.size = luminaire.shape != LuminaireShape::kPoint && luminaire.shape != LuminaireShape::kSphere &&
+                given.size_m.empty();
+    luminaire.aim = given.aim.value_or(Eigen::Vector3d(0, 0, -1));
+    luminaire.heading = given.heading.value_or(Eigen::Vector3d(1, 0, 0));
+    luminaire.position = given.position_m.value_or(guessed.position);
+    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux);
+    const bool found = guessed.found || given.position_m.has_value();
+    if (!found) {
+      // Without a place it gives no light, so that the others can still be fitted.
+      luminaire.flux_lm = 1e-9;
+      free = {false, false, false, false, false};
+      context_.undetermined = true;
+      context_.warnings.push_back(
+          {"luminaire_undetermined",
+           fmt::format("luminaire {} is not determined: the data show too little of its own light", given.id),
+           fmt::format("photograph {} alone", given.id)});
+    }
+    free.position = found && !(given.position_sigma_m && *given.position_sigma_m == 0);
+    free.flux = found && !(given.flux_sigma_lm && *given.flux_sigma_lm == 0);
+    if (found) AddPriors(given, index);
+    if (!given.aim && luminaire.distribution != Distribution::kIsotropic) {
+      context_.choices.push_back({"aim of " + given.id,
+                                  "straight down",
+                                  {},
+                                  "no aim was given and this version does not estimate it"});
+    }
+    result_.luminaire_found.push_back(found);
+    start_.luminaires.push_back(luminaire);
+    start_.free.push_back(free);
+  }
+
+  void AddPriors(const SessionLuminaire& given, int index) {
+    if (given.position_m && given.position_sigma_m.value_or(0) > 0) {
+      for (int axis = 0; axis < 3; ++axis) {
+        priors_.push_back({ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis),
+                           (*given.position_m)[axis], *given.position_sigma_m});
+      }
+    }
+    if (given.flux_lm && given.flux_sigma_lm.value_or(0) > 0) {
+      priors_.push_back({ParameterKind::kLogFlux,
+                         index,
+                         {},
+                         std::log(*given.flux_lm),
+                         *given.flux_sigma_lm / *given.flux_lm});
+      flux_known_ = true;
+    }
+    flux_known_ = flux_known_ || (given.flux_lm && given.flux_sigma_lm.value_or(1) == 0);
+  }
+
+  // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
+  // camera.
+  void SettleScale() {
+    result_.absolute = used_readings_ > 0 || flux_known_ || !start_.camera_scale_free;
+    if (!result_.absolute) {
+      start_.camera_scale_free = false;
+      context_.undetermined = true;
+      context_.warnings.push_back(
+          {"scale_undetermined",
+           "the fluxes of all luminaires and the camera's scale are known only up to one common factor",
+           "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
+           "sigma"});
+    }
+    if (result_.absolute && start_.camera_scale_free) MatchScale();
+  }
+
+  // Start with fluxes in the readings' scale: one linear factor, solved exactly.
+  void MatchScale() {
+    const LightData& data = result_.data;
+    LightModel model(room_, data);
+    model.FreezeVisibility(start_);
+    const Eigen::VectorXd predicted = model.Predict(start_, {}, false).value;
+    double measured = 0, modelled = 0;
+    for (size_t i = 0; i < data.readings.size(); ++i) {
+      if (!data.readings[i].used) continue;
+      measured += data.readings[i].illuminance_lx;
+      modelled += predicted[static_cast<Eigen::Index>(data.observations.size() + i)];
+    }
+    if (!(measured > 0) || !(modelled > 0)) return;
+    for (size_t k = 0; k < start_.luminaires.size(); ++k) {
+      if (start_.free[k].flux && !session_.luminaires[k].flux_lm)
+        start_.luminaires[k].flux_lm *= measured / modelled;
+    }
+    start_.camera_scale *= modelled / measured;
+  }
+
+  void RecordChoice(const LuminaireChoice& choice) {
+    std::string scores;
+    for (size_t i = 0; i < choice.among.size(); ++i) {
+      scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
+    }
+    const size_t chosen = static_cast<size_t>(choice.chosen);
+    context_.choices.push_back(
+        {"photometry and shape of " + session_.luminaires[static_cast<size_t>(choice.luminaire)].id,
+         choice.among[chosen], choice.among,
+         "simplest within one standard error of the best on patches left out (mean squared normalised "
+         "error: " +
+             scores + ")"});
+  }
+
+  void RecordOutcome() {
+    const LuminaireFit& fit = result_.fit;
+    context_.choices.push_back(
+        {"number of luminaires", std::to_string(session_.luminaires.size()), {}, "named in [states]"});
+    context_.choices.push_back({"colour",
+                                "luminance",
+                                {"luminance", "rgb"},
+                                "readings and fluxes are photometric; albedo_rgb is estimated afterwards, "
+                                "for luminaires neutral in the camera's RGB"});
+    if (fit.status == FitStatus::kNotConverged) {
+      context_.warnings.push_back(
+          {"not_converged", fit.message,
+           "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
+    }
+    if (!fit.IsUsable()) {
+      context_.undetermined = true;
+      std::set<std::string> names(fit.undetermined.begin(), fit.undetermined.end());
+      std::string list;
+      for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+      context_.warnings.push_back(
+          {"parameters_undetermined", fit.message + (list.empty() ? "" : ": " + list),
+           "more readings or views, one luminaire switched alone, or give what is known of them"});
+    }
+    for (const std::string& name : fit.at_bound) {
+      context_.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
+                                   "check the mesh around it, or give what is known of it"});
+    }
+  }
+
+  const Session& session_;
+  const Room& room_;
+  RunContext& context_;
+  SessionFit result_;
+  LightState start_;
+  std::vector<ParameterPrior> priors_;
+  int used_readings_ = 0;
+  bool flux_known_ = false;
+};
+
+// Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.
+void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
+  nlohmann::json json = ProvenanceJson("luxfit-fit-1", context.provenance);
+  json["message"] = fit.message;
+  json["outer_iterations"] = fit.outer_iterations;
+  json["relative_model_error"] = fit.relative_sigma;
+  json["undetermined"] = fit.undetermined;
+  json["parameters"] = nlohmann::json::array();
+  const Eigen::VectorXd x = PackParameters(fit.state, fit.parameters);
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Parameter& p = fit.parameters[i];
+    json["parameters"].push_back({{"name", p.name},
+                                  {"value", x[static_cast<Eigen::Index>(i)]},
+                                  {"lower", p.lower},
+                                  {"upper", p.upper}});
+  }
+  json["covariance"] = nlohmann::json::array();
+  for (const auto row : fit.covariance.rowwise())
+    json["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
+  WriteJson(context.out + "/stages/fit.json", json);
+}
+
+}  // namespace
+
+SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+                      RunContext& context) {
+  if (session.luminaires.empty()) {
+    throw std::runtime_error(session.path +
+                             ": states: expected the luminaires of at least one state, got none; add "
+                             "[states] such as A = { A = 1.0 }");
+  }
+  const auto& readings = session.luxmeter.readings;
+  const bool fitted = std::any_of(readings.begin(), readings.end(),
+                                  [](const SessionReading& r) { return r.role == ReadingRole::kFit; });
+  if (observations.empty() && !fitted) {
+    throw std::runtime_error(session.path +
+                             ": expected something to fit to, got neither photos nor readings; add [photos], "
+                             "or fit = [\"*\"] to [luxmeter]");
+  }
+  SessionFit fit = FitStage(session, room, observations, context).Run();
+  WriteArtifact(fit.fit, context);
+  return fit;
+}
+
+}  // namespace luxfit

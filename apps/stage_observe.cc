@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/stages.h"
+#include "calib/luminance.h"
+
+namespace luxfit {
+namespace {
+
+// A tag's paper reaches beyond its black square: one cell of white border at least, mounts often more.
+constexpr double kTagMargin = 1.5;
+
+std::vector<PixelQuad> TagQuads(const Session& session, const Camera& camera,
+                                const Eigen::Isometry3d& cam_from_world) {
+  std::vector<PixelQuad> quads;
+  for (SurveyedTag tag : session.tags.survey) {
+    tag.size_m *= kTagMargin;
+    PixelQuad quad;
+    bool in_front = true;
+    const auto corners = TagCornersInWorld(tag);
+    for (size_t i = 0; i < 4; ++i) {
+      quad[i] = Project(camera, cam_from_world * corners[i]);
+      in_front = in_front && quad[i].allFinite();
+    }
+    if (in_front) quads.push_back(quad);
+  }
+  return quads;
+}
+
+int StateIndex(const Session& session, const std::string& id) {
+  for (size_t s = 0; s < session.states.size(); ++s) {
+    if (session.states[s].id == id) return static_cast<int>(s);
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::vector<Observation> ObserveSession(const Session& session, const RegisteredSession& registered,
+                                        const Room& room, RunContext& context) {
+  const std::vector<RegisteredView>& views = registered.registration.views;
+  if (views.empty()) return {};
+  const StageTimer timer(
+      context, "observe",
+      fmt::format("{} photos of {} registered views", session.photos.size(), views.size()));
+  std::vector<PixelDirections> directions;
+  for (const Camera& camera : registered.cameras) directions.push_back(UnprojectAllPixels(camera));
+  std::vector<PixelMap> maps;
+  for (const RegisteredView& view : views) {
+    const size_t c = static_cast<size_t>(view.camera);
+    const Camera& camera = registered.cameras[c];
+    maps.push_back(MapPixels(camera, directions[c], view.cam_from_world, room,
+                             TagQuads(session, camera, view.cam_from_world)));
+  }
+  std::vector<std::vector<Observation>> by_photo(session.photos.size());
+  tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
+    const SessionPhoto& photo = session.photos[i];
+    const auto view = std::find_if(views.begin(), views.end(),
+                                   [&](const RegisteredView& v) { return v.view == photo.view; });
+    if (view == views.end()) return;
+    const Camera& camera = registered.cameras[static_cast<size_t>(photo.camera)];
+    const int index = static_cast<int>(view - views.begin());
+    by_photo[i] = ObservePhoto(maps[static_cast<size_t>(index)], ReadLuminance(session, photo, camera), index,
+                               StateIndex(session, photo.state));
+  });
+  std::vector<Observation> observations;
+  nlohmann::json json = ProvenanceJson("luxfit-observe-1", context.provenance);
+  json["photos"] = nlohmann::json::array();
+  for (size_t i = 0; i < by_photo.size(); ++i) {
+    observations.insert(observations.end(), by_photo[i].begin(), by_photo[i].end());
+    json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
+  }
+  WriteJson(context.out + "/stages/observe.json", json);
+  return observations;
+}
+
+}  // namespace luxfit

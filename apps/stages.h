@@ -1,0 +1,102 @@
+// The stages of a run and what each hands on.
+//
+//   scene -> register -> observe -> fit -> result
+//
+// Stages read the session and what came before; they print progress on standard error and write nothing but
+// their own artifact in OUT/stages/. What the data do not determine is a warning, never an exception.
+//
+// Throws std::runtime_error for what the user wrote wrong and only decoding shows (an 8-bit photo declared
+// linear, a mesh in another unit than declared, no tag in any view).
+#ifndef LUXFIT_APPS_STAGES_H_
+#define LUXFIT_APPS_STAGES_H_
+
+#include <Eigen/Core>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/artifact.h"
+#include "apps/session.h"
+#include "calib/camera.h"
+#include "calib/luminance.h"
+#include "calib/registration.h"
+#include "forward/room.h"
+#include "inverse/choose_model.h"
+#include "inverse/fit_luminaires.h"
+#include "inverse/observe.h"
+
+namespace luxfit {
+
+struct Warning {
+  std::string code, message, remedy;
+};
+
+struct Choice {
+  std::string what, chosen;
+  std::vector<std::string> among;
+  std::string because;
+};
+
+// What all stages share: where to write, what was said on the way.
+struct RunContext {
+  std::string out;
+  Provenance provenance;
+  std::vector<Warning> warnings;
+  std::vector<Choice> choices;
+  std::map<std::string, double> timing_s;
+  bool undetermined = false;  // exit status 1
+};
+
+// Measures a stage from its making to its end, adds to context.timing_s, prints a progress line where one is
+// given.
+class StageTimer {
+ public:
+  StageTimer(RunContext& context, std::string stage, const std::string& line);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  RunContext& context_;
+  std::string stage_;
+  double start_s_;
+};
+
+// Mesh, checked against the tag survey, with its form factors; an empty room where the session has no
+// [scene].
+Room LoadRoom(const Session& session, RunContext& context);
+
+struct RegisteredSession {
+  std::vector<Camera> cameras;
+  Registration registration;
+};
+RegisteredSession RegisterSession(const Session& session, RunContext& context);
+
+// One photo as relative luminance; checks that it is linear and of the camera's size.
+LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
+
+// Relative luminance of every element in every photo of a registered view.
+std::vector<Observation> ObserveSession(const Session& session, const RegisteredSession& registered,
+                                        const Room& room, RunContext& context);
+
+struct SessionFit {
+  LuminaireFit fit;
+  LightData data;
+  std::vector<bool> luminaire_found;
+  Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
+  bool absolute = false;        // whether fluxes are in lm
+};
+SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+                      RunContext& context);
+
+// OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos).
+nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
+                          const SessionFit& fit, const RunContext& context);
+std::string ResultTables(const nlohmann::json& result);
+std::string LuxmeterTable(const nlohmann::json& result);
+std::string WarningText(const nlohmann::json& result);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_H_
