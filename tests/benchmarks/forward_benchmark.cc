@@ -1,0 +1,88 @@
+// What the forward model costs on the office: form factors, one factorisation with its solves, one prediction
+// with and without derivatives. Argument: patch size in mm.
+//   build/release/tests/benchmarks/forward_benchmark
+#include <benchmark/benchmark.h>
+
+#include <numeric>
+
+#include "forward/illuminance.h"
+#include "forward/room.h"
+
+namespace luxfit {
+namespace {
+
+Scene Office() { return ReadScene(LUXFIT_FIXTURES "/office/room.obj"); }
+
+RoomOptions WithPatchSize(int64_t millimetres) {
+  RoomOptions options;
+  options.patches.patch_size_m = static_cast<double>(millimetres) * 1e-3;
+  return options;
+}
+
+std::vector<Luminaire> FourLuminaires() {
+  std::vector<Luminaire> luminaires(4);
+  const Eigen::Vector3d places[] = {{1.5, 2.0, 2.79}, {4.2, 2.6, 2.79}, {2.9, 0.7, 2.78}, {5.2, 1.6, 2.78}};
+  for (size_t k = 0; k < luminaires.size(); ++k) luminaires[k].position = places[k];
+  return luminaires;
+}
+
+void FormFactors(benchmark::State& state) {
+  const Scene scene = Office();
+  const RayScene rays(scene);
+  const Patches patches = Subdivide(scene, rays, WithPatchSize(state.range(0)).patches);
+  for (auto _ : state) benchmark::DoNotOptimize(ComputeFormFactors(rays, patches));
+  state.counters["patches"] = static_cast<double>(patches.patches.size());
+  state.counters["Mray/s"] = benchmark::Counter(256e-6 * static_cast<double>(patches.elements.size()),
+                                                benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(FormFactors)->Arg(600)->Arg(400)->Arg(200)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void FactorAndSolve(benchmark::State& state) {
+  const Room room = MakeRoom(Office(), WithPatchSize(state.range(0)));
+  const Eigen::VectorXd albedo =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(room.scene.materials.size()), 0.5);
+  const Eigen::MatrixXf direct =
+      Eigen::MatrixXf::Ones(static_cast<Eigen::Index>(room.patches.patches.size()), 50);
+  for (auto _ : state) benchmark::DoNotOptimize(Transport(room.transport, albedo).Exitance(direct));
+}
+BENCHMARK(FactorAndSolve)->Arg(600)->Arg(400)->Arg(200)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+void Predict(benchmark::State& state, bool derivatives) {
+  const Room room = MakeRoom(Office(), WithPatchSize(state.range(0)));
+  std::vector<int> elements(room.patches.elements.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  const Receivers receivers = MakeReceivers(room, elements, {});
+  const std::vector<Luminaire> luminaires = FourLuminaires();
+  const LuminaireVisibility visibility = ComputeVisibility(room, receivers, luminaires);
+  const Eigen::VectorXd albedo =
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(room.scene.materials.size()), 0.5);
+  DerivativeRequest request;
+  if (derivatives) {
+    for (int k = 0; k < 4; ++k) {
+      for (const LuminaireQuantity q :
+           {LuminaireQuantity::kPositionX, LuminaireQuantity::kPositionY, LuminaireQuantity::kPositionZ}) {
+        request.parameters.push_back({k, q});
+      }
+    }
+    for (int m = 0; m < static_cast<int>(room.scene.materials.size()); ++m) request.materials.push_back(m);
+  }
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ComputeIlluminance(room, receivers, visibility, luminaires, albedo, request));
+  }
+  state.counters["parameters"] = static_cast<double>(request.parameters.size() + request.materials.size());
+}
+BENCHMARK_CAPTURE(Predict, values, false)
+    ->Arg(600)
+    ->Arg(400)
+    ->Arg(200)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(Predict, with_derivatives, true)
+    ->Arg(600)
+    ->Arg(400)
+    ->Arg(200)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,11 @@
+luxfit_test(forward scene_test LINK luxfit::forward)
+luxfit_test(forward patches_test LINK luxfit::forward)
+luxfit_test(forward visibility_test LINK luxfit::forward)
+luxfit_test(forward luminaire_test LINK luxfit::forward)
+luxfit_test(forward direct_light_test LINK luxfit::forward)
+luxfit_test(forward form_factors_test LINK luxfit::forward)
+luxfit_test(forward transport_test LINK luxfit::forward)
+luxfit_test(forward room_test LINK luxfit::forward)
+luxfit_test(forward illuminance_test LINK luxfit::forward)
+
+luxfit_test(validation office_forward_test LINK luxfit::forward nlohmann_json::nlohmann_json)

@@ -1,0 +1,124 @@
+#include "forward/form_factors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/support/closed_forms.h"
+#include "tests/support/scenes.h"
+
+namespace luxfit {
+namespace {
+
+// Howell's catalogue C-11 and C-14 for the unit cube; a face's row, 1 opposite and 4 adjacent, adds up to 1.
+constexpr double kOpposite = 0.199825, kAdjacent = 0.200044;
+
+// Standard deviation of a share F found with n independent rays; the low-discrepancy rays are no worse.
+double SamplingSigma(double share, double rays) { return std::sqrt(share * (1 - share) / rays); }
+
+struct Ready {
+  Scene scene;
+  RayScene rays;
+  Patches patches;
+};
+Ready MakeReady(const Scene& scene, const PatchesOptions& options) {
+  RayScene rays(scene);
+  Patches patches = Subdivide(scene, rays, options);
+  return {scene, std::move(rays), std::move(patches)};
+}
+
+TEST(FormFactors, RowsOfAClosedRoomAddUpToOne) {
+  const Ready room = MakeReady(support::ClosedRoom({3, 2, 2.5}), {0.5, 0.25});
+  const FormFactors factors = ComputeFormFactors(room.rays, room.patches);
+  EXPECT_EQ(factors.element_to_patch.rows(), static_cast<Eigen::Index>(room.patches.elements.size()));
+  EXPECT_EQ(factors.escaped_fraction, 0);
+  EXPECT_EQ(factors.back_fraction, 0);
+  const Eigen::VectorXf sums = factors.element_to_patch.rowwise().sum();
+  EXPECT_NEAR(sums.minCoeff(), 1, 1e-5);  // float rounding of some hundred terms
+  EXPECT_NEAR(sums.maxCoeff(), 1, 1e-5);
+  EXPECT_GE(factors.element_to_patch.minCoeff(), 0);
+}
+
+TEST(FormFactors, OfACubeAreItsClosedForms) {
+  const Ready cube =
+      MakeReady(support::ClosedRoom({1, 1, 1}), {1, 0.1});  // a patch a face, 100 elements each
+  ASSERT_EQ(cube.patches.patches.size(), 6u);
+  constexpr int kRays = 4096;
+  const FormFactors factors = ComputeFormFactors(cube.rays, cube.patches, {kRays});
+  double mean_opposite = 0;
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const Eigen::RowVectorXf row = factors.element_to_patch.middleRows(100 * i, 100).colwise().mean();
+    mean_opposite += row[i ^ 1] / 6;
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const double expected = j == i ? 0 : j == (i ^ 1) ? kOpposite : kAdjacent;
+      EXPECT_NEAR(row[j], expected, 4 * SamplingSigma(0.2, 100 * kRays))
+          << i << " to " << j;  // 36 of them: 4 sigma
+    }
+  }
+  EXPECT_NEAR(mean_opposite, kOpposite, 3 * SamplingSigma(0.2, 600 * kRays));
+}
+
+TEST(FormFactors, OfASensorToTheCeilingIsTheRectanglesClosedForm) {
+  const Eigen::Vector3d size(3, 2, 2.5);
+  const Ready room = MakeReady(support::ClosedRoom(size), {1, 0.5});
+  const Eigen::Vector3d p(1.5, 1, 0);
+  constexpr int kRays = 16384;
+  const Eigen::VectorXf row = SensorFormFactors(room.rays, room.patches, p, {0, 0, 1}, kRays);
+  double ceiling = 0;
+  for (size_t j = 0; j < room.patches.patches.size(); ++j) {
+    const Patch& patch = room.patches.patches[j];
+    if (patch.facet != 5) continue;
+    // The ceiling is cut into 1 x 1 m: each has its own closed form.
+    const double expected = support::RectangleFactor(patch.center, 1, 1, p);
+    ceiling += row[static_cast<Eigen::Index>(j)];
+    EXPECT_NEAR(row[static_cast<Eigen::Index>(j)], expected, 4 * SamplingSigma(expected, kRays));
+  }
+  const double expected = support::RectangleFactor({1.5, 1, 2.5}, 3, 2, p);
+  EXPECT_NEAR(ceiling, expected, 3 * SamplingSigma(expected, kRays));
+  EXPECT_NEAR(row.sum(), 1, 1e-5);  // float rounding
+}
+
+TEST(FormFactors, AnOpenBoxReportsWhatEscapes) {
+  Scene open = support::ClosedRoom({1, 1, 1});
+  open.facets.pop_back();  // its lid
+  const Ready box = MakeReady(open, {1, 0.1});
+  constexpr int kRays = 1024;
+  const FormFactors factors = ComputeFormFactors(box.rays, box.patches, {kRays});
+  const double expected = (kOpposite + 4 * kAdjacent) / 5;  // through the lid from the floor and four walls
+  EXPECT_NEAR(factors.escaped_fraction, expected, 4 * SamplingSigma(expected, 500 * kRays));
+  EXPECT_EQ(factors.back_fraction, 0);
+  const double kept = factors.element_to_patch.rowwise().sum().mean();
+  EXPECT_NEAR(kept, 1 - factors.escaped_fraction, 1e-5);  // float rounding
+}
+
+TEST(FormFactors, RaysFromUnderASolidDoNotCount) {
+  Scene scene = support::ClosedRoom({2, 2, 2});
+  // Its sides cut through elements of 0.25 m; the part of those under it must take nothing from their rows.
+  support::AddBox(scene, {Eigen::Vector3d(0.6, 0.6, 0), Eigen::Vector3d(1.1, 1.1, 1)},
+                  support::Facing::kOutward, {"box"});
+  scene.facets.erase(scene.facets.begin() + 10);  // its bottom, which lies in the floor
+  const Ready room = MakeReady(scene, {0.5, 0.25});
+  const FormFactors factors = ComputeFormFactors(room.rays, room.patches);
+  EXPECT_GT(factors.back_fraction, 0);
+  EXPECT_EQ(factors.escaped_fraction, 0);
+  // 1e-5: float rounding. A ray may also end on a piece of floor that has been left out: none can see those
+  // from outside.
+  const Eigen::VectorXf sums = factors.element_to_patch.rowwise().sum();
+  EXPECT_NEAR(sums.minCoeff(), 1, 1e-5);
+  EXPECT_NEAR(sums.maxCoeff(), 1, 1e-5);
+}
+
+TEST(FormFactors, RepeatThemselves) {
+  const Ready room = MakeReady(support::ClosedRoom({3, 2, 2.5}), {1, 0.5});
+  EXPECT_EQ(ComputeFormFactors(room.rays, room.patches).element_to_patch,
+            ComputeFormFactors(room.rays, room.patches).element_to_patch);
+}
+
+TEST(FormFactors, NeedRays) {
+  const Ready room = MakeReady(support::ClosedRoom({1, 1, 1}), {1, 1});
+  EXPECT_THROW(ComputeFormFactors(room.rays, room.patches, {0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace luxfit

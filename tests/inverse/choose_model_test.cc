@@ -1,0 +1,129 @@
+#include "inverse/choose_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/support/closed_forms.h"
+#include "tests/support/plane_readings.h"
+#include "tests/support/test_rng.h"
+
+namespace luxfit {
+namespace {
+
+const Eigen::Vector3d kLamp(0.13, -0.21, 1.5);
+
+// Readings of 1 % in no room, on two planes; the upper one `nearest_m` below the lamp.
+template <typename Lux>
+LightData ReadingsOf(const Lux& lux, double nearest_m, double width_m) {
+  std::mt19937_64 rng = support::TestRng();
+  LightData data;
+  data.dimming = {Eigen::VectorXd::Ones(1)};
+  for (const double below : {nearest_m, nearest_m + 0.5}) {
+    const std::vector<Reading> plane =
+        support::ReadAt(support::PlanePoints(10, width_m, kLamp.z() - below), lux, 0.01, rng);
+    data.readings.insert(data.readings.end(), plane.begin(), plane.end());
+  }
+  return data;
+}
+
+// What the stages do: a converged fit with a cosine-power point, then the choice.
+std::string ChosenName(const LightData& data, ModelChoice* result = nullptr) {
+  const Room room = MakeRoom(Scene{});
+  LightState start;
+  start.luminaires.resize(1);
+  start.luminaires[0].id = "A";
+  start.luminaires[0].position = kLamp + Eigen::Vector3d(0.1, 0.1, -0.1);
+  start.luminaires[0].distribution = Distribution::kCosinePower;
+  start.luminaires[0].cosine_exponent = 2;
+  start.luminaires[0].flux_lm = 500;
+  start.free.resize(1);
+  start.free[0].exponent = true;
+  start.camera_scale_free = false;
+  const LuminaireFit fit = FitLuminaires(room, data, start);
+  const ModelChoice choice = ChooseLuminaireModels(room, data, fit.state, {OpenChoice{}});
+  if (result != nullptr) *result = choice;
+  if (choice.choices.size() != 1) return "no choice";
+  return choice.choices[0].among.at(static_cast<size_t>(choice.choices[0].chosen));
+}
+
+std::string TableOf(const ModelChoice& choice) {
+  std::string table;
+  for (const LuminaireChoice& c : choice.choices) {
+    for (size_t i = 0; i < c.among.size(); ++i) {
+      table += c.among[i] + ": " + std::to_string(c.score[i]) + " +- " + std::to_string(c.standard_error[i]) +
+               "\n";
+    }
+  }
+  return table;
+}
+
+TEST(ChooseModel, ALambertianPointIsChosenForItself) {
+  ModelChoice choice;
+  const auto lux = [](const Eigen::Vector3d& p) {
+    return support::PointLx(800, support::LambertianCdPerLm, kLamp, p);
+  };
+  EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "lambertian point") << TableOf(choice);
+  EXPECT_EQ(choice.state.luminaires[0].distribution, Distribution::kLambertian);
+  EXPECT_EQ(choice.state.luminaires[0].shape, LuminaireShape::kPoint);
+  EXPECT_FALSE(choice.state.free[0].exponent || choice.state.free[0].size);
+}
+
+TEST(ChooseModel, AnIsotropicPointIsChosenForItself) {
+  ModelChoice choice;
+  const auto lux = [](const Eigen::Vector3d& p) {
+    return support::PointLx(800, support::IsotropicCdPerLm, kLamp, p);
+  };
+  EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "isotropic point") << TableOf(choice);
+}
+
+TEST(ChooseModel, ANarrowLobeIsACosinePower) {
+  ModelChoice choice;
+  const auto cos4 = [](double c) { return 5 * std::pow(c, 4) / (2 * support::kPi); };
+  const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, cos4, kLamp, p); };
+  EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "cosine_power point") << TableOf(choice);
+  // Readings of 1 %, 200 of them: the exponent is known to a few percent.
+  EXPECT_NEAR(choice.state.luminaires[0].cosine_exponent, 4, 0.3);
+}
+
+TEST(ChooseModel, ALongPanelReadFromNearByIsARectangle) {
+  ModelChoice choice;
+  const auto lux = [](const Eigen::Vector3d& p) {
+    return support::LambertianRectangleLx(800, kLamp, 1.2, 0.6, p);
+  };
+  EXPECT_EQ(ChosenName(ReadingsOf(lux, 0.4, 2.5), &choice), "lambertian rectangle") << TableOf(choice);
+  const Luminaire& lamp = choice.state.luminaires[0];
+  EXPECT_TRUE(choice.state.free[0].size);
+  EXPECT_NEAR(lamp.size_m[0], 1.2, 0.06);  // twice the lamp quadrature's and the readings' percent each
+  EXPECT_NEAR(lamp.size_m[1], 0.6, 0.06);
+}
+
+TEST(ChooseModel, WhatTheCallerGaveIsKept) {
+  const auto lux = [](const Eigen::Vector3d& p) {
+    return support::PointLx(800, support::LambertianCdPerLm, kLamp, p);
+  };
+  const LightData data = ReadingsOf(lux, 1.0, 2.5);
+  const Room room = MakeRoom(Scene{});
+  LightState start;
+  start.luminaires.resize(1);
+  start.luminaires[0].position = kLamp;
+  start.luminaires[0].flux_lm = 800;
+  start.luminaires[0].distribution = Distribution::kCosinePower;
+  start.free.resize(1);
+  start.camera_scale_free = false;
+  for (const ModelChoice& choice : {ChooseLuminaireModels(room, data, start, {OpenChoice{false, true}})}) {
+    ASSERT_EQ(choice.choices.size(), 1u);
+    for (const std::string& name : choice.choices[0].among) EXPECT_EQ(name.find("cosine_power"), 0u) << name;
+    EXPECT_EQ(choice.state.luminaires[0].distribution, Distribution::kCosinePower);
+  }
+  const ModelChoice points = ChooseLuminaireModels(room, data, start, {OpenChoice{true, false}});
+  ASSERT_EQ(points.choices.size(), 1u);
+  EXPECT_EQ(points.choices[0].among,
+            (std::vector<std::string>{"isotropic point", "lambertian point", "cosine_power point"}));
+  EXPECT_TRUE(ChooseLuminaireModels(room, data, start, {OpenChoice{false, false}}).choices.empty());
+  EXPECT_THROW(ChooseLuminaireModels(room, data, start, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,153 @@
+#include "inverse/first_guess.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/closed_forms.h"
+#include "tests/support/cube_photos.h"
+#include "tests/support/plane_readings.h"
+#include "tests/support/test_rng.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kFluxLm = 800;
+const Eigen::Vector3d kLamp(0.33, -0.41, 1.27);  // on no grid
+
+// Two planes of sensors 2 m wide under the lamp, in no room.
+LightData ReadingsOf(double (*cd_per_lm)(double), double relative_noise,
+                     const Eigen::Vector3d& lamp = kLamp) {
+  std::mt19937_64 rng = support::TestRng();
+  LightData data;
+  data.dimming = {Eigen::VectorXd::Ones(1)};
+  for (const double height : {0.0, 0.3}) {
+    for (const Reading& reading : support::ReadAt(
+             support::PlanePoints(7, 2, height),
+             [&](const Eigen::Vector3d& p) { return support::PointLx(kFluxLm, cd_per_lm, lamp, p); },
+             relative_noise, rng)) {
+      data.readings.push_back(reading);
+    }
+  }
+  return data;
+}
+
+// The last grid has steps of 0.4 / 2^3 m. The best of its places need not be the nearest, but is a neighbour
+// of the truth.
+const double kGridDiagonalM = std::sqrt(3.) * 0.05;
+
+TEST(GuessLuminaires, FindsAnIsotropicPointAmongItsReadings) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, ReadingsOf(support::IsotropicCdPerLm, 0));
+  EXPECT_TRUE(guess.separable);
+  ASSERT_EQ(guess.luminaires.size(), 1u);
+  ASSERT_TRUE(guess.luminaires[0].found);
+  EXPECT_LT((guess.luminaires[0].position - kLamp).norm(), kGridDiagonalM)
+      << guess.luminaires[0].position.transpose();
+  EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kIsotropic);
+}
+
+TEST(GuessLuminaires, FindsALambertianPointAmongItsReadings) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, ReadingsOf(support::LambertianCdPerLm, 0));
+  ASSERT_EQ(guess.luminaires.size(), 1u);
+  ASSERT_TRUE(guess.luminaires[0].found);
+  EXPECT_LT((guess.luminaires[0].position - kLamp).norm(), kGridDiagonalM)
+      << guess.luminaires[0].position.transpose();
+  EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kCosinePower);
+  EXPECT_EQ(guess.luminaires[0].cosine_exponent, 1);
+  // E goes with h^-2: the flux is off by twice the height's relative error, a diagonal at most.
+  EXPECT_NEAR(guess.luminaires[0].flux / kFluxLm, 1, 2 * kGridDiagonalM / (kLamp.z() - 0.3));
+}
+
+// Wherever the lamp hangs in relation to the coarse grid, where a wrong lobe may win.
+TEST(GuessLuminaires, FindsALambertianPointAnywhere) {
+  const Room room = MakeRoom(Scene{});
+  std::mt19937_64 rng = support::TestRng();
+  std::uniform_real_distribution<double> offset(-0.7, 0.7);
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::Vector3d lamp(offset(rng), offset(rng), 1.3 + 0.4 * offset(rng));
+    const FirstGuess guess = GuessLuminaires(room, ReadingsOf(support::LambertianCdPerLm, 0, lamp));
+    ASSERT_TRUE(guess.luminaires.at(0).found);
+    EXPECT_LT((guess.luminaires[0].position - lamp).norm(), kGridDiagonalM) << lamp.transpose();
+    EXPECT_EQ(guess.luminaires[0].cosine_exponent, 1);
+  }
+}
+
+TEST(GuessLuminaires, StandsSomeNoise) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, ReadingsOf(support::LambertianCdPerLm, 0.03));
+  ASSERT_TRUE(guess.luminaires.at(0).found);
+  EXPECT_LT((guess.luminaires[0].position - kLamp).norm(),
+            0.4);  // the first grid: the valley that a fit starts from
+}
+
+// Two lamps, each read in its own and both together.
+LightData TwoLamps(const std::vector<Eigen::VectorXd>& dimming) {
+  std::mt19937_64 rng = support::TestRng();
+  LightData data;
+  data.dimming = dimming;
+  const Eigen::Vector3d other(-0.62, 0.57, 1.41);
+  for (size_t s = 0; s < dimming.size(); ++s) {
+    const auto lux = [&](const Eigen::Vector3d& p) {
+      return dimming[s][0] * support::PointLx(kFluxLm, support::LambertianCdPerLm, kLamp, p) +
+             dimming[s][1] * support::PointLx(500, support::LambertianCdPerLm, other, p);
+    };
+    for (const double height : {0.0, 0.3}) {
+      for (const Reading& r :
+           support::ReadAt(support::PlanePoints(7, 2, height), lux, 0, rng, static_cast<int>(s))) {
+        data.readings.push_back(r);
+      }
+    }
+  }
+  return data;
+}
+
+TEST(GuessLuminaires, SumsOfLampsAreTakenApart) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, TwoLamps({Eigen::Vector2d(1, 1), Eigen::Vector2d(0.3, 1)}));
+  EXPECT_TRUE(guess.separable);
+  ASSERT_EQ(guess.luminaires.size(), 2u);
+  ASSERT_TRUE(guess.luminaires[0].found && guess.luminaires[1].found);
+  EXPECT_LT((guess.luminaires[0].position - kLamp).norm(), kGridDiagonalM);
+  EXPECT_LT((guess.luminaires[1].position - Eigen::Vector3d(-0.62, 0.57, 1.41)).norm(), kGridDiagonalM);
+}
+
+TEST(GuessLuminaires, LampsThatAreAlwaysOnTogetherAreNotTakenApart) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess =
+      GuessLuminaires(room, TwoLamps({Eigen::Vector2d(1, 1), Eigen::Vector2d(0.5, 0.5)}));
+  EXPECT_FALSE(guess.separable);
+  EXPECT_NE(guess.message, "");
+  ASSERT_EQ(guess.luminaires.size(), 2u);
+  EXPECT_FALSE(guess.luminaires[0].found || guess.luminaires[1].found);
+}
+
+TEST(GuessLuminaires, StatesThatNobodyReadDoNotHelp) {
+  const Room room = MakeRoom(Scene{});
+  LightData data = TwoLamps({Eigen::Vector2d(1, 1)});
+  data.dimming.push_back(Eigen::Vector2d(1, 0));
+  EXPECT_FALSE(GuessLuminaires(room, data).separable);
+  EXPECT_FALSE(GuessLuminaires(room, {}).separable);
+}
+
+TEST(GuessLuminaires, FindsPlaceAndReflectanceInPhotosOfAClosedRoom) {
+  const Room cube = support::CubeRoom();
+  const Eigen::Vector3d lamp(1.23, 0.81, 1.37);
+  const double rho = 0.6;
+  LightData data;
+  data.dimming = {Eigen::VectorXd::Ones(1)};
+  data.observations = support::CubePhotos(cube, lamp, Eigen::Vector3d::Constant(rho));
+  const FirstGuess guess = GuessLuminaires(cube, data);
+  ASSERT_TRUE(guess.luminaires.at(0).found);
+  // The first grid is 2 / 8 m here, the last an eighth of that.
+  EXPECT_LT((guess.luminaires[0].position - lamp).norm(), std::sqrt(3.) * 0.25 / 8);
+  EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kIsotropic);
+  // rho / (1 - rho) is read from b / a. A place that is a step off moves b / a by the direct light's share of
+  // it, a few percent of 1.5, and rho by (1 - rho)^2 times that.
+  EXPECT_NEAR(guess.albedo[0], rho, 0.03);
+}
+
+}  // namespace
+}  // namespace luxfit
