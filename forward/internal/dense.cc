@@ -2,12 +2,31 @@
 
 #include <cblas.h>
 #include <lapack.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include "forward/dense_product.h"
 
 namespace luxfit {
+namespace {
+
+// OpenBLAS's own threads wait by yielding, which on a busy machine costs a scheduler's turn at every barrier:
+// minutes instead of seconds. So it computes on the calling thread, and the parallel loops here share out
+// rows and columns.
+void KeepBlasOnCallingThread() {
+  static const bool once = [] {
+    openblas_set_num_threads(1);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+constexpr Eigen::Index kRowsPerTask = 512, kColumnsPerTask = 8;
+
+}  // namespace
 
 bool CholeskyInPlace(Eigen::MatrixXf& lower) {
+  KeepBlasOnCallingThread();
   const lapack_int n = static_cast<lapack_int>(lower.rows());
   lapack_int info = 0;
   LAPACK_spotrf("L", &n, lower.data(), &n, &info);
@@ -15,18 +34,30 @@ bool CholeskyInPlace(Eigen::MatrixXf& lower) {
 }
 
 void CholeskySolveInPlace(const Eigen::MatrixXf& lower, Eigen::MatrixXf& right) {
-  const lapack_int n = static_cast<lapack_int>(lower.rows()), columns = static_cast<lapack_int>(right.cols());
-  lapack_int info = 0;
-  LAPACK_spotrs("L", &n, &columns, lower.data(), &n, right.data(), &n, &info);
+  KeepBlasOnCallingThread();
+  const lapack_int n = static_cast<lapack_int>(lower.rows());
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, right.cols(), kColumnsPerTask),
+                    [&](const tbb::blocked_range<Eigen::Index>& range) {
+                      const lapack_int columns = static_cast<lapack_int>(range.size());
+                      lapack_int info = 0;
+                      LAPACK_spotrs("L", &n, &columns, lower.data(), &n, right.col(range.begin()).data(), &n,
+                                    &info);
+                    });
 }
 
 Eigen::MatrixXf Product(const FormFactorMatrix& a, const Eigen::MatrixXf& b) {
+  KeepBlasOnCallingThread();
   Eigen::MatrixXf c(a.rows(), b.cols());
   if (c.size() == 0) return c;
-  // A row-major m x k is A^T column-major k x m.
-  cblas_sgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(a.rows()), static_cast<int>(b.cols()),
-              static_cast<int>(a.cols()), 1.0f, a.data(), static_cast<int>(a.cols()), b.data(),
-              static_cast<int>(b.rows()), 0.0f, c.data(), static_cast<int>(c.rows()));
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, a.rows(), kRowsPerTask),
+                    [&](const tbb::blocked_range<Eigen::Index>& range) {
+                      // Rows of a, row-major, are columns of its transpose.
+                      cblas_sgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(range.size()),
+                                  static_cast<int>(b.cols()), static_cast<int>(a.cols()), 1.0f,
+                                  a.row(range.begin()).data(), static_cast<int>(a.cols()), b.data(),
+                                  static_cast<int>(b.rows()), 0.0f, c.data() + range.begin(),
+                                  static_cast<int>(c.rows()));
+                    });
   return c;
 }
 
