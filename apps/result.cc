@@ -54,13 +54,16 @@ json MaterialsJson(const Session& session, const Room& room, const SessionFit& f
     const std::string& name = room.scene.materials[m];
     const bool given = session.scene->known_albedo_rgb.count(name) > 0;
     const bool estimated = fit.fit.state.albedo_free[m];
-    json material = {{"name", name}, {"source", given ? "given" : (estimated ? "estimated" : "unseen")}};
-    material["albedo"] =
-        given || estimated ? json(fit.fit.state.albedo[static_cast<Eigen::Index>(m)]) : json();
+    const double sigma = SigmaOf(fit.fit, ParameterKind::kAlbedo, static_cast<int>(m));
+    const bool determined = given || (estimated && std::isfinite(sigma));
+    json material = {
+        {"name", name},
+        {"source", given ? "given" : (determined ? "estimated" : (estimated ? "undetermined" : "unseen"))}};
+    material["albedo"] = determined ? json(fit.fit.state.albedo[static_cast<Eigen::Index>(m)]) : json();
     const Eigen::Vector3d rgb = given ? session.scene->known_albedo_rgb.at(name)
                                       : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
-    material["albedo_rgb"] = rgb.allFinite() ? Vector(rgb) : json();
-    material["sigma"] = SigmaOf(fit.fit, ParameterKind::kAlbedo, static_cast<int>(m));
+    material["albedo_rgb"] = determined && rgb.allFinite() ? Vector(rgb) : json();
+    material["sigma"] = determined ? json(sigma) : json();
     materials.push_back(material);
   }
   return materials;
@@ -108,6 +111,20 @@ std::string RoleName(ReadingRole role) {
   return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
 }
 
+// A reading is predicted where the fit stands, in lm, and every luminaire that is on was found: else the
+// number would be made up.
+bool IsPredicted(const Session& session, const SessionFit& fit, const std::string& state) {
+  if (!fit.absolute || !fit.fit.IsUsable()) return false;
+  for (const SessionState& s : session.states) {
+    if (s.id != state) continue;
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = s.dimming.find(session.luminaires[k].id);
+      if (on != s.dimming.end() && on->second > 0 && !fit.luminaire_found[k]) return false;
+    }
+  }
+  return true;
+}
+
 void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
@@ -122,13 +139,14 @@ void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
                   {"state", given.state},
                   {"role", RoleName(given.role)},
                   {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
-    entry["predicted_lux"] = fit.absolute ? json(reading.predicted_lx) : json();
-    entry["direct_lux"] = fit.absolute ? json(fit.fit.reading_direct_lx[row]) : json();
-    entry["sigma_lux"] = fit.absolute ? json(sigma) : json();
+    const bool predicted = IsPredicted(session, fit, given.state);
+    entry["predicted_lux"] = predicted ? json(reading.predicted_lx) : json();
+    entry["direct_lux"] = predicted ? json(fit.fit.reading_direct_lx[row]) : json();
+    entry["sigma_lux"] = predicted ? json(sigma) : json();
     if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
-    if (given.is_measured && fit.absolute) entry["z"] = ZScore(reading);
+    if (given.is_measured && predicted) entry["z"] = ZScore(reading);
     result["luxmeter"].push_back(entry);
-    if (given.role == ReadingRole::kCheck && given.is_measured && fit.absolute) checked.push_back(reading);
+    if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
   }
   const LuxmeterSummary summary = SummarizeLuxmeter(checked);
   result["summary"] = {{"mean_abs_error_lux", summary.mean_abs_error_lx},

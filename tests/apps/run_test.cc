@@ -121,6 +121,36 @@ TEST_F(OfficeRun, CheckReadsTheResult) {
   EXPECT_EQ(Read(text)["summary"], result_["summary"]);
 }
 
+// Photographed all together only: nothing tells four luminaires apart, and no number may pretend so.
+TEST(UndeterminedRun, SaysSoInsteadOfANumber) {
+  const TempFolder folder;
+  const std::filesystem::path office = std::string(LUXFIT_FIXTURES) + "/office";
+  for (const char* name :
+       {"session.toml", "cam0.yaml", "tags.json", "room.obj", "room.mtl", "luxmeter.csv"}) {
+    std::filesystem::copy_file(office / name, folder.Path(name));
+  }
+  std::filesystem::create_directory_symlink(office / "photos", folder.Path("photos"));
+  std::ifstream table(office / "photos.csv");
+  std::string line, kept;
+  while (std::getline(table, line)) {
+    if (kept.empty() || line.find(",all,") != std::string::npos) kept += line + "\n";
+  }
+  folder.Write("photos.csv", kept);
+  EXPECT_EQ(RunLuxfit("run " + folder.Path("session.toml") + " -o " + folder.Path("out") + " >" +
+                      folder.Path("log") + " 2>&1"),
+            1);
+  const json result = Read(folder.Path("out/result.json"));
+  EXPECT_EQ(result["status"], "undetermined");
+  EXPECT_GE(result["views"].size(), 7u);  // what is determined is there
+  EXPECT_TRUE(result["luminaires"].empty());
+  for (const json& material : result["materials"]) EXPECT_TRUE(material["albedo"].is_null());
+  for (const json& reading : result["luxmeter"]) EXPECT_TRUE(reading["predicted_lux"].is_null());
+  bool named = false;
+  for (const json& warning : result["warnings"])
+    named = named || warning["code"] == "luminaires_not_separated";
+  EXPECT_TRUE(named);
+}
+
 TEST(Commands, ExitStatuses) {
   const TempFolder folder;
   EXPECT_EQ(RunLuxfit("--version > /dev/null"), 0);
