@@ -1,4 +1,6 @@
 #include "calib/camera.h"
+#include "tests/support/office_camera.h"
+#include "tests/support/test_rng.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,25 +12,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/support/test_rng.h"
-
 namespace luxfit {
 namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
 
-Camera WideCamera() {
-  Camera camera;
-  camera.width_px = 960;
-  camera.height_px = 720;
-  camera.fx_px = 742;
-  camera.fy_px = 741.2;
-  camera.cx_px = 483.1;
-  camera.cy_px = 356.4;
-  camera.distortion = {-0.112, 0.061, 4e-4, -7e-4, -0.013, 0.02, -0.01, 0.004};
-  return camera;
-}
+Camera WideCamera() { return OfficeCamera({-0.112, 0.061, 4e-4, -7e-4, -0.013, 0.02, -0.01, 0.004}); }
 
 Eigen::Vector3d RandomPoint(std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform(-1, 1);

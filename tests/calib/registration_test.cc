@@ -1,4 +1,6 @@
 #include "calib/registration.h"
+#include "tests/support/office_camera.h"
+#include "tests/support/test_rng.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,22 +9,10 @@
 #include <map>
 #include <stdexcept>
 
-#include "tests/support/test_rng.h"
-
 namespace luxfit {
 namespace {
 
-Camera WideCamera() {
-  Camera camera;
-  camera.width_px = 960;
-  camera.height_px = 720;
-  camera.fx_px = 742;
-  camera.fy_px = 741.2;
-  camera.cx_px = 483.1;
-  camera.cy_px = 356.4;
-  camera.distortion = {-0.112, 0.061, 4e-4, -7e-4, 0, 0, 0, 0};
-  return camera;
-}
+Camera WideCamera() { return OfficeCamera({-0.112, 0.061, 4e-4, -7e-4, 0, 0, 0, 0}); }
 
 SurveyedTag Tag(int id, const Eigen::Vector3d& center, const Eigen::Vector3d& normal,
                 const Eigen::Vector3d& up) {

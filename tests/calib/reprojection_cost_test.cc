@@ -1,4 +1,6 @@
 #include "calib/internal/reprojection_cost.h"
+#include "tests/support/office_camera.h"
+#include "tests/support/test_rng.h"
 
 #include <ceres/manifold.h>
 #include <ceres/product_manifold.h>
@@ -6,22 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "tests/support/test_rng.h"
-
 namespace luxfit {
 namespace {
 
-Camera DistortedCamera() {
-  Camera camera;
-  camera.width_px = 960;
-  camera.height_px = 720;
-  camera.fx_px = 742;
-  camera.fy_px = 741.2;
-  camera.cx_px = 483.1;
-  camera.cy_px = 356.4;
-  camera.distortion = {-0.112, 0.061, 4e-4, -7e-4, 0.01, 0, 0, 0};
-  return camera;
-}
+Camera DistortedCamera() { return OfficeCamera({-0.112, 0.061, 4e-4, -7e-4, 0.01, 0, 0, 0}); }
 
 // Central differences along each tangent direction. Ceres' own checker steps off the unit sphere of
 // quaternions, where its extrapolation loses up to two digits of the rotation's derivative.
