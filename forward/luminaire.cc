@@ -1,30 +1,15 @@
 #include "forward/luminaire.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
+
+#include "forward/internal/quadrature.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-// Nodes and weights of Gauss-Legendre quadrature on [-1/2, 1/2], weights summing to 1.
-// Golub and Welsch (1969): eigenvalues of the Jacobi matrix.
-std::vector<SurfaceSample> GaussLegendre(int order) {
-  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(order, order);
-  for (int k = 1; k < order; ++k) {
-    jacobi(k, k - 1) = jacobi(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);
-  std::vector<SurfaceSample> nodes(static_cast<size_t>(order));
-  for (int k = 0; k < order; ++k) {
-    const double first = eigen.eigenvectors()(0, k);
-    nodes[static_cast<size_t>(k)] = {0.5 * eigen.eigenvalues()(k), 0, first * first};
-  }
-  return nodes;
-}
 
 }  // namespace
 
@@ -68,16 +53,15 @@ std::vector<SurfaceSample> SampleSurface(LuminaireShape shape, int order) {
   if (order < 1) throw std::invalid_argument("SampleSurface: expected order >= 1");
   std::vector<SurfaceSample> samples;
   if (shape == LuminaireShape::kRectangle) {
-    const std::vector<SurfaceSample> nodes = GaussLegendre(order);
-    for (const SurfaceSample& u : nodes) {
-      for (const SurfaceSample& v : nodes) samples.push_back({u.a, v.a, u.weight * v.weight});
+    for (const FacetNode& node : FacetRule(FacetKind::kParallelogram, order)) {
+      samples.push_back({node.u - 0.5, node.v - 0.5, node.weight});
     }
   } else if (shape == LuminaireShape::kDisc) {
     // Radius by Gauss-Legendre in r^2 (equal area), angle by the trapezoidal rule, exact for trigonometric
     // polynomials.
     const int spokes = 2 * order + 1;
-    for (const SurfaceSample& node : GaussLegendre(order)) {
-      const double radius = 0.5 * std::sqrt(node.a + 0.5);
+    for (const LineNode& node : GaussLegendre(order)) {
+      const double radius = 0.5 * std::sqrt(node.t);
       for (int k = 0; k < spokes; ++k) {
         const double angle = 2 * kPi * k / spokes;
         samples.push_back({radius * std::cos(angle), radius * std::sin(angle), node.weight / spokes});

@@ -17,19 +17,25 @@ struct Cell {
   bool upper;
 };
 
-Element MakeElement(const Facet& facet, const Cell& cell, int cells_u, int cells_v, int patch) {
+struct Place {
+  Eigen::Vector3d origin, edge_u, edge_v;
+};
+
+Place PlaceOf(const Facet& facet, const Cell& cell, int cells_u, int cells_v) {
   const double du = 1.0 / cells_u, dv = 1.0 / cells_v;
+  // An upper triangle is the one opposite the cell's far corner.
+  if (cell.upper)
+    return {facet.PointAt((cell.i + 1) * du, (cell.j + 1) * dv), -du * facet.edge_u, -dv * facet.edge_v};
+  return {facet.PointAt(cell.i * du, cell.j * dv), du * facet.edge_u, dv * facet.edge_v};
+}
+
+Element MakeElement(const Facet& facet, const Place& place, int patch) {
   Element element;
   element.normal = facet.Normal();
   element.patch = patch;
-  element.edge_u = du * facet.edge_u;
-  element.edge_v = dv * facet.edge_v;
-  element.origin = facet.PointAt(cell.i * du, cell.j * dv);
-  if (cell.upper) {  // the triangle opposite the cell's far corner
-    element.origin = facet.PointAt((cell.i + 1) * du, (cell.j + 1) * dv);
-    element.edge_u = -element.edge_u;
-    element.edge_v = -element.edge_v;
-  }
+  element.origin = place.origin;
+  element.edge_u = place.edge_u;
+  element.edge_v = place.edge_v;
   const bool triangle = facet.kind == FacetKind::kTriangle;
   element.center = element.origin + (triangle ? 1.0 / 3 : 0.5) * (element.edge_u + element.edge_v);
   element.area_m2 = (triangle ? 0.5 : 1.0) * element.edge_u.cross(element.edge_v).norm();
@@ -101,37 +107,45 @@ class Subdivision {
     grid.halves = triangle ? 2 : 1;
     grid.element_of_cell.assign(grid.Index(0, grid.cells_v, false), -1);
     result.grids.push_back(grid);
-    result.kinds.push_back(facet.kind);
+    result.facets.push_back(facet);
     for (int j = 0; j < patches_v; ++j) {
       for (int i = 0; i < patches_u; ++i) {
+        const auto add = [&](bool upper, const std::vector<Cell>& cells) {
+          AddPatch(index, PlaceOf(facet, {i, j, upper}, patches_u, patches_v), cells);
+        };
         if (!triangle) {
           std::vector<Cell> cells;
           for (int b = 0; b < elements_v; ++b) {
             for (int a = 0; a < elements_u; ++a)
               cells.push_back({i * elements_u + a, j * elements_v + b, false});
           }
-          AddPatch(index, cells);
+          add(false, cells);
         } else if (i + j < patches_u) {
-          AddPatch(index, CellsOfTrianglePatch({i, j, false}, elements_u));
-          if (i + j < patches_u - 1) AddPatch(index, CellsOfTrianglePatch({i, j, true}, elements_u));
+          add(false, CellsOfTrianglePatch({i, j, false}, elements_u));
+          if (i + j < patches_u - 1) add(true, CellsOfTrianglePatch({i, j, true}, elements_u));
         }
       }
     }
   }
 
-  void AddPatch(int facet_index, const std::vector<Cell>& cells) {
+  void AddPatch(int facet_index, const Place& place, const std::vector<Cell>& cells) {
     const Facet& facet = scene_.facets[static_cast<size_t>(facet_index)];
     FacetGrid& grid = result.grids.back();
     Patch patch;
     patch.facet = facet_index;
     patch.material = facet.material;
+    patch.origin = place.origin;
+    patch.edge_u = place.edge_u;
+    patch.edge_v = place.edge_v;
     patch.first_element = static_cast<int>(result.elements.size());
     patch.center.setZero();
     const bool triangle = facet.kind == FacetKind::kTriangle;
     for (const Cell& cell : cells) {
-      Element element =
-          MakeElement(facet, cell, grid.cells_u, grid.cells_v, static_cast<int>(result.patches.size()));
+      Element element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v),
+                                    static_cast<int>(result.patches.size()));
       const double free_share = FreeShare(rays_, element, triangle);
+      element.is_whole = free_share == 1;
+      patch.is_whole = patch.is_whole && element.is_whole;
       if (free_share == 0) continue;
       element.area_m2 *= free_share;
       grid.element_of_cell[grid.Index(cell.i, cell.j, cell.upper)] = static_cast<int>(result.elements.size());
@@ -157,7 +171,7 @@ int Patches::ElementAt(int facet, double u, double v) const {
   const double x = u * grid.cells_u, y = v * grid.cells_v;
   int i = std::clamp(static_cast<int>(x), 0, grid.cells_u - 1);
   int j = std::clamp(static_cast<int>(y), 0, grid.cells_v - 1);
-  if (kinds[static_cast<size_t>(facet)] == FacetKind::kParallelogram) {
+  if (facets[static_cast<size_t>(facet)].kind == FacetKind::kParallelogram) {
     return grid.element_of_cell[grid.Index(i, j, false)];
   }
   bool upper = (x - i) + (y - j) > 1;

@@ -23,7 +23,10 @@ namespace luxfit {
 
 struct Patch {
   Eigen::Vector3d center;
-  double area_m2 = 0;
+  // Corner and edges; a triangle where the facet is one (a flipped one has negative edges).
+  Eigen::Vector3d origin, edge_u, edge_v;
+  double area_m2 = 0;    // its free share
+  bool is_whole = true;  // all of it is free
   int facet = 0;
   int material = 0;
   int first_element = 0;
@@ -36,6 +39,7 @@ struct Element {
   // Corner and edges; a triangle where the facet is one (a flipped one has negative edges).
   Eigen::Vector3d origin, edge_u, edge_v;
   double area_m2 = 0;  // its free share
+  bool is_whole = true;
   int patch = 0;
 };
 
@@ -61,8 +65,12 @@ struct Patches {
   std::vector<Patch> patches;
   std::vector<Element> elements;
   std::vector<FacetGrid> grids;  // one a facet
-  std::vector<FacetKind> kinds;  // one a facet
+  std::vector<Facet> facets;     // those of the scene
 
+  bool IsTriangle(int patch) const {
+    const int facet = patches[static_cast<size_t>(patch)].facet;
+    return facets[static_cast<size_t>(facet)].kind == FacetKind::kTriangle;
+  }
   // The element that holds point (u, v) of a facet; -1 where that lies inside a solid.
   int ElementAt(int facet, double u, double v) const;
 };

@@ -66,8 +66,7 @@ LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receive
   visibility.receivers.resize(receivers.count(), lamps);
   tbb::parallel_for(size_t{0}, elements, [&](size_t e) {
     const Element& element = room.patches.elements[e];
-    const int facet = room.patches.patches[static_cast<size_t>(element.patch)].facet;
-    const bool triangle = room.patches.kinds[static_cast<size_t>(facet)] == FacetKind::kTriangle;
+    const bool triangle = room.patches.IsTriangle(element.patch);
     for (Eigen::Index k = 0; k < lamps; ++k) {
       visibility.elements(static_cast<Eigen::Index>(e), k) =
           ElementVisibility(room.rays, element, triangle, luminaires[static_cast<size_t>(k)], order);

@@ -2,6 +2,8 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -30,6 +32,27 @@ RTCRay MakeRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, 
   ray.tfar = tfar;
   ray.mask = std::numeric_limits<unsigned>::max();  // Debian's build compares masks; 0 would hit nothing
   return ray;
+}
+
+// Fills a ray packet of Embree; lanes past `count` stay off.
+template <typename Ray>
+void FillRays(const RayPacket& packet, Ray& rays, int* valid) {
+  for (int k = 0; k < RayPacket::kSize; ++k) {
+    const bool on = k < packet.count;
+    valid[k] = on ? -1 : 0;
+    rays.org_x[k] = on ? packet.origin[0][k] : 0;
+    rays.org_y[k] = on ? packet.origin[1][k] : 0;
+    rays.org_z[k] = on ? packet.origin[2][k] : 0;
+    rays.dir_x[k] = on ? packet.direction[0][k] : 0;
+    rays.dir_y[k] = on ? packet.direction[1][k] : 0;
+    rays.dir_z[k] = on ? packet.direction[2][k] : 1;
+    rays.tnear[k] = 0;
+    rays.tfar[k] = std::numeric_limits<float>::infinity();
+    rays.time[k] = 0;
+    rays.mask[k] = std::numeric_limits<unsigned>::max();
+    rays.id[k] = 0;
+    rays.flags[k] = 0;
+  }
 }
 
 }  // namespace
@@ -116,6 +139,52 @@ bool RayScene::Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   rtcInitIntersectContext(&context);
   rtcOccluded1(state_->scene, &context, &ray);
   return ray.tfar < 0;
+}
+
+PacketHits RayScene::Trace(const RayPacket& packet) const {
+  RTCRayHit8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  FillRays(packet, query.ray, valid);
+  for (int k = 0; k < RayPacket::kSize; ++k) {
+    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid, state_->scene, &context, &query);
+  PacketHits hits;
+  for (int k = 0; k < packet.count; ++k) {
+    hits.facet[k] = -1;
+    hits.front[k] = false;
+    if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+    const bool quad = query.hit.geomID[k] == kQuads;
+    hits.facet[k] = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID[k]];
+    hits.u[k] = query.hit.u[k];
+    hits.v[k] = query.hit.v[k];
+    hits.front[k] = query.hit.Ng_x[k] * query.ray.dir_x[k] + query.hit.Ng_y[k] * query.ray.dir_y[k] +
+                        query.hit.Ng_z[k] * query.ray.dir_z[k] <
+                    0;
+  }
+  return hits;
+}
+
+unsigned RayScene::Occluded(const RayPacket& packet) const {
+  RTCRay8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  FillRays(packet, query, valid);
+  for (int k = 0; k < packet.count; ++k) {
+    const float length = std::sqrt(query.dir_x[k] * query.dir_x[k] + query.dir_y[k] * query.dir_y[k] +
+                                   query.dir_z[k] * query.dir_z[k]);
+    query.tfar[k] = 1.0f - 1e-5f / std::max(length, 1e-5f);
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid, state_->scene, &context, &query);
+  unsigned blocked = 0;
+  for (int k = 0; k < packet.count; ++k) {
+    if (query.tfar[k] < 0) blocked |= 1u << k;
+  }
+  return blocked;
 }
 
 }  // namespace luxfit

@@ -24,6 +24,28 @@ struct RayHit {
   bool front = false;   // the ray met the reflecting side
 };
 
+// Up to eight rays at once: what a ray tracer does best.
+struct RayPacket {
+  static constexpr int kSize = 8;
+  alignas(32) float origin[3][kSize];
+  alignas(32) float direction[3][kSize];
+  int count = 0;
+
+  void Add(const Eigen::Vector3f& from, const Eigen::Vector3f& towards) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis][count] = from[axis];
+      direction[axis][count] = towards[axis];
+    }
+    ++count;
+  }
+};
+
+struct PacketHits {
+  int facet[RayPacket::kSize];  // -1: nothing was hit
+  float u[RayPacket::kSize], v[RayPacket::kSize];
+  bool front[RayPacket::kSize];
+};
+
 // A point 10 um off a surface along its normal: far below any room's detail, far above float rounding in it.
 inline Eigen::Vector3d LiftedOff(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
   return p + 1e-5 * normal;
@@ -39,6 +61,10 @@ class RayScene {
   RayHit Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   // Whether anything lies between the two points (the last 10 um before `to` do not count).
   bool Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  PacketHits Trace(const RayPacket& packet) const;
+  // Bit k: something lies on ray k between its origin and origin + direction (less the last 10 um).
+  unsigned Occluded(const RayPacket& packet) const;
 
  private:
   struct State;

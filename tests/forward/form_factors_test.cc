@@ -45,7 +45,7 @@ TEST(FormFactors, OfACubeAreItsClosedForms) {
       MakeReady(support::ClosedRoom({1, 1, 1}), {1, 0.1});  // a patch a face, 100 elements each
   ASSERT_EQ(cube.patches.patches.size(), 6u);
   constexpr int kRays = 4096;
-  const FormFactors factors = ComputeFormFactors(cube.rays, cube.patches, {kRays});
+  const FormFactors factors = ComputeFormFactors(cube.rays, cube.patches, {kRays, FormFactorMethod::kMalley});
   double mean_opposite = 0;
   for (Eigen::Index i = 0; i < 6; ++i) {
     const Eigen::RowVectorXf row = factors.element_to_patch.middleRows(100 * i, 100).colwise().mean();
@@ -84,7 +84,7 @@ TEST(FormFactors, AnOpenBoxReportsWhatEscapes) {
   open.facets.pop_back();  // its lid
   const Ready box = MakeReady(open, {1, 0.1});
   constexpr int kRays = 1024;
-  const FormFactors factors = ComputeFormFactors(box.rays, box.patches, {kRays});
+  const FormFactors factors = ComputeFormFactors(box.rays, box.patches, {kRays, FormFactorMethod::kMalley});
   const double expected = (kOpposite + 4 * kAdjacent) / 5;  // through the lid from the floor and four walls
   EXPECT_NEAR(factors.escaped_fraction, expected, 4 * SamplingSigma(expected, 500 * kRays));
   EXPECT_EQ(factors.back_fraction, 0);
@@ -113,6 +113,75 @@ TEST(FormFactors, RepeatThemselves) {
   const Ready room = MakeReady(support::ClosedRoom({3, 2, 2.5}), {1, 0.5});
   EXPECT_EQ(ComputeFormFactors(room.rays, room.patches).element_to_patch,
             ComputeFormFactors(room.rays, room.patches).element_to_patch);
+}
+
+// A room with a partition, its factors known by many rays of one method: independent of the closed forms.
+class EveryMethod : public testing::TestWithParam<FormFactorMethod> {
+ protected:
+  EveryMethod() {
+    static const FormFactorMatrix reference =
+        ComputeFormFactors(room_.rays, room_.patches, {65536, FormFactorMethod::kMalley}).element_to_patch;
+    reference_ = &reference;
+  }
+
+  static Ready RoomWithPartition() {
+    Scene scene = support::ClosedRoom({3, 2, 2.5});
+    support::AddBox(scene, {Eigen::Vector3d(1.4, 0, 0), Eigen::Vector3d(1.5, 1.2, 1.8)},
+                    support::Facing::kOutward, {"partition"});
+    return MakeReady(scene, {0.5, 0.5});
+  }
+
+  Ready room_ = RoomWithPartition();
+  const FormFactorMatrix* reference_;
+};
+
+// Error of the illuminance that a smooth exitance gives, root mean square over the elements, relative.
+double IlluminanceError(const Patches& patches, const FormFactorMatrix& a, const FormFactorMatrix& b) {
+  Eigen::VectorXf exitance(static_cast<Eigen::Index>(patches.patches.size()));
+  for (size_t j = 0; j < patches.patches.size(); ++j) {
+    const Eigen::Vector3d& c = patches.patches[j].center;
+    exitance[static_cast<Eigen::Index>(j)] =
+        static_cast<float>(1 + std::sin(1.3 * c.x() + 0.7 * c.y() - c.z()));
+  }
+  return ((a - b) * exitance).norm() / (b * exitance).norm();
+}
+
+TEST_P(EveryMethod, FindsTheFactorsOfARoomWithAPartition) {
+  const FormFactors factors = ComputeFormFactors(room_.rays, room_.patches, {1024, GetParam()});
+  EXPECT_EQ(factors.method, GetParam());
+  EXPECT_GT(factors.rays, 0);
+  EXPECT_GE(factors.element_to_patch.minCoeff(), 0);
+  // Methods that spread their rays over the element: 1 / sqrt(1024) = 3 % for purely random ones. Those that
+  // start at its centre see half a metre of a wall from one point: some percents near edges, which no number
+  // of rays mends.
+  const bool from_center = GetParam() == FormFactorMethod::kHemicube ||
+                           GetParam() == FormFactorMethod::kSinglePlane ||
+                           GetParam() == FormFactorMethod::kWallace;
+  EXPECT_LT(IlluminanceError(room_.patches, factors.element_to_patch, *reference_), from_center ? 0.1 : 0.03);
+  const Eigen::VectorXf sums = factors.element_to_patch.rowwise().sum();
+  // The partition's bottom and its side in the wall, 5 elements of the room's, face out of it and see
+  // nothing.
+  const double inside = static_cast<double>((sums.array() > 0).count());
+  EXPECT_NEAR(sums.sum() / inside, 1, from_center ? 0.05 : 0.01);
+  EXPECT_EQ(sums.size() - inside, 5) << "of " << sums.size();
+}
+
+TEST_P(EveryMethod, HasANameThatLeadsBackToIt) {
+  EXPECT_EQ(FormFactorMethodFrom(ToString(GetParam())), GetParam());
+  EXPECT_EQ(FormFactorMethodFrom("no such method"), std::nullopt);
+}
+
+INSTANTIATE_TEST_SUITE_P(FormFactors, EveryMethod, testing::ValuesIn(AllFormFactorMethods()),
+                         [](const auto& method) { return ToString(method.param); });
+
+TEST(FormFactors, OfTheHybridAreExactWhereNothingStandsBetween) {
+  const Ready room = MakeReady(support::ClosedRoom({3, 2, 2.5}), {0.5, 0.5});
+  const FormFactors hybrid = ComputeFormFactors(room.rays, room.patches);
+  const FormFactors analytic = ComputeFormFactors(room.rays, room.patches, {1, FormFactorMethod::kAnalytic});
+  EXPECT_LT(analytic.closure_error, 1e-6);  // float rounding of the sums
+  EXPECT_LT(hybrid.closure_error, 1e-4);    // quadrature, see pair_rows.h
+  EXPECT_LT(ReciprocityError(room.patches, analytic), 1e-6);
+  EXPECT_LT((hybrid.element_to_patch - analytic.element_to_patch).rowwise().norm().maxCoeff(), 1e-4);
 }
 
 TEST(FormFactors, NeedRays) {

@@ -1,0 +1,30 @@
+// Sets of directions over a hemisphere with the form factor that each stands for.
+//
+// Local frame: z along the receiver's normal. Weights add up to the share of the hemisphere that the set
+// covers: 1, but for the single plane, which leaves out the horizon, and the hemicube's small quadrature
+// error. Sources: see forward/form_factors.h.
+#ifndef LUXFIT_FORWARD_INTERNAL_DIRECTIONS_H_
+#define LUXFIT_FORWARD_INTERNAL_DIRECTIONS_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "forward/form_factors.h"
+
+namespace luxfit {
+
+// SplitMix64 (Steele et al. 2014): a well-mixed hash, and the next state of a small random generator.
+uint64_t Mix(uint64_t x);
+inline double UnitFrom(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
+
+struct Directions {
+  Eigen::Matrix3Xf unit;
+  Eigen::VectorXf weight;
+};
+
+// About `count` directions of a ray method; `variant` seeds the random ones.
+Directions MakeDirections(FormFactorMethod method, int count, uint64_t variant);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_INTERNAL_DIRECTIONS_H_

@@ -1,0 +1,47 @@
+// Form-factor rows by rays over the receivers' hemispheres.
+//
+// Methods with a grid fixed to the receiver (hemicube, single plane) start at its centre, all others on
+// points spread over it.
+#ifndef LUXFIT_FORWARD_INTERNAL_RAY_ROWS_H_
+#define LUXFIT_FORWARD_INTERNAL_RAY_ROWS_H_
+
+#include <vector>
+
+#include "forward/form_factors.h"
+#include "forward/internal/directions.h"
+
+namespace luxfit {
+
+struct RayTally {
+  double escaped = 0, back = 0;  // in weight
+  int64_t rays = 0;
+
+  // The bottom of a cabinet, which lies in the floor, faces out of the room: what it sees is no loss of
+  // light.
+  bool SeesNothing() const { return escaped > 0.999; }
+};
+// Mean shares over the receivers that see something, sum of rays.
+RayTally Summarise(const std::vector<RayTally>& tallies);
+
+class RayRows {
+ public:
+  RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod method, int count);
+
+  // Adds the row of a receiver to `row` (patches), which is zero; `index` seeds its shifts.
+  RayTally Cast(const Element& receiver, uint64_t index, float* row) const;
+
+ private:
+  const RayScene& rays_;
+  const Patches& patches_;
+  FormFactorMethod method_;
+  int count_;
+  bool from_center_;
+  std::vector<Directions> variants_;
+};
+
+// All rows.
+FormFactors RayFormFactors(const RayScene& rays, const Patches& patches, FormFactorMethod method, int count);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_INTERNAL_RAY_ROWS_H_
