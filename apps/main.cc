@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/form_factors_command.h"
 #include "apps/version.h"
+#include "forward/form_factors.h"
 #include "forward/threads.h"
 
 namespace {
@@ -19,6 +21,27 @@ std::string CommandLine(int argc, char** argv) {
   std::string line;
   for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + std::string(argv[i]);
   return line;
+}
+
+CLI::App* AddFormFactors(CLI::App& app, luxfit::FormFactorsCommandOptions& options, int& threads) {
+  CLI::App* const sub =
+      app.add_subcommand("formfactors", "form factors between the patches of a mesh, by any method");
+  sub->add_option("MESH", options.mesh, "OBJ, PLY or glTF")->required();
+  sub->add_option("-o,--out", options.file, "file to write, .csv or .json")->required();
+  std::string methods;
+  for (const luxfit::FormFactorMethod method : luxfit::AllFormFactorMethods())
+    methods += (methods.empty() ? "" : " | ") + luxfit::ToString(method);
+  sub->add_option("--method", options.method, methods)->capture_default_str();
+  sub->add_option("--rays", options.rays, "rays over the hemisphere of a patch")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--patch-size", options.patch_size_m, "longest side of a patch, m")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--unit", options.unit, "of the mesh: m | cm | mm | in | ft")->capture_default_str();
+  sub->add_flag("--json", options.json, "print the summary as JSON on standard output");
+  sub->add_option("--threads", threads, "cores to use (0: all)")->check(CLI::NonNegativeNumber);
+  return sub;
 }
 
 }  // namespace
@@ -54,6 +77,10 @@ int main(int argc, char** argv) {
       add("check", "measured against predicted luxmeter readings of an earlier run", false,
           luxfit::CheckCommand)};
 
+  luxfit::FormFactorsCommandOptions form_factors;
+  form_factors.command_line = options.command_line;
+  CLI::App* const form_factors_command = AddFormFactors(app, form_factors, threads);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -61,6 +88,7 @@ int main(int argc, char** argv) {
   }
   const luxfit::ThreadLimit limit(threads);
   try {
+    if (form_factors_command->parsed()) return luxfit::FormFactorsCommand(form_factors);
     for (const auto& [sub, command] : commands) {
       if (sub->parsed()) return command(options);
     }

@@ -1,6 +1,5 @@
 #include "apps/internal/session_scene.h"
 
-#include <map>
 #include <vector>
 
 #include "apps/internal/session_files.h"
@@ -8,12 +7,6 @@
 
 namespace luxfit {
 namespace {
-
-const std::map<std::string, double>& MetresPerUnit() {
-  static const std::map<std::string, double> metres{
-      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-  return metres;
-}
 
 Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
   Eigen::Vector3d albedo_rgb =
@@ -25,6 +18,12 @@ Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
 }
 
 }  // namespace
+
+const std::map<std::string, double>& MetresPerUnit() {
+  static const std::map<std::string, double> metres{
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+  return metres;
+}
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"mesh", "unit", "albedo"});

@@ -6,12 +6,16 @@
 #ifndef LUXFIT_APPS_INTERNAL_SESSION_SCENE_H_
 #define LUXFIT_APPS_INTERNAL_SESSION_SCENE_H_
 
+#include <map>
 #include <string>
 
 #include "apps/internal/toml_reader.h"
 #include "apps/session.h"
 
 namespace luxfit {
+
+// m, cm, mm, in, ft.
+const std::map<std::string, double>& MetresPerUnit();
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder);
 
