@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "forward/direct_light.h"
+#include "forward/overlaps.h"
 
 namespace luxfit {
 namespace {
@@ -28,7 +29,8 @@ float ElementVisibility(const RayScene& rays, const Element& element, bool trian
 
 }  // namespace
 
-Room MakeRoom(Scene scene, const RoomOptions& options) {
+Room MakeRoom(const Scene& given, const RoomOptions& options) {
+  Scene scene = WithoutOverlaps(given);
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);
   FormFactors form_factors = ComputeFormFactors(rays, patches, options.form_factors);

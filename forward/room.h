@@ -32,7 +32,8 @@ struct Room {
   FormFactors form_factors;
   TransportGeometry transport;
 };
-Room MakeRoom(Scene scene, const RoomOptions& options = {});
+// Facets drawn on one another are cut first (WithoutOverlaps), so `scene` may differ from the given one.
+Room MakeRoom(const Scene& given, const RoomOptions& options = {});
 
 struct Sensor {
   Eigen::Vector3d position;

@@ -1,4 +1,7 @@
 luxfit_test(forward scene_test LINK luxfit::forward)
+luxfit_test(forward mesh_file_test LINK luxfit::forward)
+luxfit_test(forward mesh_check_test LINK luxfit::forward)
+luxfit_test(forward overlaps_test LINK luxfit::forward)
 luxfit_test(forward patches_test LINK luxfit::forward)
 luxfit_test(forward visibility_test LINK luxfit::forward)
 luxfit_test(forward luminaire_test LINK luxfit::forward)
