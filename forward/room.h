@@ -15,6 +15,7 @@
 #include "forward/luminaire.h"
 #include "forward/patches.h"
 #include "forward/scene.h"
+#include "forward/sensor.h"
 #include "forward/transport.h"
 #include "forward/visibility.h"
 
@@ -34,11 +35,6 @@ struct Room {
 };
 // Facets drawn on one another are cut first (WithoutOverlaps), so `scene` may differ from the given one.
 Room MakeRoom(const Scene& given, const RoomOptions& options = {});
-
-struct Sensor {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;  // unit
-};
 
 struct Receivers {
   std::vector<int> elements;  // indices into room.patches.elements
