@@ -54,7 +54,7 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
     session.photos = PhotosOf(tables.front(), folder, session.cameras, session.states);
     session.photos_path = AbsolutePath(tables.front().path);
   }
-  if (luxmeter) session.luxmeter = LuxmeterOf(*luxmeter, tables.back(), session.states);
+  if (luxmeter) session.luxmeter = LuxmeterOf(*luxmeter, folder, tables.back(), session.states);
   return session;
 }
 
@@ -70,6 +70,7 @@ std::vector<std::string> InputFiles(const Session& session) {
   add(session.photos_path);
   for (const SessionPhoto& photo : session.photos) add(photo.file);
   add(session.luxmeter.readings_path);
+  add(session.luxmeter.sensitivity_path);
   return files;
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "calib/tags.h"
+#include "forward/sensor.h"
 
 namespace luxfit {
 
@@ -87,7 +88,9 @@ struct SessionReading {
 struct SessionLuxmeter {
   std::string readings_path;  // empty: no [luxmeter] section
   std::vector<SessionReading> readings;
-  std::string meter_class;  // "", L, A, B, C
+  SensorResponse response;       // of every reading
+  std::string sensitivity_path;  // of its table; empty: cosine
+  std::string meter_class;       // "", L, A, B, C
   // Relative standard uncertainty of one reading that all readings share (calibration), from the class; 0 if
   // none given.
   double common_sigma = 0;

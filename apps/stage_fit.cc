@@ -100,7 +100,7 @@ class FitStage {
     const double relative = meter.common_sigma > 0 ? meter.common_sigma : kUnknownMeterSigma;
     for (const SessionReading& given : meter.readings) {
       Reading reading;
-      reading.sensor = {given.position_m, given.normal};
+      reading.sensor = {given.position_m, given.normal, meter.response};
       for (size_t s = 0; s < session_.states.size(); ++s) {
         if (session_.states[s].id == given.state) reading.state = static_cast<int>(s);
       }

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages.h"
+#include "forward/mesh_check.h"
+#include "forward/mesh_file.h"
 #include "inverse/survey_check.h"
 
 namespace luxfit {
@@ -28,6 +30,21 @@ void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
                   session.path, session.scene->unit, check.distance_m, mend));
 }
 
+// Form factors take elements x patches x 4 bytes: a room in millimetres read as metres would ask for
+// petabytes.
+void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOptions& options) {
+  constexpr double kMaxElements = 1e6;
+  double area_m2 = 0;
+  for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
+  if (area_m2 <= kMaxElements * options.element_size_m * options.element_size_m) return;
+  const Eigen::Vector3d size = scene.Bounds().sizes();
+  throw std::runtime_error(fmt::format(
+      "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the mesh is "
+      "{:.4g} m x {:.4g} m x {:.4g} m; is its unit another?",
+      session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
+      size.x(), size.y(), size.z()));
+}
+
 }  // namespace
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
@@ -40,15 +57,12 @@ StageTimer::~StageTimer() { context_.timing_s[stage_] += NowS() - start_s_; }
 Room LoadRoom(const Session& session, RunContext& context) {
   if (!session.scene) return MakeRoom(Scene{});
   const StageTimer timer(context, "scene", session.scene->mesh);
-  Scene scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
+  const Scene scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
   CheckTagsLieOnMesh(session, scene);
-  if (scene.dropped_facets > 0) {
-    context.warnings.push_back({"facets_dropped",
-                                fmt::format("{} facets without area were left out", scene.dropped_facets),
-                                "none needed; clean the mesh to silence this"});
-  }
   const RoomOptions options;
-  Room room = MakeRoom(std::move(scene), options);
+  ExpectRoomSize(session, scene, options.patches);
+  const std::vector<MeshFinding> findings = CheckMesh(scene);
+  Room room = MakeRoom(scene, options);
   context.choices.push_back({"patches",
                              fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",
                                          room.patches.patches.size(), options.patches.patch_size_m,
@@ -58,18 +72,10 @@ Room LoadRoom(const Session& session, RunContext& context) {
                              "docs/accuracy.md tells what finer ones change"});
   context.choices.push_back(
       {"bounces", "all", {}, "the radiosity system is factored once: every bounce costs the same as one"});
-  if (room.form_factors.escaped_fraction > 0.01) {
-    context.warnings.push_back({"open_mesh",
-                                fmt::format("{:.1f} % of the rays between surfaces leave the room",
-                                            100 * room.form_factors.escaped_fraction),
-                                "close the mesh, or expect less interreflection than the real room has"});
-  }
-  if (room.form_factors.back_fraction > 0.05) {
-    context.warnings.push_back(
-        {"flipped_facets",
-         fmt::format("{:.1f} % of the rays between surfaces meet the back of a facet",
-                     100 * room.form_factors.back_fraction),
-         "turn the facets so that their corners run counter-clockwise seen from inside the room"});
+  for (const MeshFinding& finding : WithRayShares(findings, room.form_factors)) {
+    if (finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
+      context.warnings.push_back(
+          {ToString(finding.defect), finding.message + "; " + finding.effect, finding.remedy});
   }
   return room;
 }

@@ -4,6 +4,7 @@
 
 #include "forward/dense_product.h"
 #include "forward/direct_light.h"
+#include "forward/sensor.h"
 
 namespace luxfit {
 namespace {
@@ -37,7 +38,7 @@ void FillDirect(const Sensor& place, const std::vector<Luminaire>& luminaires,
   std::vector<DirectIlluminance> direct(luminaires.size());
   for (size_t k = 0; k < luminaires.size(); ++k) {
     if (visible[static_cast<Eigen::Index>(k)] == 0) continue;
-    direct[k] = DirectIlluminancePerLumen(luminaires[k], place.position, place.normal);
+    direct[k] = SensorIlluminancePerLumen(luminaires[k], place);
     row[static_cast<Eigen::Index>(k)] =
         visible[static_cast<Eigen::Index>(k)] * static_cast<float>(direct[k].lx_per_lm);
   }
@@ -64,7 +65,7 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
   Eigen::MatrixXf at_receivers = Eigen::MatrixXf::Zero(receivers.count(), lamps + parameters);
   tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
     const Element& element = room.patches.elements[static_cast<size_t>(e)];
-    FillDirect({element.center, element.normal}, luminaires, derivatives.parameters,
+    FillDirect({element.center, element.normal, {}}, luminaires, derivatives.parameters,
                visibility.elements.row(e), at_elements.row(e));
   });
   const Eigen::Index observed = static_cast<Eigen::Index>(receivers.elements.size());

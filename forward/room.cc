@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "forward/direct_light.h"
+#include "forward/overlaps.h"
 
 namespace luxfit {
 namespace {
@@ -28,7 +29,8 @@ float ElementVisibility(const RayScene& rays, const Element& element, bool trian
 
 }  // namespace
 
-Room MakeRoom(Scene scene, const RoomOptions& options) {
+Room MakeRoom(const Scene& given, const RoomOptions& options) {
+  Scene scene = WithoutOverlaps(given);
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);
   FormFactors form_factors = ComputeFormFactors(rays, patches, options.form_factors);
@@ -46,12 +48,13 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
   for (const int e : elements) {
     receivers.gather.row(row++) = room.form_factors.element_to_patch.row(e);
     receivers.points.push_back({room.patches.elements[static_cast<size_t>(e)].center,
-                                room.patches.elements[static_cast<size_t>(e)].normal});
+                                room.patches.elements[static_cast<size_t>(e)].normal,
+                                {}});
   }
   // Without patches there is nothing to gather from.
   tbb::parallel_for(size_t{0}, room.patches.patches.empty() ? 0 : sensors.size(), [&](size_t i) {
     receivers.gather.row(row + static_cast<Eigen::Index>(i)) =
-        SensorFormFactors(room.rays, room.patches, sensors[i].position, sensors[i].normal);
+        SensorFormFactors(room.rays, room.patches, sensors[i]);
   });
   receivers.points.insert(receivers.points.end(), sensors.begin(), sensors.end());
   return receivers;
@@ -79,8 +82,8 @@ LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receive
     const Sensor& sensor = receivers.sensors[i];
     const Eigen::Index row = static_cast<Eigen::Index>(receivers.elements.size() + i);
     for (Eigen::Index k = 0; k < lamps; ++k) {
-      visibility.receivers(row, k) = static_cast<float>(VisibleFraction(
-          room.rays, luminaires[static_cast<size_t>(k)], sensor.position, sensor.normal, kSensorOrder));
+      visibility.receivers(row, k) = static_cast<float>(
+          SensorVisibleFraction(room.rays, luminaires[static_cast<size_t>(k)], sensor, kSensorOrder));
     }
   });
   return visibility;

@@ -15,6 +15,7 @@
 #include "forward/luminaire.h"
 #include "forward/patches.h"
 #include "forward/scene.h"
+#include "forward/sensor.h"
 #include "forward/transport.h"
 #include "forward/visibility.h"
 
@@ -32,12 +33,8 @@ struct Room {
   FormFactors form_factors;
   TransportGeometry transport;
 };
-Room MakeRoom(Scene scene, const RoomOptions& options = {});
-
-struct Sensor {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;  // unit
-};
+// Facets drawn on one another are cut first (WithoutOverlaps), so `scene` may differ from the given one.
+Room MakeRoom(const Scene& given, const RoomOptions& options = {});
 
 struct Receivers {
   std::vector<int> elements;  // indices into room.patches.elements

@@ -1,14 +1,8 @@
 #include "forward/scene.h"
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
-#include <assimp/Importer.hpp>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <stdexcept>
 
 namespace luxfit {
 namespace {
@@ -107,43 +101,6 @@ std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertice
     if (gap.norm() < kParallelogramTolerance * size && whole.AreaM2() > kMinAreaM2) return {whole};
   }
   return Triangulate(vertices, material);
-}
-
-Scene ReadScene(const std::string& path, double metres_per_unit) {
-  if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": expected a mesh file, found none");
-  Assimp::Importer importer;
-  // PreTransformVertices bakes the node transforms in; faces keep their number of corners.
-  const aiScene* file = importer.ReadFile(path, aiProcess_PreTransformVertices);
-  if (file == nullptr) {
-    throw std::runtime_error(path + ": expected an OBJ, PLY or glTF mesh; " + importer.GetErrorString());
-  }
-  Scene scene;
-  std::vector<int> material_of(file->mNumMaterials, -1);
-  for (unsigned m = 0; m < file->mNumMeshes; ++m) {
-    const aiMesh& mesh = *file->mMeshes[m];
-    int& material = material_of[mesh.mMaterialIndex];
-    if (material < 0) {
-      const std::string name = file->mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-      const auto known = std::find(scene.materials.begin(), scene.materials.end(), name);
-      material = static_cast<int>(known - scene.materials.begin());
-      if (known == scene.materials.end()) scene.materials.push_back(name);
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices < 3) continue;
-      std::vector<Eigen::Vector3d> polygon;
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        const aiVector3D& p = mesh.mVertices[face.mIndices[k]];
-        polygon.push_back(metres_per_unit * Eigen::Vector3d(p.x, p.y, p.z));
-      }
-      const std::vector<Facet> facets = FacetsFromPolygon(polygon, material);
-      if (facets.empty()) ++scene.dropped_facets;
-      scene.facets.insert(scene.facets.end(), facets.begin(), facets.end());
-    }
-  }
-  if (scene.facets.empty())
-    throw std::runtime_error(path + ": expected at least one facet with an area, found none");
-  return scene;
 }
 
 double DistanceToSurface(const Scene& scene, const Eigen::Vector3d& p_in_world) {

@@ -6,7 +6,6 @@
 // edge_v| points, reflects; both sides block light. Rectangles of the file stay whole; every other polygon
 // becomes triangles.
 //
-// Throws std::runtime_error naming the file when it cannot be read or has no usable facet.
 #ifndef LUXFIT_FORWARD_SCENE_H_
 #define LUXFIT_FORWARD_SCENE_H_
 
@@ -38,9 +37,6 @@ struct Scene {
 
   Eigen::AlignedBox3d Bounds() const;
 };
-
-// Reads OBJ, PLY, glTF/GLB and whatever else assimp knows; lengths are multiplied by metres_per_unit.
-Scene ReadScene(const std::string& path, double metres_per_unit = 1.0);
 
 // A planar polygon (counter-clockwise seen from its front, convex or not) as one parallelogram or several
 // triangles. Triangles without area are left out, so the list may be empty.

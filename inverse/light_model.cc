@@ -184,8 +184,7 @@ LightModel::LightModel(const Room& room, const LightData& data) : room_(room), d
   for (const Reading& reading : data.readings) {
     // A point read in several states is one sensor.
     size_t s = 0;
-    while (s < sensors.size() &&
-           (sensors[s].position != reading.sensor.position || sensors[s].normal != reading.sensor.normal)) {
+    while (s < sensors.size() && !(sensors[s] == reading.sensor)) {
       ++s;
     }
     if (s == sensors.size()) sensors.push_back(reading.sensor);

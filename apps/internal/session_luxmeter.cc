@@ -113,6 +113,32 @@ double CommonSigma(const std::string& meter_class) {
   return at == total_error.end() ? 0 : at->second / 2;
 }
 
+SensorResponse ReadSensitivity(const std::string& path) {
+  const CsvTable table = ReadCsvTable(path, {{"angle_deg", "relative"}, {}});
+  constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+  std::vector<double> angle_rad, relative;
+  double last_deg = 0;
+  for (const CsvRow& row : table.rows) {
+    const double angle_deg = CsvNumber(table, row, "angle_deg"), value = CsvNumber(table, row, "relative");
+    if (angle_rad.empty() ? angle_deg != 0 : !(angle_deg > last_deg && angle_deg <= 180))
+      throw CsvError(table, row, "angle_deg",
+                     "expected angles that ascend from 0 to at most 180, got " +
+                         Quoted(CsvText(table, row, "angle_deg")) +
+                         "; sort the table, with one row an angle");
+    if (value < 0 || (relative.empty() && value == 0))
+      throw CsvError(table, row, "relative",
+                     "expected the response relative to normal incidence, got " +
+                         Quoted(CsvText(table, row, "relative")) + "; a beam at 0 degrees gives 1");
+    last_deg = angle_deg;
+    angle_rad.push_back(kRadPerDeg * angle_deg);
+    relative.push_back(value);
+  }
+  if (angle_rad.size() < 2)
+    throw CsvError(table, table.rows.back(), "angle_deg",
+                   "expected two angles or more, got one; measure more");
+  return TableResponse(std::move(angle_rad), std::move(relative));
+}
+
 }  // namespace
 
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
@@ -121,14 +147,16 @@ CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) 
   return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", "lux"}, {}});
 }
 
-SessionLuxmeter LuxmeterOf(const TomlCursor& section, const CsvTable& table,
+SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,
                            const std::vector<SessionState>& states) {
   SessionLuxmeter luxmeter;
   luxmeter.readings_path = AbsolutePath(table.path);
   luxmeter.readings = WithRoles(section, ReadReadings(table, states));
   const auto sensitivity = section.Find("sensitivity");
-  if (sensitivity && sensitivity->Text("\"cosine\"") != "cosine")
-    throw NotAvailable(*sensitivity, "\"cosine\"");
+  if (sensitivity && sensitivity->Text("\"cosine\" or a table (CSV)") != "cosine") {
+    luxmeter.sensitivity_path = AbsolutePath(FindFile(*sensitivity, folder));
+    luxmeter.response = ReadSensitivity(luxmeter.sensitivity_path);
+  }
   if (const auto meter_class = section.Find("class"))
     luxmeter.meter_class = meter_class->OneOf({"L", "A", "B", "C"});
   luxmeter.common_sigma = CommonSigma(luxmeter.meter_class);

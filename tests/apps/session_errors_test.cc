@@ -231,8 +231,29 @@ TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
               HasSubstr("luminaire[0].photometry: \"spot.ies\" is not avail"));
   EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"spot.LDT\""),
               HasSubstr("luminaire[0].photometry: \"spot.LDT\" is not avail"));
-  EXPECT_THAT(ErrorAfter("\"cosine\"", "\"curve.csv\""),
-              HasSubstr("luxmeter.sensitivity: \"curve.csv\" is not available"));
+}
+
+TEST_F(SessionErrorsTest, SensitivityCurvesAreChecked) {
+  const auto error = [&](const std::string& table) {
+    Reset();
+    folder_.Write("curve.csv", "angle_deg,relative\n" + table);
+    folder_.Replace("session.toml", "\"cosine\"", "\"curve.csv\"");
+    return Error();
+  };
+  EXPECT_EQ(error("0,2\n60,0.98\n90,0\n"), "");
+  const Session session = Read();
+  EXPECT_EQ(session.luxmeter.response.kind, ResponseKind::kTable);
+  EXPECT_EQ(session.luxmeter.response.relative, (std::vector<double>{1, 0.49, 0}));
+  EXPECT_THAT(session.input_files, testing::Contains(testing::HasSubstr("curve.csv")));
+  EXPECT_THAT(error("10,1\n60,0.5\n"),
+              HasSubstr("curve.csv:2: angle_deg: expected angles that ascend from 0"));
+  EXPECT_THAT(error("0,1\n60,0.5\n60,0.4\n"),
+              HasSubstr("curve.csv:4: angle_deg: expected angles that ascend"));
+  EXPECT_THAT(error("0,1\n60,0.5\n200,0\n"), HasSubstr("curve.csv:4: angle_deg: "));
+  EXPECT_THAT(error("0,1\n60,-0.5\n"), HasSubstr("curve.csv:3: relative: expected the response"));
+  EXPECT_THAT(error("0,0\n60,0.5\n"), HasSubstr("curve.csv:2: relative: "));
+  EXPECT_THAT(error("0,1\n"), HasSubstr("expected two angles or more"));
+  EXPECT_THAT(ErrorAfter("\"cosine\"", "\"nowhere.csv\""), HasSubstr("luxmeter.sensitivity: "));
 }
 
 TEST_F(SessionErrorsTest, KeysOfLaterFeaturesAreCheckedForType) {

@@ -15,8 +15,8 @@
 #include <string>
 
 #include "forward/illuminance.h"
+#include "forward/mesh_file.h"
 #include "forward/room.h"
-#include "forward/scene.h"
 
 namespace luxfit {
 namespace {

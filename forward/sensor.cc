@@ -1,0 +1,282 @@
+#include "forward/sensor.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace luxfit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// w and dw/dtheta of a table.
+struct PolarWeight {
+  double value = 0, d_theta = 0;
+};
+PolarWeight TableWeight(const SensorResponse& response, double theta) {
+  const std::vector<double>&angles = response.angle_rad, &values = response.relative;
+  const double cosine = std::max(0.0, std::cos(theta)), d_cosine = cosine > 0 ? -std::sin(theta) : 0;
+  if (theta >= angles.back()) {
+    if (angles.back() >= kPi / 2 - 1e-9) return {theta == angles.back() ? values.back() : 0, 0};
+    const double ratio = values.back() / std::cos(angles.back());
+    return {ratio * cosine, ratio * d_cosine};
+  }
+  const size_t next =
+      static_cast<size_t>(std::upper_bound(angles.begin(), angles.end(), theta) - angles.begin());
+  const auto deviation = [&](size_t i) { return values[i] - std::max(0.0, std::cos(angles[i])); };
+  const double slope = (deviation(next) - deviation(next - 1)) / (angles[next] - angles[next - 1]);
+  const double value = cosine + deviation(next - 1) + slope * (theta - angles[next - 1]);
+  if (value <= 0) return {};
+  return {value, d_cosine + slope};
+}
+
+bool SeesHemisphere(const SensorResponse& response) {
+  return response.kind == ResponseKind::kCosine || response.kind == ResponseKind::kTable;
+}
+
+// Columns: facing (or any tangent), the tangent across it, the normal.
+Eigen::Matrix3d FrameOf(const Sensor& sensor) {
+  Eigen::Vector3d along = sensor.response.facing - sensor.response.facing.dot(sensor.normal) * sensor.normal;
+  if (sensor.response.kind != ResponseKind::kSemicylindrical || along.norm() < 1e-9)
+    along = sensor.normal.unitOrthogonal();
+  Eigen::Matrix3d frame;
+  frame.col(0) = along.normalized();
+  frame.col(1) = sensor.normal.cross(frame.col(0));
+  frame.col(2) = sensor.normal;
+  return frame;
+}
+
+// A density over [low, high], tabulated: its integral and the inverse of its cumulative distribution.
+class Tabulated {
+ public:
+  template <typename Density>
+  Tabulated(double low, double high, const Density& density) : low_(low), step_((high - low) / kCells) {
+    cumulative_[0] = 0;
+    for (int i = 0; i < kCells; ++i) {
+      // Simpson's rule in each cell.
+      const double x = low + i * step_;
+      cumulative_[static_cast<size_t>(i) + 1] =
+          cumulative_[static_cast<size_t>(i)] +
+          step_ / 6 * (density(x) + 4 * density(x + step_ / 2) + density(x + step_));
+    }
+  }
+  double Total() const { return cumulative_.back(); }
+  double Quantile(double share) const {
+    const double target = share * Total();
+    const auto above = std::upper_bound(cumulative_.begin() + 1, cumulative_.end() - 1, target);
+    const double before = *(above - 1), rise = *above - before;
+    const double cell = static_cast<double>(above - 1 - cumulative_.begin());
+    return low_ + step_ * (cell + (rise > 0 ? (target - before) / rise : 0.5));
+  }
+
+ private:
+  static constexpr int kCells = 2048;
+  double low_, step_;
+  std::vector<double> cumulative_ = std::vector<double>(kCells + 1);
+};
+
+// Points that share the unit disc evenly, as (squared radius, turns).
+std::vector<Eigen::Vector2d> Isocell(int count) {
+  constexpr int kFirstRing = 3;
+  constexpr double kGolden = 0.61803398874989485;
+  const int rings =
+      std::max(1, static_cast<int>(std::lround(std::sqrt(count / static_cast<double>(kFirstRing)))));
+  std::vector<Eigen::Vector2d> cells;
+  for (int i = 1; i <= rings; ++i) {
+    const int in_ring = kFirstRing * (2 * i - 1);
+    const double inner = i - 1, outer = i;
+    const double share = (inner * inner + outer * outer) / (2.0 * rings * rings);
+    // Rings are turned against one another, so that no spoke of rays runs along an edge of the room.
+    const double turn = i * kGolden - std::floor(i * kGolden);
+    for (int k = 0; k < in_ring; ++k) cells.emplace_back(share, (k + turn) / in_ring);
+  }
+  return cells;
+}
+
+// Points that share the unit square evenly: the additive recurrence of the plastic number (x^3 = x + 1).
+std::vector<Eigen::Vector2d> Recurrence(int count) {
+  constexpr double kStepX = 0.75487766624669276, kStepY = 0.56984029099805327;
+  std::vector<Eigen::Vector2d> points;
+  for (int k = 1; k <= count; ++k) {
+    const double x = 0.5 + kStepX * k, y = 0.5 + kStepY * k;
+    points.emplace_back(x - std::floor(x), y - std::floor(y));
+  }
+  return points;
+}
+
+// Weight over the polar angle alone, for the sampling.
+double PolarDensity(const SensorResponse& response, double theta) {
+  const double sine = std::sin(theta);
+  if (response.kind == ResponseKind::kTable) return 2 * TableWeight(response, theta).value * sine;
+  if (response.kind == ResponseKind::kSpherical) return sine / 2;
+  return 2 / kPi * sine * sine;  // cylinders
+}
+
+}  // namespace
+
+bool operator==(const SensorResponse& a, const SensorResponse& b) {
+  return a.kind == b.kind && a.angle_rad == b.angle_rad && a.relative == b.relative && a.facing == b.facing;
+}
+
+bool operator==(const Sensor& a, const Sensor& b) {
+  return a.position == b.position && a.normal == b.normal && a.response == b.response;
+}
+
+SensorResponse TableResponse(std::vector<double> angle_rad, std::vector<double> relative) {
+  const bool ascends = std::is_sorted(angle_rad.begin(), angle_rad.end(), std::less_equal<double>());
+  if (angle_rad.size() < 2 || angle_rad.size() != relative.size() || angle_rad[0] != 0 || !ascends ||
+      !(angle_rad.back() <= kPi + 1e-9))
+    throw std::invalid_argument(
+        "TableResponse: expected angles that ascend from 0 to at most pi, a value each");
+  if (!(relative[0] > 0) || !std::all_of(relative.begin(), relative.end(), [](double x) { return x >= 0; }))
+    throw std::invalid_argument("TableResponse: expected values >= 0, the first > 0");
+  const double first = relative[0];
+  for (double& x : relative) x /= first;
+  return {ResponseKind::kTable, std::move(angle_rad), std::move(relative)};
+}
+
+DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction) {
+  const double cosine = sensor.normal.dot(direction);
+  const Eigen::Vector3d across = direction - cosine * sensor.normal;  // perpendicular to the axis
+  const double sine = across.norm();
+  DirectionWeight weight;
+  switch (sensor.response.kind) {
+    case ResponseKind::kCosine:
+      if (cosine > 0) weight = {cosine, sensor.normal};
+      break;
+    case ResponseKind::kTable: {
+      const PolarWeight polar = TableWeight(sensor.response, std::atan2(sine, cosine));
+      weight.value = polar.value;
+      if (sine > 1e-9) weight.d_direction = polar.d_theta / sine * (cosine * direction - sensor.normal);
+      break;
+    }
+    case ResponseKind::kCylindrical:
+      weight.value = sine / kPi;
+      if (sine > 1e-9) weight.d_direction = across / (kPi * sine);
+      break;
+    case ResponseKind::kSemicylindrical: {
+      // sin(epsilon) cos(alpha) = d . facing
+      const Eigen::Vector3d facing = FrameOf(sensor).col(0);
+      weight.value = (sine + direction.dot(facing)) / kPi;
+      if (sine > 1e-9) weight.d_direction = (across / sine + facing) / kPi;
+      break;
+    }
+    case ResponseKind::kSpherical:
+      weight.value = 0.25;
+      break;
+  }
+  weight.d_direction -= weight.d_direction.dot(direction) * direction;
+  return weight;
+}
+
+namespace {
+
+// Calls use(sample, sides, point) for every point of the luminous surface.
+template <typename Use>
+void ForEachSurfacePoint(const Luminaire& luminaire, int order, const Use& use) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector2d sides = luminaire.shape == LuminaireShape::kDisc
+                                    ? Eigen::Vector2d::Constant(luminaire.size_m[0])
+                                    : luminaire.size_m;
+  for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
+    const Eigen::Vector2d offset(sample.a * sides[0], sample.b * sides[1]);
+    use(sample, offset, luminaire.position + offset[0] * axes.along + offset[1] * axes.across);
+  }
+}
+
+}  // namespace
+
+DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Sensor& sensor) {
+  if (sensor.response.kind == ResponseKind::kCosine)
+    return DirectIlluminancePerLumen(luminaire, sensor.position, sensor.normal);
+  constexpr int kOrder = 8;
+  DirectIlluminance sum;
+  const LuminaireAxes axes = AxesOf(luminaire);
+  Luminaire point = luminaire;
+  point.shape = LuminaireShape::kPoint;
+  ForEachSurfacePoint(
+      luminaire, kOrder,
+      [&](const SurfaceSample& sample, const Eigen::Vector2d& offset, const Eigen::Vector3d& at) {
+        const Eigen::Vector3d to_lamp = at - sensor.position;
+        const double r = to_lamp.norm();
+        if (r < 1e-6) return;
+        const Eigen::Vector3d direction = to_lamp / r;
+        const DirectionWeight weight = WeightOf(sensor, direction);
+        point.position = at;
+        // I / r^2 is the illuminance of a receiver that faces the point; a turn of its normal changes it in
+        // second order only, so that the gradient is that of I / r^2 too.
+        const DirectIlluminance beam = DirectIlluminancePerLumen(point, sensor.position, direction);
+        const Eigen::Vector3d gradient =
+            sample.weight * (weight.value * beam.d_position + beam.lx_per_lm / r * weight.d_direction);
+        const double share = sample.weight * weight.value;
+        sum.lx_per_lm += share * beam.lx_per_lm;
+        sum.d_position += gradient;
+        sum.d_exponent += share * beam.d_exponent;
+        // Tilting turns the lobe, and the surface with it: along -> along - t aim.
+        sum.d_tilt += share * beam.d_tilt - gradient.dot(luminaire.aim) * offset;
+        const Eigen::Vector2d d_size(sample.a * gradient.dot(axes.along),
+                                     sample.b * gradient.dot(axes.across));
+        sum.d_size += luminaire.shape == LuminaireShape::kDisc ? Eigen::Vector2d(d_size.sum(), 0) : d_size;
+      });
+  return sum;
+}
+
+double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Sensor& sensor,
+                             int order) {
+  if (sensor.response.kind == ResponseKind::kCosine)
+    return VisibleFraction(rays, luminaire, sensor.position, sensor.normal, order);
+  const Eigen::Vector3d start = RayOrigin(sensor);
+  double seen = 0, all = 0;
+  ForEachSurfacePoint(
+      luminaire, order, [&](const SurfaceSample& sample, const Eigen::Vector2d&, const Eigen::Vector3d& at) {
+        const double weight = sample.weight * WeightOf(sensor, (at - sensor.position).normalized()).value;
+        all += weight;
+        if (weight > 0 && !rays.Occluded(start, at)) seen += weight;
+      });
+  return all > 0 ? seen / all : 0;
+}
+
+SensorRays SampleResponse(const Sensor& sensor, int ray_count) {
+  if (ray_count < 1) throw std::invalid_argument("SampleResponse: expected ray_count >= 1");
+  const SensorResponse& response = sensor.response;
+  const std::vector<Eigen::Vector2d> points =
+      SeesHemisphere(response) ? Isocell(ray_count) : Recurrence(ray_count);
+  const Eigen::Matrix3d frame = FrameOf(sensor);
+  SensorRays rays;
+  rays.directions.resize(3, static_cast<Eigen::Index>(points.size()));
+  const bool cosine = response.kind == ResponseKind::kCosine;
+  const Tabulated polar(0, kPi, [&](double theta) { return cosine ? 0 : PolarDensity(response, theta); });
+  const Tabulated azimuth(-kPi, kPi, [&](double alpha) {
+    return response.kind == ResponseKind::kSemicylindrical ? 1 + std::cos(alpha) : 1;
+  });
+  if (!cosine) rays.total = polar.Total();
+  for (Eigen::Index k = 0; k < rays.directions.cols(); ++k) {
+    const Eigen::Vector2d& point = points[static_cast<size_t>(k)];
+    const double theta = cosine ? std::asin(std::sqrt(point[0])) : polar.Quantile(point[0]);
+    const double alpha = azimuth.Quantile(point[1]);
+    rays.directions.col(k) = frame * Eigen::Vector3d(std::sin(theta) * std::cos(alpha),
+                                                     std::sin(theta) * std::sin(alpha), std::cos(theta));
+  }
+  return rays;
+}
+
+Eigen::Vector3d RayOrigin(const Sensor& sensor) {
+  return SeesHemisphere(sensor.response) ? LiftedOff(sensor.position, sensor.normal) : sensor.position;
+}
+
+Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, const Sensor& sensor,
+                                  int ray_count) {
+  const SensorRays sample = SampleResponse(sensor, ray_count);
+  const Eigen::Vector3d start = RayOrigin(sensor);
+  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));
+  for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
+    const RayHit hit = rays.Trace(start, sample.directions.col(k));
+    if (hit.facet < 0 || !hit.front) continue;
+    if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)
+      row[patches.elements[static_cast<size_t>(element)].patch] += 1.0f;
+  }
+  return static_cast<float>(sample.total / static_cast<double>(sample.directions.cols())) * row;
+}
+
+}  // namespace luxfit

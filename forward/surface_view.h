@@ -1,0 +1,62 @@
+// What is seen of a lit room: the luminance along any ray.
+//
+//   L = rho E / pi,   E = E_direct(at the very point, occlusion tested) + E_indirect      cd/m2
+//   L = Phi I(gamma) / (A cos gamma)                a luminous surface seen directly; a sphere: Phi I / (pi
+//   r^2)
+//
+// E_indirect is interpolated between vertices (forward/vertex_interpolation.h) or gathered by rays. Channels
+// are columns of the reflectances: each colour has its own interreflection, the direct light is computed once
+// for all. Backs of facets, and rays that leave the scene, are black. Luminaires do not hide what is behind
+// their backs.
+//
+// Throws std::invalid_argument where the reflectances have not one row a material of the scene.
+// Source: Cohen and Wallace (1993), "Radiosity and Realistic Image Synthesis", ch. 9 (direct light per pixel,
+// interpolated or gathered indirect light).
+#ifndef LUXFIT_FORWARD_SURFACE_VIEW_H_
+#define LUXFIT_FORWARD_SURFACE_VIEW_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/luminaire.h"
+#include "forward/room.h"
+#include "forward/vertex_interpolation.h"
+
+namespace luxfit {
+
+// A room with its light solved; all luminaires on, each with its flux_lm.
+struct LitRoom {
+  std::vector<Luminaire> luminaires;
+  Eigen::MatrixXd albedo;              // materials x channels
+  Eigen::MatrixXf element_direct_lx;   // elements x 1
+  Eigen::MatrixXf patch_exitance;      // patches x channels, lm/m2
+  Eigen::MatrixXf vertex_indirect_lx;  // vertices x channels
+  VertexInterpolation interpolation;
+};
+LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, const Eigen::MatrixXd& albedo);
+
+struct ViewOptions {
+  int luminaire_order = 4;  // points a side of a luminous surface: 16 steps in a penumbra
+  int gather_rays = 0;      // 0: indirect light is interpolated; else gathered by so many rays a point
+};
+
+// Illuminance (lx, one a channel) of a point of a facet's front.
+Eigen::RowVectorXd SurfaceIlluminance(const Room& room, const LitRoom& lit, int facet, double u, double v,
+                                      const ViewOptions& options = {});
+
+// Luminance (rays x channels) seen from `origin` along unit directions.
+Eigen::MatrixXd RenderView(const Room& room, const LitRoom& lit, const Eigen::Vector3d& origin,
+                           const Eigen::Matrix3Xd& directions, const ViewOptions& options = {});
+
+// Illuminance (lx, one a channel) that the exitance (patches x channels) gives a sensor, by its rays
+// (SampleResponse). `back_share`: of them, met the back of a facet, as all do inside a solid.
+struct Gathered {
+  Eigen::RowVectorXd illuminance_lx;
+  double back_share = 0;
+};
+Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& patch_exitance, const Sensor& sensor,
+                           const SensorRays& sensor_rays);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_SURFACE_VIEW_H_
