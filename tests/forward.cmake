@@ -5,6 +5,8 @@ luxfit_test(forward luminaire_test LINK luxfit::forward)
 luxfit_test(forward direct_light_test LINK luxfit::forward)
 luxfit_test(forward form_factors_test LINK luxfit::forward)
 luxfit_test(forward transport_test LINK luxfit::forward)
+luxfit_test(forward solvers_test LINK luxfit::forward)
+luxfit_test(forward sparse_transport_test LINK luxfit::forward)
 luxfit_test(forward room_test LINK luxfit::forward)
 luxfit_test(forward illuminance_test LINK luxfit::forward)
 
