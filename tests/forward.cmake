@@ -7,6 +7,7 @@ luxfit_test(forward form_factors_test LINK luxfit::forward)
 luxfit_test(forward transport_test LINK luxfit::forward)
 luxfit_test(forward solvers_test LINK luxfit::forward)
 luxfit_test(forward sparse_transport_test LINK luxfit::forward)
+luxfit_test(forward light_tracer_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(forward room_test LINK luxfit::forward)
 luxfit_test(forward illuminance_test LINK luxfit::forward)
 

@@ -67,20 +67,21 @@ void Solve(benchmark::State& state, RadiositySolver solver) {
   for (auto _ : state) solution = SolveRadiosity(room.transport, HalfAlbedo(room), direct, options);
   Report(state, solution, room.patches.patches.size());
 }
-#define LUXFIT_SOLVER(name, solver)      \
-  BENCHMARK_CAPTURE(Solve, name, solver) \
-      ->Unit(benchmark::kMillisecond)    \
-      ->UseRealTime()                    \
-      ->ArgsProduct({{400, 200, 120}, {1, 10, 50}})
-LUXFIT_SOLVER(lu, RadiositySolver::kLu);
-LUXFIT_SOLVER(cholesky, RadiositySolver::kCholesky);
-LUXFIT_SOLVER(jacobi, RadiositySolver::kJacobi);
-LUXFIT_SOLVER(gauss_seidel, RadiositySolver::kGaussSeidel);
-LUXFIT_SOLVER(neumann, RadiositySolver::kNeumann);
-LUXFIT_SOLVER(shooting, RadiositySolver::kShooting);
-LUXFIT_SOLVER(conjugate_gradient, RadiositySolver::kConjugateGradient);
-LUXFIT_SOLVER(bicgstab, RadiositySolver::kBicgstab);
-LUXFIT_SOLVER(auto, RadiositySolver::kAuto);
+void SizesAndColumns(benchmark::internal::Benchmark* run) {
+  run->Unit(benchmark::kMillisecond)->UseRealTime()->ArgsProduct({{400, 200, 120}, {1, 10, 50}});
+}
+BENCHMARK_CAPTURE(Solve, lu, RadiositySolver::kLu)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, cholesky, RadiositySolver::kCholesky)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, jacobi, RadiositySolver::kJacobi)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, gauss_seidel, RadiositySolver::kGaussSeidel)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, neumann, RadiositySolver::kNeumann)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, shooting, RadiositySolver::kShooting)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->ArgsProduct({{400, 200, 120}, {1}});  // tens of thousands of shots a column
+BENCHMARK_CAPTURE(Solve, conjugate_gradient, RadiositySolver::kConjugateGradient)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, bicgstab, RadiositySolver::kBicgstab)->Apply(SizesAndColumns);
+BENCHMARK_CAPTURE(Solve, auto, RadiositySolver::kAuto) -> Apply(SizesAndColumns);
 
 // Coupling stored sparsely, patches of one element; the time is that of the solution alone.
 void SolveSparse(benchmark::State& state) {
