@@ -10,7 +10,7 @@
 #include "apps/internal/session_scene.h"
 #include "apps/suggest.h"
 #include "forward/form_factors.h"
-#include "forward/scene.h"
+#include "forward/mesh_file.h"
 
 namespace luxfit {
 namespace {

@@ -89,19 +89,4 @@ double ReciprocityError(const Patches& patches, const FormFactors& form_factors)
   return size > 0 ? (flow - flow.transpose()).norm() / size : 0;
 }
 
-Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches,
-                                  const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
-                                  int ray_count) {
-  Element point;
-  point.center = p_in_world;
-  point.normal = normal;
-  point.origin = p_in_world;
-  point.edge_u.setZero();
-  point.edge_v.setZero();
-  point.patch = -1;
-  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));
-  RayRows(rays, patches, FormFactorMethod::kMalley, ray_count).Cast(point, 0, row.data());
-  return row;
-}
-
 }  // namespace luxfit

@@ -85,12 +85,6 @@ FormFactors ComputeFormFactors(const RayScene& rays, const Patches& patches,
 // their elements.
 double ReciprocityError(const Patches& patches, const FormFactors& form_factors);
 
-// One row for a sensor point with a cosine response (a luxmeter): share of its irradiance from each patch's
-// exitance.
-Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches,
-                                  const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
-                                  int ray_count = 16384);
-
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_FORM_FACTORS_H_

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/sampling.h"
+
 namespace luxfit {
 namespace {
 
@@ -76,31 +78,13 @@ class Tabulated {
   std::vector<double> cumulative_ = std::vector<double>(kCells + 1);
 };
 
-// Points that share the unit disc evenly, as (squared radius, turns).
-std::vector<Eigen::Vector2d> Isocell(int count) {
-  constexpr int kFirstRing = 3;
-  constexpr double kGolden = 0.61803398874989485;
-  const int rings =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(count / static_cast<double>(kFirstRing)))));
-  std::vector<Eigen::Vector2d> cells;
-  for (int i = 1; i <= rings; ++i) {
-    const int in_ring = kFirstRing * (2 * i - 1);
-    const double inner = i - 1, outer = i;
-    const double share = (inner * inner + outer * outer) / (2.0 * rings * rings);
-    // Rings are turned against one another, so that no spoke of rays runs along an edge of the room.
-    const double turn = i * kGolden - std::floor(i * kGolden);
-    for (int k = 0; k < in_ring; ++k) cells.emplace_back(share, (k + turn) / in_ring);
-  }
-  return cells;
-}
-
 // Points that share the unit square evenly: the additive recurrence of the plastic number (x^3 = x + 1).
 std::vector<Eigen::Vector2d> Recurrence(int count) {
   constexpr double kStepX = 0.75487766624669276, kStepY = 0.56984029099805327;
   std::vector<Eigen::Vector2d> points;
   for (int k = 1; k <= count; ++k) {
     const double x = 0.5 + kStepX * k, y = 0.5 + kStepY * k;
-    points.emplace_back(x - std::floor(x), y - std::floor(y));
+    points.emplace_back(Fraction(x), Fraction(y));
   }
   return points;
 }

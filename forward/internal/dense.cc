@@ -5,6 +5,8 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <vector>
+
 #include "forward/dense_product.h"
 
 namespace luxfit {
@@ -21,7 +23,7 @@ void KeepBlasOnCallingThread() {
   static_cast<void>(once);
 }
 
-constexpr Eigen::Index kRowsPerTask = 512, kColumnsPerTask = 8;
+constexpr Eigen::Index kRowsPerTask = 512, kRowsPerVectorTask = 64, kColumnsPerTask = 8;
 
 }  // namespace
 
@@ -45,20 +47,45 @@ void CholeskySolveInPlace(const Eigen::MatrixXf& lower, Eigen::MatrixXf& right) 
                     });
 }
 
-Eigen::MatrixXf Product(const FormFactorMatrix& a, const Eigen::MatrixXf& b) {
+bool LuSolveInPlace(Eigen::MatrixXf& matrix, Eigen::MatrixXf& right) {
   KeepBlasOnCallingThread();
-  Eigen::MatrixXf c(a.rows(), b.cols());
+  const lapack_int n = static_cast<lapack_int>(matrix.rows()),
+                   columns = static_cast<lapack_int>(right.cols());
+  std::vector<lapack_int> pivots(static_cast<size_t>(n));
+  lapack_int info = 0;
+  LAPACK_sgesv(&n, &columns, matrix.data(), &n, pivots.data(), right.data(), &n, &info);
+  return info == 0;
+}
+
+Eigen::MatrixXf RowsProduct(const FormFactorMatrix& a, Eigen::Index first, Eigen::Index count,
+                            const Eigen::MatrixXf& b) {
+  KeepBlasOnCallingThread();
+  Eigen::MatrixXf c(count, b.cols());
   if (c.size() == 0) return c;
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, a.rows(), kRowsPerTask),
+  const int inner = static_cast<int>(a.cols());
+  if (b.cols() == 1) {  // gemm packs its operands: one pass too many where memory is the limit
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, kRowsPerVectorTask),
+                      [&](const tbb::blocked_range<Eigen::Index>& range) {
+                        cblas_sgemv(CblasColMajor, CblasTrans, inner, static_cast<int>(range.size()), 1.0f,
+                                    a.row(first + range.begin()).data(), inner, b.data(), 1, 0.0f,
+                                    c.data() + range.begin(), 1);
+                      });
+    return c;
+  }
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, kRowsPerTask),
                     [&](const tbb::blocked_range<Eigen::Index>& range) {
                       // Rows of a, row-major, are columns of its transpose.
                       cblas_sgemm(CblasColMajor, CblasTrans, CblasNoTrans, static_cast<int>(range.size()),
-                                  static_cast<int>(b.cols()), static_cast<int>(a.cols()), 1.0f,
-                                  a.row(range.begin()).data(), static_cast<int>(a.cols()), b.data(),
+                                  static_cast<int>(b.cols()), inner, 1.0f,
+                                  a.row(first + range.begin()).data(), inner, b.data(),
                                   static_cast<int>(b.rows()), 0.0f, c.data() + range.begin(),
                                   static_cast<int>(c.rows()));
                     });
   return c;
+}
+
+Eigen::MatrixXf Product(const FormFactorMatrix& a, const Eigen::MatrixXf& b) {
+  return RowsProduct(a, 0, a.rows(), b);
 }
 
 }  // namespace luxfit

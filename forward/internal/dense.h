@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "forward/form_factors.h"
+
 namespace luxfit {
 
 // Lower Cholesky factor in place (column-major, only the lower triangle is read and written); false: not
@@ -12,6 +14,11 @@ namespace luxfit {
 bool CholeskyInPlace(Eigen::MatrixXf& lower);
 // Solves L L^T X = B in place.
 void CholeskySolveInPlace(const Eigen::MatrixXf& lower, Eigen::MatrixXf& right);
+// Solves A X = B by LU with partial pivoting, both in place; false: singular.
+bool LuSolveInPlace(Eigen::MatrixXf& matrix, Eigen::MatrixXf& right);
+// Rows [first, first + count) of a b.
+Eigen::MatrixXf RowsProduct(const FormFactorMatrix& a, Eigen::Index first, Eigen::Index count,
+                            const Eigen::MatrixXf& b);
 
 }  // namespace luxfit
 

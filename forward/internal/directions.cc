@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "forward/internal/sampling.h"
+
 namespace luxfit {
 namespace {
 
@@ -16,13 +18,7 @@ class Collector {
     unit_.push_back(direction.normalized().cast<float>());
     weight_.push_back(static_cast<float>(weight));
   }
-  // Malley's method: a point of the unit disc (its radius squared, its angle in turns) lifted to the
-  // hemisphere.
-  void AddLifted(double radius2, double turn, double weight) {
-    const double radius = std::sqrt(radius2), angle = 2 * kPi * turn;
-    Add({radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(1e-12, 1 - radius2))},
-        weight);
-  }
+  void AddLifted(double radius2, double turns, double weight) { Add(LiftedFromDisc(radius2, turns), weight); }
   Directions Get() const {
     Directions set;
     set.unit.resize(3, static_cast<Eigen::Index>(unit_.size()));
@@ -38,8 +34,6 @@ class Collector {
   std::vector<Eigen::Vector3f> unit_;
   std::vector<float> weight_;
 };
-
-double Fraction(double x) { return x - std::floor(x); }
 
 void AddMalley(int count, uint64_t variant, Collector& set) {
   // Dimensions 1 and 2 of the additive recurrence of the generalised golden ratio (x^5 = x + 1); 3 and 4 are
@@ -62,16 +56,9 @@ void AddStratified(int count, uint64_t variant, Collector& set) {
 }
 
 void AddIsocell(int count, Collector& set) {
-  // Ring i of n holds 3 (2 i - 1) cells, so that all have the same area; every second ring is turned by half
-  // a cell.
-  const int rings = std::max(1, static_cast<int>(std::lround(std::sqrt(count / 3.0))));
-  for (int i = 1; i <= rings; ++i) {
-    const int cells = 3 * (2 * i - 1);
-    const double radius = (i - 0.5) / rings;
-    for (int k = 0; k < cells; ++k) {
-      set.AddLifted(radius * radius, (k + (i % 2 == 0 ? 0.5 : 0)) / cells, 1.0 / (3.0 * rings * rings));
-    }
-  }
+  const std::vector<Eigen::Vector2d> cells = Isocell(count);
+  for (const Eigen::Vector2d& cell : cells)
+    set.AddLifted(cell[0], cell[1], 1.0 / static_cast<double>(cells.size()));
 }
 
 void AddMonteCarlo(int count, uint64_t variant, Collector& set) {
@@ -131,13 +118,6 @@ void AddSinglePlane(int count, Collector& set) {
 }
 
 }  // namespace
-
-uint64_t Mix(uint64_t x) {
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
 
 Directions MakeDirections(FormFactorMethod method, int count, uint64_t variant) {
   Collector set;

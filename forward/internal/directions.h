@@ -13,10 +13,6 @@
 
 namespace luxfit {
 
-// SplitMix64 (Steele et al. 2014): a well-mixed hash, and the next state of a small random generator.
-uint64_t Mix(uint64_t x);
-inline double UnitFrom(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
-
 struct Directions {
   Eigen::Matrix3Xf unit;
   Eigen::VectorXf weight;

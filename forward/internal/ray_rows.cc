@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "forward/internal/sampling.h"
+
 namespace luxfit {
 namespace {
 
@@ -72,6 +74,15 @@ RayRows::RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod 
 }
 
 RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) const {
+  const RayTally tally = Cast(receiver, index, [row](int patch, float weight) { row[patch] += weight; });
+  if (tally.scale != 1) {
+    Eigen::Map<Eigen::VectorXf>(row, static_cast<Eigen::Index>(patches_.patches.size())) *=
+        static_cast<float>(tally.scale);
+  }
+  return tally;
+}
+
+RayTally RayRows::Cast(const Element& receiver, uint64_t index, const HitSink& add) const {
   const uint64_t hash = Mix(index);
   Directions fresh;
   if (variants_.empty()) fresh = MakeDirections(method_, count_, hash);
@@ -98,7 +109,7 @@ RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) cons
       if (element < 0) {
         tally.back += weight;
       } else {
-        row[patches_.elements[static_cast<size_t>(element)].patch] += weight;
+        add(patches_.elements[static_cast<size_t>(element)].patch, weight);
         landed += weight;
       }
     }
@@ -108,10 +119,8 @@ RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) cons
   // share.
   const double counted = landed + tally.escaped;
   if (tally.back > 0 && counted > 0) {
-    const double scale = (counted + tally.back) / counted;
-    Eigen::Map<Eigen::VectorXf>(row, static_cast<Eigen::Index>(patches_.patches.size())) *=
-        static_cast<float>(scale);
-    tally.escaped *= scale;
+    tally.scale = (counted + tally.back) / counted;
+    tally.escaped *= tally.scale;
   }
   return tally;
 }

@@ -5,6 +5,7 @@
 #ifndef LUXFIT_FORWARD_INTERNAL_RAY_ROWS_H_
 #define LUXFIT_FORWARD_INTERNAL_RAY_ROWS_H_
 
+#include <functional>
 #include <vector>
 
 #include "forward/form_factors.h"
@@ -14,6 +15,7 @@ namespace luxfit {
 
 struct RayTally {
   double escaped = 0, back = 0;  // in weight
+  double scale = 1;              // of what the others brought, for the rays that met a back
   int64_t rays = 0;
 
   // The bottom of a cabinet, which lies in the floor, faces out of the room: what it sees is no loss of
@@ -27,6 +29,9 @@ class RayRows {
  public:
   RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod method, int count);
 
+  // Calls add(patch, weight) for every ray that meets a patch; weights are still to be scaled by tally.scale.
+  using HitSink = std::function<void(int, float)>;
+  RayTally Cast(const Element& receiver, uint64_t index, const HitSink& add) const;
   // Adds the row of a receiver to `row` (patches), which is zero; `index` seeds its shifts.
   RayTally Cast(const Element& receiver, uint64_t index, float* row) const;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forward/internal/directions.h"
+#include "forward/internal/sampling.h"
 
 namespace luxfit {
 namespace {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "forward/form_factors.h"
+#include "forward/mesh_file.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "forward/illuminance.h"
+#include "forward/mesh_file.h"
 #include "forward/room.h"
 
 namespace luxfit {

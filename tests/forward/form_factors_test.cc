@@ -59,26 +59,6 @@ TEST(FormFactors, OfACubeAreItsClosedForms) {
   EXPECT_NEAR(mean_opposite, kOpposite, 3 * SamplingSigma(0.2, 600 * kRays));
 }
 
-TEST(FormFactors, OfASensorToTheCeilingIsTheRectanglesClosedForm) {
-  const Eigen::Vector3d size(3, 2, 2.5);
-  const Ready room = MakeReady(support::ClosedRoom(size), {1, 0.5});
-  const Eigen::Vector3d p(1.5, 1, 0);
-  constexpr int kRays = 16384;
-  const Eigen::VectorXf row = SensorFormFactors(room.rays, room.patches, p, {0, 0, 1}, kRays);
-  double ceiling = 0;
-  for (size_t j = 0; j < room.patches.patches.size(); ++j) {
-    const Patch& patch = room.patches.patches[j];
-    if (patch.facet != 5) continue;
-    // The ceiling is cut into 1 x 1 m: each has its own closed form.
-    const double expected = support::RectangleFactor(patch.center, 1, 1, p);
-    ceiling += row[static_cast<Eigen::Index>(j)];
-    EXPECT_NEAR(row[static_cast<Eigen::Index>(j)], expected, 4 * SamplingSigma(expected, kRays));
-  }
-  const double expected = support::RectangleFactor({1.5, 1, 2.5}, 3, 2, p);
-  EXPECT_NEAR(ceiling, expected, 3 * SamplingSigma(expected, kRays));
-  EXPECT_NEAR(row.sum(), 1, 1e-5);  // float rounding
-}
-
 TEST(FormFactors, AnOpenBoxReportsWhatEscapes) {
   Scene open = support::ClosedRoom({1, 1, 1});
   open.facets.pop_back();  // its lid

@@ -9,65 +9,18 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 
 #include "forward/illuminance.h"
 #include "forward/mesh_file.h"
 #include "forward/room.h"
+#include "tests/support/office_truth.h"
 
 namespace luxfit {
 namespace {
 
-const std::string kFolder = std::string(LUXFIT_FIXTURES) + "/office/";
 // Of R, G, B in luminance, as in truth.json's renderer and the session format.
 const Eigen::Vector3d kLuminanceWeights(0.265, 0.670, 0.065);
-
-Eigen::Vector3d VectorOf(const nlohmann::json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-std::vector<std::vector<std::string>> ReadTable(const std::string& name) {
-  std::ifstream file(kFolder + name);
-  if (!file) throw std::runtime_error(kFolder + name + ": expected a table, found none");
-  std::vector<std::vector<std::string>> rows;
-  for (std::string line; std::getline(file, line);) {
-    rows.emplace_back();
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-  }
-  return rows;
-}
-
-// Panels: flat, Lambertian, half sides u and v. Downlights: points with the intensity of cos^3.
-Luminaire TrueLuminaire(const nlohmann::json& json) {
-  Luminaire lamp;
-  lamp.id = json.at("id");
-  lamp.position = VectorOf(json.at("position"));
-  lamp.flux_lm = json.at("flux_lm");
-  if (json.at("kind") == "panel") {
-    const Eigen::Vector3d u = VectorOf(json.at("u")), v = VectorOf(json.at("v"));
-    lamp.shape = LuminaireShape::kRectangle;
-    lamp.heading = u.normalized();
-    lamp.size_m = {2 * u.norm(), 2 * v.norm()};
-  } else {
-    lamp.distribution = Distribution::kCosinePower;
-    lamp.cosine_exponent = 3;
-  }
-  return lamp;
-}
-
-// The eight points, in the order of their first readings.
-std::vector<Sensor> SensorsOf(const std::vector<std::vector<std::string>>& readings, size_t count) {
-  std::vector<Sensor> sensors;
-  for (size_t i = 1; i <= count; ++i) {
-    const auto at = [&](size_t column) { return std::stod(readings.at(i).at(column)); };
-    sensors.push_back({{at(1), at(2), at(3)}, {at(4), at(5), at(6)}});
-  }
-  return sensors;
-}
 
 // receivers x luminaires, lx. Reflectances have colours, so each channel has its own interreflection.
 Eigen::MatrixXd PredictLux(const Room& room, const std::vector<Luminaire>& lamps,
@@ -88,17 +41,18 @@ Eigen::MatrixXd PredictLux(const Room& room, const std::vector<Luminaire>& lamps
 }
 
 TEST(OfficeForward, AgreesWithTheRendererToOnePercent) {
-  const nlohmann::json truth = nlohmann::json::parse(std::ifstream(kFolder + "truth.json"));
-  const std::vector<std::vector<std::string>> expected = ReadTable("truth_lux_per_lamp.csv");
+  const nlohmann::json truth = support::OfficeTruth();
+  const std::vector<std::vector<std::string>> expected = support::OfficeTable("truth_lux_per_lamp.csv");
   std::vector<Luminaire> lamps;
-  for (const nlohmann::json& lamp : truth.at("lamps")) lamps.push_back(TrueLuminaire(lamp));
+  for (const nlohmann::json& lamp : truth.at("lamps")) lamps.push_back(support::OfficeLuminaire(lamp));
   const size_t points = expected.at(0).size() - 1;
   ASSERT_EQ(expected.size(), lamps.size() + 1);
   ASSERT_EQ(points, 8u);
 
-  const Room room = MakeRoom(ReadScene(kFolder + "room.obj"));
+  const Room room = MakeRoom(ReadScene(support::kOfficeFolder + "room.obj"));
   const Eigen::MatrixXd lux =
-      PredictLux(room, lamps, SensorsOf(ReadTable("luxmeter.csv"), points), truth.at("materials"));
+      PredictLux(room, lamps, support::OfficeSensors(support::OfficeTable("luxmeter.csv"), points),
+                 truth.at("materials"));
 
   double squares = 0, worst = 0;
   std::printf("error of predicted lux, %% of the reading\nlamp");
