@@ -1,0 +1,63 @@
+#include "forward/adjoint.h"
+
+#include <stdexcept>
+
+#include "forward/internal/direct_columns.h"
+
+namespace luxfit {
+namespace {
+
+// What a lux of direct light at each patch adds to the sum, and what a lm/m2 emitted there does.
+struct Importance {
+  Eigen::VectorXf direct;    // b = rho a
+  Eigen::VectorXf exitance;  // a
+};
+
+Importance ComputeImportance(const Room& room, const Transport& transport, const Eigen::VectorXf& gathered) {
+  // F^T x = A F (x / A), by reciprocity: the forward solver serves the adjoint too.
+  const auto area = room.transport.patch_area_m2.array();
+  Importance importance;
+  importance.direct = area * transport.Exitance((gathered.array() / area).matrix()).col(0).array();
+  importance.exitance =
+      gathered.array() + area * transport.Irradiance((importance.direct.array() / area).matrix()).col(0).array();
+  return importance;
+}
+
+}  // namespace
+
+AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+                                  const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
+                                  const Eigen::VectorXd& weights, const std::vector<LuminaireParameter>& parameters) {
+  if (weights.size() != receivers.count())
+    throw std::invalid_argument("ComputeAdjoint: expected one weight for every receiver");
+  const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
+  const Eigen::Index patches = static_cast<Eigen::Index>(room.patches.patches.size());
+  Eigen::VectorXd flux(lamps);
+  for (Eigen::Index k = 0; k < lamps; ++k) flux[k] = luminaires[static_cast<size_t>(k)].flux_lm;
+  const DirectColumns direct = ComputeDirectColumns(room, receivers, visibility, luminaires, parameters);
+  // J per lm or per unit of each column of direct light.
+  Eigen::VectorXd per_column = direct.receivers.cast<double>().transpose() * weights;
+  AdjointDerivatives result;
+  result.d_patch_albedo.setZero(patches);
+  result.d_albedo.setZero(albedo.size());
+  if (patches > 0) {
+    const Transport transport(room.transport, albedo);
+    const Eigen::VectorXf gathered = receivers.gather.transpose() * weights.cast<float>();
+    const Importance importance = ComputeImportance(room, transport, gathered);
+    const Eigen::MatrixXf at_patches = PatchMean(room.patches, direct.elements);
+    per_column += (at_patches.transpose() * importance.direct).cast<double>();
+    const Eigen::VectorXf lit = at_patches.leftCols(lamps) * flux.cast<float>();
+    const Eigen::VectorXf total = lit + transport.Irradiance(transport.Exitance(lit)).col(0);
+    result.d_patch_albedo = importance.exitance.cwiseProduct(total).cast<double>();
+    for (Eigen::Index i = 0; i < patches; ++i)
+      result.d_albedo[room.transport.patch_material[static_cast<size_t>(i)]] += result.d_patch_albedo[i];
+  }
+  result.d_flux = per_column.head(lamps);
+  result.sum_lx = result.d_flux.dot(flux);
+  result.d_parameters = per_column.tail(static_cast<Eigen::Index>(parameters.size()));
+  for (size_t p = 0; p < parameters.size(); ++p)
+    result.d_parameters[static_cast<Eigen::Index>(p)] *= flux[parameters[p].luminaire];
+  return result;
+}
+
+}  // namespace luxfit
