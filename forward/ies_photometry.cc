@@ -148,7 +148,7 @@ std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
   if (!opening.note.empty()) notes.push_back(opening.note);
   if (file.tilt.source != "NONE") {
     notes.push_back(file.tilt.angle_deg.empty()
-                        ? "the TILT file " + file.tilt.source + " was not read: its factors are left out"
+                        ? "the TILT file was not read: its factors are left out"
                         : "of the TILT factors only that of 0 degrees was used");
   }
   const double last = file.horizontal_deg.back();

@@ -35,8 +35,8 @@ struct Luminaire {
   Eigen::Vector3d aim{0, 0, -1};                       // unit: direction of gamma = 0
   Eigen::Vector3d heading{1, 0, 0};                    // unit: the C0 half-plane, direction of size_m[0]
   Distribution distribution = Distribution::kLambertian;
-  double cosine_exponent = 1;                   // m, of cosine-power only; > 0
-  std::shared_ptr<const IntensityTable> table;  // of measured only; normalised to 1 lm
+  double cosine_exponent = 1;                             // m, of cosine-power only; > 0
+  std::shared_ptr<const IntensityTable> table = nullptr;  // of measured only; normalised to 1 lm
   LuminaireShape shape = LuminaireShape::kPoint;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
   double flux_lm = 1;

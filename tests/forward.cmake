@@ -23,6 +23,8 @@ luxfit_test(forward sparse_transport_test LINK luxfit::forward)
 luxfit_test(forward light_tracer_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(forward room_test LINK luxfit::forward)
 luxfit_test(forward illuminance_test LINK luxfit::forward)
+luxfit_test(forward colour_illuminance_test LINK luxfit::forward)
+luxfit_test(forward placement_test LINK luxfit::forward)
 
 luxfit_test(validation office_forward_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(validation office_view_test LINK luxfit::forward luxfit::calib nlohmann_json::nlohmann_json)

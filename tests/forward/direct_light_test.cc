@@ -237,10 +237,10 @@ TEST(DirectLight, AMeasuredLobeIsTurnedWithItsLamp) {
   // At a wall, heading still +y: the luminaire's +y = +z x +x is -z of the world, so C90 is down.
   lamp.aim = {1, 0, 0};
   const Eigen::Vector3d wall(-1, 0, 0);
-  E0 .5 * kPiPECT_NEAR(LxPerLm(lamp, {1, 0, 1}, wall) / (cd_per_lm(0.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2),
-                       1, 1e-12);
-  E0 .5 * kPiPECT_NEAR(LxPerLm(lamp, {1, 0, 3}, wall) / (cd_per_lm(1.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2),
-                       1, 1e-12);
+  EXPECT_NEAR(LxPerLm(lamp, {1, 0, 1}, wall) / (cd_per_lm(0.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2), 1,
+              1e-12);
+  EXPECT_NEAR(LxPerLm(lamp, {1, 0, 3}, wall) / (cd_per_lm(1.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2), 1,
+              1e-12);
 }
 
 TEST(DirectLight, AMeasuredLambertianIsALambertian) {
