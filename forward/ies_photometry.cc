@@ -147,9 +147,8 @@ std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
   std::vector<std::string> notes = file.notes;
   if (!opening.note.empty()) notes.push_back(opening.note);
   if (file.tilt.source != "NONE") {
-    notes.push_back(file.tilt.angle_deg.empty()
-                        ? "the TILT file was not read: its factors are left out"
-                        : "of the TILT factors only that of 0 degrees was used");
+    notes.push_back(file.tilt.angle_deg.empty() ? "the TILT file was not read: its factors are left out"
+                                                : "of the TILT factors only that of 0 degrees was used");
   }
   const double last = file.horizontal_deg.back();
   if (file.type == IesType::kC && last > 180 && last < 360 && file.horizontal_deg.front() == 0)

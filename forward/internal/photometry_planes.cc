@@ -12,6 +12,7 @@ constexpr int kResampleCDeg = 5, kResampleGammaDeg = 1;  // no coarser than what
 
 std::vector<double> DegFromRad(const std::vector<double>& rad) {
   std::vector<double> deg;
+  deg.reserve(rad.size());
   // Rounded to what was in the file before it was turned into rad.
   for (const double r : rad) deg.push_back(std::round(r * 180 / kPi * 1e9) / 1e9);
   return deg;
