@@ -44,6 +44,15 @@ int RunCommand(const CommandOptions& options) {
   return context.undetermined ? 1 : 0;
 }
 
+int SimulateCommand(const CommandOptions& options) {
+  const Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = SimulateSession(session, context);
+  Print(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/illuminance.csv").c_str());
+  return 0;
+}
+
 int RegisterCommand(const CommandOptions& options) {
   const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);

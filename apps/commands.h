@@ -18,6 +18,8 @@ struct CommandOptions {
 };
 
 int RunCommand(const CommandOptions& options);
+// Forward only: writes OUT/illuminance.csv and OUT/stages/simulate.json.
+int SimulateCommand(const CommandOptions& options);
 int RegisterCommand(const CommandOptions& options);
 // Reads OUT/result.json.
 int CheckCommand(const CommandOptions& options);

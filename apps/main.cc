@@ -74,6 +74,8 @@ int main(int argc, char** argv) {
           luxfit::RunCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
+      add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,
+          luxfit::SimulateCommand),
       add("check", "measured against predicted luxmeter readings of an earlier run", false,
           luxfit::CheckCommand)};
 

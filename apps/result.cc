@@ -75,7 +75,7 @@ json SizeJson(const Luminaire& luminaire) {
   return json::array({luminaire.size_m[0]});
 }
 
-json LuminairesJson(const SessionFit& fit) {
+json LuminairesJson(const Session& session, const SessionFit& fit) {
   json luminaires = json::array();
   for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
     if (!fit.luminaire_found[k]) continue;
@@ -84,15 +84,17 @@ json LuminairesJson(const SessionFit& fit) {
     const auto sigma = [&](LuminaireQuantity quantity) {
       return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
     };
-    json entry = {{"id", luminaire.id},
-                  {"position_m", Vector(luminaire.position)},
-                  {"position_sigma_m",
-                   {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
-                    sigma(LuminaireQuantity::kPositionZ)}},
-                  {"aim", Vector(luminaire.aim)},
-                  {"photometry", ToString(luminaire.distribution)},
-                  {"shape", ToString(luminaire.shape)},
-                  {"size_m", SizeJson(luminaire)}};
+    json entry = {
+        {"id", luminaire.id},
+        {"position_m", Vector(luminaire.position)},
+        {"position_sigma_m",
+         {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
+          sigma(LuminaireQuantity::kPositionZ)}},
+        {"aim", Vector(luminaire.aim)},
+        {"photometry", luminaire.distribution == Distribution::kMeasured ? session.luminaires[k].photometry
+                                                                         : ToString(luminaire.distribution)},
+        {"shape", ToString(luminaire.shape)},
+        {"size_m", SizeJson(luminaire)}};
     // Without an absolute scale a number of lumens would be made up.
     entry["flux_lm"] = fit.absolute ? json(luminaire.flux_lm) : json();
     entry["flux_sigma_lm"] =
@@ -157,6 +159,20 @@ void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
 
 }  // namespace
 
+json ChoicesJson(const RunContext& context) {
+  json choices = json::array();
+  for (const Choice& c : context.choices)
+    choices.push_back({{"what", c.what}, {"chosen", c.chosen}, {"among", c.among}, {"because", c.because}});
+  return choices;
+}
+
+json WarningsJson(const RunContext& context) {
+  json warnings = json::array();
+  for (const Warning& w : context.warnings)
+    warnings.push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
+  return warnings;
+}
+
 json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
                 const SessionFit& fit, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
@@ -165,17 +181,10 @@ json ResultJson(const Session& session, const Room& room, const RegisteredSessio
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
-  result["luminaires"] = LuminairesJson(fit);
+  result["luminaires"] = LuminairesJson(session, fit);
   AddLuxmeter(session, fit, result);
-  result["choices"] = json::array();
-  for (const Choice& c : context.choices) {
-    result["choices"].push_back(
-        {{"what", c.what}, {"chosen", c.chosen}, {"among", c.among}, {"because", c.because}});
-  }
-  result["warnings"] = json::array();
-  for (const Warning& w : context.warnings) {
-    result["warnings"].push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
-  }
+  result["choices"] = ChoicesJson(context);
+  result["warnings"] = WarningsJson(context);
   result["timing_s"] = context.timing_s;
   result["model"] = {{"patches", room.patches.patches.size()},
                      {"elements", room.patches.elements.size()},

@@ -71,6 +71,29 @@ std::string LuxmeterTable(const json& result) {
   return text;
 }
 
+std::string SimulationTable(const json& artifact) {
+  std::string text = fmt::format("session {}: simulated\n", artifact["session"].get<std::string>());
+  text += "\nreading      state               lx      direct    indirect  measured lx  error %\n";
+  for (const json& r : artifact["luxmeter"]) {
+    const double predicted = r["predicted_lux"].get<double>();
+    const double measured = r["measured_lux"].is_number() ? r["measured_lux"].get<double>() : 0;
+    text +=
+        fmt::format("{:<12} {:<10} {:>11.2f} {:>11.2f} {:>11.2f} {:>12} {:>8}\n", r["id"].get<std::string>(),
+                    r["state"].get<std::string>(), predicted, r["direct_lux"].get<double>(),
+                    r["indirect_lux"].get<double>(), Number(r["measured_lux"], "{:.2f}"),
+                    measured > 0 ? fmt::format("{:+.2f}", 100 * (predicted / measured - 1)) : "-");
+  }
+  const json& s = artifact["summary"];
+  if (s["readings_checked"].get<int>() > 0) {
+    text += fmt::format(
+        "compared with {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest "
+        "{:.2f} %\n",
+        s["readings_checked"].get<int>(), s["mean_abs_error_lux"].get<double>(),
+        s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
+  }
+  return text + WarningText(artifact);
+}
+
 std::string WarningText(const json& result) {
   std::string text;
   for (const json& w : result["warnings"]) {

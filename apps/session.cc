@@ -71,6 +71,7 @@ std::vector<std::string> InputFiles(const Session& session) {
   for (const SessionPhoto& photo : session.photos) add(photo.file);
   add(session.luxmeter.readings_path);
   add(session.luxmeter.sensitivity_path);
+  for (const SessionLuminaire& luminaire : session.luminaires) add(luminaire.photometry_path);
   return files;
 }
 
@@ -91,7 +92,7 @@ Session ReadSession(const std::string& path) {
   if (const auto registration = root.Find("registration"))
     session.registration_method = ReadRegistrationSection(*registration);
   if (const auto cameras = root.Find("camera")) session.cameras = ReadCameras(*cameras, folder);
-  session.luminaires = ReadLuminaires(root);
+  session.luminaires = ReadLuminaires(root, folder);
   session = WithTables(root, folder, std::move(session));
   session.input_files = InputFiles(session);
   return session;

@@ -26,7 +26,8 @@ struct SessionScene {
   std::string mesh;  // absolute path
   double metres_per_unit = 1;
   std::string unit = "m";
-  std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance
+  std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance, in [0, 1)
+  int line = 0;                                             // of [scene.albedo], else of [scene]
 };
 
 struct SessionTags {
@@ -61,7 +62,10 @@ struct SessionState {
 
 struct SessionLuminaire {
   std::string id;
-  std::string photometry = "auto";   // isotropic | lambertian | cosine_power | auto | a path to .ies or .ldt
+  std::string photometry =
+      "auto";                   // isotropic | lambertian | cosine_power | auto | a file as the session has it
+  std::string photometry_path;  // absolute path of that .ies or .ldt; empty: none
+  std::optional<double> cosine_exponent;
   std::optional<std::string> shape;  // point | disc | rectangle | sphere
   std::vector<double> size_m;
   std::optional<Eigen::Vector3d> position_m;
@@ -70,6 +74,7 @@ struct SessionLuminaire {
   std::optional<Eigen::Vector3d> heading;  // unit
   std::optional<double> flux_lm;
   std::optional<double> flux_sigma_lm;
+  int line = 0;  // of its [[luminaire]]; 0: only named in [states]
 };
 
 enum class ReadingRole { kFit, kScale, kCheck };

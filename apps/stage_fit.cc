@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/given_luminaire.h"
 #include "apps/stages.h"
 #include "inverse/albedo_rgb.h"
 #include "inverse/first_guess.h"
@@ -20,20 +21,6 @@ constexpr double kUnknownMeterSigma = 0.02;
 constexpr int kMaxElementsToChoose = 3000;
 // A material with fewer observed elements is as good as unseen.
 constexpr int kMinElementsOfMaterial = 3;
-
-Distribution DistributionFrom(const std::string& photometry) {
-  if (photometry == "isotropic") return Distribution::kIsotropic;
-  if (photometry == "lambertian") return Distribution::kLambertian;
-  return Distribution::kCosinePower;
-}
-
-LuminaireShape ShapeFrom(const SessionLuminaire& given) {
-  const std::string shape = given.shape.value_or("point");
-  if (shape == "disc") return LuminaireShape::kDisc;
-  if (shape == "rectangle") return LuminaireShape::kRectangle;
-  if (shape == "sphere") return LuminaireShape::kSphere;
-  return LuminaireShape::kPoint;
-}
 
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
@@ -66,8 +53,9 @@ class FitStage {
       std::vector<OpenChoice> open;
       for (size_t k = 0; k < start_.luminaires.size(); ++k) {
         const SessionLuminaire& given = session_.luminaires[k];
-        open.push_back({given.photometry == "auto" && result_.luminaire_found[k],
-                        !given.shape.has_value() && result_.luminaire_found[k]});
+        open.push_back(
+            {given.photometry == "auto" && result_.luminaire_found[k],
+             !given.shape.has_value() && given.photometry_path.empty() && result_.luminaire_found[k]});
       }
       const ModelChoice choice = [&] {
         const StageTimer choose_timer(context_, "choose",
@@ -173,20 +161,17 @@ class FitStage {
   void AddLuminaire(const FirstGuess& guess, int index) {
     const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(index)];
     const LuminaireGuess& guessed = guess.luminaires[static_cast<size_t>(index)];
-    Luminaire luminaire;
+    const GivenLuminaire known = ReadGivenLuminaire(given);
+    Luminaire luminaire = known.luminaire;
     FreeQuantities free;
-    luminaire.id = given.id;
-    luminaire.distribution = DistributionFrom(given.photometry);
-    luminaire.shape = ShapeFrom(given);
+    RecordGivenPhotometry(known, context_);
     const bool automatic = given.photometry == "auto";
     if (automatic && guessed.found) luminaire.cosine_exponent = std::max(1.0, guessed.cosine_exponent);
     free.exponent = luminaire.distribution == Distribution::kCosinePower;
-    luminaire.size_m.setConstant(0.3);
-    if (!given.size_m.empty()) luminaire.size_m = {given.size_m.front(), given.size_m.back()};
+    const bool size_known = luminaire.size_m[0] > 0;
+    if (!size_known) luminaire.size_m.setConstant(0.3);
     free.size = luminaire.shape != LuminaireShape::kPoint && luminaire.shape != LuminaireShape::kSphere &&
-                given.size_m.empty();
-    luminaire.aim = given.aim.value_or(Eigen::Vector3d(0, 0, -1));
-    luminaire.heading = given.heading.value_or(Eigen::Vector3d(1, 0, 0));
+                !size_known;
     luminaire.position = given.position_m.value_or(guessed.position);
     luminaire.flux_lm = given.flux_lm.value_or(guessed.flux);
     const bool found = guessed.found || given.position_m.has_value();

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages.h"
+#include "forward/luminaire_body.h"
 #include "forward/mesh_check.h"
 #include "forward/mesh_file.h"
 #include "inverse/survey_check.h"
@@ -45,6 +48,20 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
       size.x(), size.y(), size.z()));
 }
 
+RoomOptions OptionsFor(const Scene& scene, const RoomDetail& detail) {
+  RoomOptions options;
+  options.patches.patch_size_m = detail.patch_size_m;
+  if (detail.max_patches > 0) {
+    double area_m2 = 0;
+    for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
+    options.patches.patch_size_m = std::max(detail.patch_size_m, std::sqrt(area_m2 / detail.max_patches));
+  }
+  // Four elements a side at least, as in the default.
+  options.patches.element_size_m = std::clamp(options.patches.element_size_m,
+                                              options.patches.patch_size_m / 4, options.patches.patch_size_m);
+  return options;
+}
+
 }  // namespace
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
@@ -54,15 +71,15 @@ StageTimer::StageTimer(RunContext& context, std::string stage, const std::string
 
 StageTimer::~StageTimer() { context_.timing_s[stage_] += NowS() - start_s_; }
 
-Room LoadRoom(const Session& session, RunContext& context) {
+Room LoadRoom(const Session& session, RunContext& context, const RoomDetail& detail) {
   if (!session.scene) return MakeRoom(Scene{});
   const StageTimer timer(context, "scene", session.scene->mesh);
   const Scene scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
   CheckTagsLieOnMesh(session, scene);
-  const RoomOptions options;
-  ExpectRoomSize(session, scene, options.patches);
+  const RoomOptions options = OptionsFor(scene, detail);
+  ExpectRoomSize(session, scene, PatchesOptions{});
   const std::vector<MeshFinding> findings = CheckMesh(scene);
-  Room room = MakeRoom(scene, options);
+  Room room = MakeRoom(WithLuminaireBodies(scene, detail.bodies), options);
   context.choices.push_back({"patches",
                              fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",
                                          room.patches.patches.size(), options.patches.patch_size_m,

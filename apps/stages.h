@@ -63,9 +63,16 @@ class StageTimer {
   double start_s_;
 };
 
+// How finely a room is cut, and what hangs in it beside the mesh.
+struct RoomDetail {
+  double patch_size_m = PatchesOptions{}.patch_size_m;
+  int max_patches = 0;                 // larger patches where they would be more; 0: no limit
+  std::vector<Luminaire> bodies = {};  // opaque, black: forward/luminaire_body.h
+};
+
 // Mesh, checked against the tag survey, with its form factors; an empty room where the session has no
 // [scene].
-Room LoadRoom(const Session& session, RunContext& context);
+Room LoadRoom(const Session& session, RunContext& context, const RoomDetail& detail = {});
 
 struct RegisteredSession {
   std::vector<Camera> cameras;
@@ -90,10 +97,19 @@ struct SessionFit {
 SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
                       RunContext& context);
 
+// What a session gives in full, simulated: the artifact of OUT/stages/simulate.json, which it writes with
+// OUT/illuminance.csv (id,state,lux,direct_lux,indirect_lux of every reading).
+nlohmann::json SimulateSession(const Session& session, RunContext& context);
+
+// Parts of any artifact.
+nlohmann::json ChoicesJson(const RunContext& context);
+nlohmann::json WarningsJson(const RunContext& context);
+
 // OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos).
 nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
                           const SessionFit& fit, const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
+std::string SimulationTable(const nlohmann::json& artifact);
 std::string LuxmeterTable(const nlohmann::json& result);
 std::string WarningText(const nlohmann::json& result);
 

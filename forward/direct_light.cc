@@ -49,23 +49,27 @@ DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Ei
     const double height = normal.dot(to_lamp);
     if (height <= 0 || r2 < 1e-12) continue;
     const double r = std::sqrt(r2);
-    const double cosine_gamma = -luminaire.aim.dot(to_lamp) / r;
-    const Intensity intensity = IntensityPerLumen(luminaire, cosine_gamma);
+    const Eigen::Vector3d direction = -to_lamp / r;
+    const DirectedIntensity intensity = IntensityPerLumen(luminaire, axes, direction);
     if (intensity.cd_per_lm == 0) continue;
-    // E = I(c) h / r^3 with h = n . t, c = -aim . t / r, t = to_lamp.
+    // E = I(d) h / r^3 with h = n . t, d = -t / r, t = to_lamp.
     const double geometry = sample.weight * height / (r2 * r);
     const double illuminance = intensity.cd_per_lm * geometry;
-    const Eigen::Vector3d d_cosine = -luminaire.aim / r - cosine_gamma / r2 * to_lamp;
-    const Eigen::Vector3d gradient = intensity.d_cosine * geometry * d_cosine +
+    const Eigen::Vector3d& lobe = intensity.d_direction;
+    const Eigen::Vector3d gradient = -geometry / r * (lobe - lobe.dot(direction) * direction) +
                                      intensity.cd_per_lm * sample.weight / (r2 * r) * normal -
                                      3 * illuminance / r2 * to_lamp;
     sum.lx_per_lm += illuminance;
     sum.d_position += gradient;
-    // Tilting turns the lobe, and the surface with it: along -> along - t aim.
+    // Turning the lamp about w turns its surface by w x (p - position), and its lobe as if the receiver had
+    // been turned by -w: dI = (d_direction x d) . w. Tilts are about across and -along, the heading is about
+    // aim.
+    const Eigen::Vector2d place(sample.a * sides[0], sample.b * sides[1]);
+    const Eigen::Vector3d turn = geometry * lobe.cross(direction);
     const double aim_gradient = gradient.dot(luminaire.aim);
-    sum.d_tilt += -intensity.d_cosine * geometry / r *
-                      Eigen::Vector2d(axes.along.dot(to_lamp), axes.across.dot(to_lamp)) -
-                  aim_gradient * Eigen::Vector2d(sample.a * sides[0], sample.b * sides[1]);
+    sum.d_tilt += Eigen::Vector2d(turn.dot(axes.across), -turn.dot(axes.along)) - aim_gradient * place;
+    sum.d_heading +=
+        turn.dot(luminaire.aim) + place[0] * gradient.dot(axes.across) - place[1] * gradient.dot(axes.along);
     if (luminaire.shape == LuminaireShape::kDisc) {
       sum.d_size[0] += gradient.dot(sample.a * axes.along + sample.b * axes.across);
     } else {
@@ -99,14 +103,14 @@ double OccludedIlluminancePerLumen(const RayScene& rays, const Luminaire& lumina
                                    const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
                                    int order) {
   double sum = 0;
-  ForEachVisiblePoint(
-      rays, luminaire, p_in_world, normal, order, [&](const Eigen::Vector3d& point, double weight) {
-        const Eigen::Vector3d to_lamp = point - p_in_world;
-        const double r = to_lamp.norm();
-        const double cosine_gamma = -luminaire.aim.dot(to_lamp) / r;
-        sum +=
-            weight * IntensityPerLumen(luminaire, cosine_gamma).cd_per_lm * normal.dot(to_lamp) / (r * r * r);
-      });
+  const LuminaireAxes axes = AxesOf(luminaire);
+  ForEachVisiblePoint(rays, luminaire, p_in_world, normal, order,
+                      [&](const Eigen::Vector3d& point, double weight) {
+                        const Eigen::Vector3d to_lamp = point - p_in_world;
+                        const double r = to_lamp.norm();
+                        sum += weight * IntensityPerLumen(luminaire, axes, -to_lamp / r).cd_per_lm *
+                               normal.dot(to_lamp) / (r * r * r);
+                      });
   return sum;
 }
 

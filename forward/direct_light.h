@@ -21,6 +21,7 @@ struct DirectIlluminance {
   double lx_per_lm = 0;
   Eigen::Vector3d d_position = Eigen::Vector3d::Zero();  // 1/m
   Eigen::Vector2d d_tilt = Eigen::Vector2d::Zero();      // 1/rad: aim turned towards AxesOf's along, across
+  double d_heading = 0;                                  // 1/rad: turned about aim, along towards across
   Eigen::Vector2d d_size = Eigen::Vector2d::Zero();      // 1/m
   double d_exponent = 0;
 };

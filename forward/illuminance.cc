@@ -27,6 +27,8 @@ double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity)
       return direct.d_tilt[0];
     case LuminaireQuantity::kTiltAcross:
       return direct.d_tilt[1];
+    case LuminaireQuantity::kHeading:
+      return direct.d_heading;
   }
   return 0;
 }

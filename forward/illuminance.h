@@ -30,6 +30,7 @@ enum class LuminaireQuantity {
   kSizeAcross,  // m
   kTiltAlong,
   kTiltAcross,  // rad: aim + t1 along + t2 across, at t = 0
+  kHeading,     // rad: turned about the aim, along towards across (clockwise seen from above)
 };
 
 struct LuminaireParameter {

@@ -57,7 +57,7 @@ struct Source {
     const double height = normal.dot(to_lamp);
     if (height <= 0) return 0;
     const double r = to_lamp.norm();
-    const double cd_per_lm = IntensityPerLumen(*luminaire, -luminaire->aim.dot(to_lamp) / r).cd_per_lm;
+    const double cd_per_lm = IntensityPerLumen(*luminaire, axes, -to_lamp / r).cd_per_lm;
     if (cd_per_lm == 0 || rays.Occluded(LiftedOff(p, normal), point)) return 0;
     return luminaire->flux_lm * cd_per_lm * height / (r * r * r);
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "forward/internal/quadrature.h"
+#include "forward/photometry.h"
 
 namespace luxfit {
 namespace {
@@ -21,6 +22,8 @@ std::string ToString(Distribution distribution) {
       return "lambertian";
     case Distribution::kCosinePower:
       return "cosine_power";
+    case Distribution::kMeasured:
+      return "measured";
   }
   return "";
 }
@@ -41,6 +44,8 @@ std::string ToString(LuminaireShape shape) {
 
 Intensity IntensityPerLumen(const Luminaire& luminaire, double cosine_gamma) {
   if (luminaire.distribution == Distribution::kIsotropic) return {1 / (4 * kPi), 0, 0};
+  if (luminaire.distribution == Distribution::kMeasured)
+    throw std::invalid_argument("IntensityPerLumen: expected the direction for a measured distribution");
   if (cosine_gamma <= 0) return {};
   if (luminaire.distribution == Distribution::kLambertian) return {cosine_gamma / kPi, 1 / kPi, 0};
   const double m = luminaire.cosine_exponent;
@@ -79,6 +84,23 @@ LuminaireAxes AxesOf(const Luminaire& luminaire) {
   if (along.norm() < 1e-6) along = luminaire.aim.unitOrthogonal();
   along.normalize();
   return {along, luminaire.aim.cross(along)};
+}
+
+DirectedIntensity IntensityPerLumen(const Luminaire& luminaire, const LuminaireAxes& axes,
+                                    const Eigen::Vector3d& direction) {
+  const double cosine_gamma = luminaire.aim.dot(direction);
+  if (luminaire.distribution != Distribution::kMeasured) {
+    const Intensity intensity = IntensityPerLumen(luminaire, cosine_gamma);
+    return {intensity.cd_per_lm, intensity.d_cosine * luminaire.aim, intensity.d_exponent};
+  }
+  if (!luminaire.table) throw std::invalid_argument("IntensityPerLumen: expected a table, got none");
+  // C runs from the heading away from `across`: x along, y = -across, z = -aim.
+  const TableIntensity at = IntensityTowards(
+      *luminaire.table, {axes.along.dot(direction), -axes.across.dot(direction), -cosine_gamma});
+  return {
+      at.cd_per_lm,
+      at.d_direction.x() * axes.along - at.d_direction.y() * axes.across - at.d_direction.z() * luminaire.aim,
+      0};
 }
 
 }  // namespace luxfit

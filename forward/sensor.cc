@@ -199,6 +199,8 @@ DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Se
         sum.d_exponent += share * beam.d_exponent;
         // Tilting turns the lobe, and the surface with it: along -> along - t aim.
         sum.d_tilt += share * beam.d_tilt - gradient.dot(luminaire.aim) * offset;
+        sum.d_heading += share * beam.d_heading + offset[0] * gradient.dot(axes.across) -
+                         offset[1] * gradient.dot(axes.along);
         const Eigen::Vector2d d_size(sample.a * gradient.dot(axes.along),
                                      sample.b * gradient.dot(axes.across));
         sum.d_size += luminaire.shape == LuminaireShape::kDisc ? Eigen::Vector2d(d_size.sum(), 0) : d_size;

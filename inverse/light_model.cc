@@ -62,6 +62,9 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
     case LuminaireQuantity::kTiltAcross:
       p.name = "tilt across", p.lower = -1, p.upper = 1;
       break;
+    case LuminaireQuantity::kHeading:
+      p.name = "heading", p.lower = -kPi, p.upper = kPi;
+      break;
   }
   p.name += " of " + luminaire.id;
   return p;
@@ -151,6 +154,11 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
       case LuminaireQuantity::kTiltAcross:
         tilts.try_emplace(p.index, 0, 0).first->second[1] = value;
         break;
+      case LuminaireQuantity::kHeading: {
+        const LuminaireAxes axes = AxesOf(luminaire);
+        luminaire.heading = std::cos(value) * axes.along + std::sin(value) * axes.across;
+        break;
+      }
     }
   }
   for (const auto& [index, tilt] : tilts) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "apps/internal/session_files.h"
+#include "apps/suggest.h"
 
 namespace luxfit {
 namespace {
@@ -17,13 +18,9 @@ const std::map<std::string, size_t>& LengthsOfShape() {
   return lengths;
 }
 
-std::string ReadPhotometry(const TomlCursor& value) {
-  const std::vector<std::string> names{"auto", "isotropic", "lambertian", "cosine_power"};
-  const std::string text = value.Text("a distribution");
+bool IsPhotometricFile(const std::string& text) {
   const std::string extension = ExtensionOf(text);
-  if (extension == ".ies" || extension == ".ldt")
-    throw NotAvailable(value, "\"auto\", \"isotropic\", \"lambertian\" or \"cosine_power\"");
-  return value.OneOf(names);
+  return extension == ".ies" || extension == ".ldt";
 }
 
 std::vector<double> ReadSize(const TomlCursor& value) {
@@ -64,11 +61,25 @@ std::optional<double> ReadSigma(const TomlCursor& table, const std::string& key,
   return sigma->NumberAtLeast(0, unit);
 }
 
-SessionLuminaire ReadLuminaire(const TomlCursor& table) {
-  table.ExpectKeys({"id", "photometry", "shape", "size_m", "position_m", "position_sigma_m", "aim", "heading",
-                    "flux_lm", "flux_sigma_lm"});
+SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folder) {
+  table.ExpectKeys({"id", "photometry", "cosine_exponent", "shape", "size_m", "position_m",
+                    "position_sigma_m", "aim", "heading", "flux_lm", "flux_sigma_lm"});
   SessionLuminaire luminaire;
-  if (const auto photometry = table.Find("photometry")) luminaire.photometry = ReadPhotometry(*photometry);
+  luminaire.line = table.place().line;
+  if (const auto photometry = table.Find("photometry")) {
+    luminaire.photometry = photometry->Text("a distribution");
+    if (IsPhotometricFile(luminaire.photometry)) {
+      luminaire.photometry_path = AbsolutePath(FindFile(*photometry, folder));
+    } else {
+      photometry->OneOf({"auto", "isotropic", "lambertian", "cosine_power"});
+    }
+  }
+  if (const auto exponent = table.Find("cosine_exponent")) {
+    if (luminaire.photometry != "cosine_power")
+      throw exponent->Error("expected it beside photometry = \"cosine_power\" only, got photometry = " +
+                            Quoted(luminaire.photometry) + "; remove one of them");
+    luminaire.cosine_exponent = exponent->NumberAbove(0, "");
+  }
   if (const auto size = table.Find("size_m")) luminaire.size_m = ReadSize(*size);
   luminaire.shape = ReadShape(table, luminaire.size_m.size());
   if (const auto position = table.Find("position_m"))
@@ -126,11 +137,11 @@ std::vector<SessionState> ReadStates(const TomlCursor& section) {
   return states;
 }
 
-std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session) {
+std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session, const std::string& folder) {
   std::vector<SessionLuminaire> luminaires;
   if (const auto list = session.Find("luminaire")) {
     const std::vector<TomlCursor> tables = list->Elements("a list of tables [[luminaire]]");
-    for (const TomlCursor& table : tables) luminaires.push_back(ReadLuminaire(table));
+    for (const TomlCursor& table : tables) luminaires.push_back(ReadLuminaire(table, folder));
     const std::vector<std::string> ids = UniqueIds(tables);
     for (size_t i = 0; i < luminaires.size(); ++i) luminaires[i].id = ids[i];
   }

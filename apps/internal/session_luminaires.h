@@ -20,8 +20,8 @@ namespace luxfit {
 std::vector<SessionState> ReadStates(const TomlCursor& section);
 
 // [[luminaire]] in file order, then those that only [states] names, in its order. `session` is the whole
-// document.
-std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session);
+// document, `folder` where it lies.
+std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session, const std::string& folder);
 
 }  // namespace luxfit
 

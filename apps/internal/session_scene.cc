@@ -14,6 +14,10 @@ Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
                       : Eigen::Vector3d::Constant(value.Number("a reflectance: a number or [r, g, b]"));
   if (albedo_rgb.minCoeff() < 0 || albedo_rgb.maxCoeff() > 1)
     throw value.Error("expected a reflectance in 0..1, got " + value.Shown() + "; 25 % is written 0.25");
+  if (albedo_rgb.maxCoeff() == 1)
+    throw value.Error(
+        "expected a reflectance below 1, got " + value.Shown() +
+        ": a closed room that absorbs nothing has no solution; white paint reflects 0.85 to 0.9");
   return albedo_rgb;
 }
 
@@ -33,9 +37,12 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
     scene.unit = unit->OneOf({"m", "cm", "mm", "in", "ft"});
     scene.metres_per_unit = MetresPerUnit().at(scene.unit);
   }
-  if (const auto albedo = section.Find("albedo"))
+  scene.line = section.place().line;
+  if (const auto albedo = section.Find("albedo")) {
+    scene.line = albedo->place().line;
     for (const auto& [material, value] : albedo->Members())
       scene.known_albedo_rgb[material] = ReadAlbedo(value);
+  }
   return scene;
 }
 

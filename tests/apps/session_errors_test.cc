@@ -227,10 +227,6 @@ TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
               AllOf(HasSubstr("tags.map: expected a tag map"), HasSubstr("not available in this version")));
   EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
               HasSubstr("luminaires.count: \"estimate\" is not available"));
-  EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"spot.ies\""),
-              HasSubstr("luminaire[0].photometry: \"spot.ies\" is not avail"));
-  EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"spot.LDT\""),
-              HasSubstr("luminaire[0].photometry: \"spot.LDT\" is not avail"));
 }
 
 TEST_F(SessionErrorsTest, SensitivityCurvesAreChecked) {
@@ -254,6 +250,16 @@ TEST_F(SessionErrorsTest, SensitivityCurvesAreChecked) {
   EXPECT_THAT(error("0,0\n60,0.5\n"), HasSubstr("curve.csv:2: relative: "));
   EXPECT_THAT(error("0,1\n"), HasSubstr("expected two angles or more"));
   EXPECT_THAT(ErrorAfter("\"cosine\"", "\"nowhere.csv\""), HasSubstr("luxmeter.sensitivity: "));
+}
+
+TEST_F(SessionErrorsTest, PhotometricFilesMustBeThere) {
+  EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"spot.ies\""),
+              HasSubstr("luminaire[0].photometry: expected an existing file, got \"spot.ies\""));
+  EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"spot.LDT\""),
+              HasSubstr("luminaire[0].photometry: expected an existing file, got \"spot.LDT\""));
+  EXPECT_THAT(ErrorAfter("\"lambertian\"", "\"lambert\""), HasSubstr("mean \"lambertian\"?"));
+  EXPECT_THAT(ErrorAfter("photometry =", "cosine_exponent = 3\nphotometry ="),
+              HasSubstr("luminaire[0].cosine_exponent: expected it beside photometry = \"cosine_power\""));
 }
 
 TEST_F(SessionErrorsTest, KeysOfLaterFeaturesAreCheckedForType) {

@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <random>
 
+#include "forward/photometry.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
@@ -26,6 +28,19 @@ Luminaire Lamp(Distribution distribution, LuminaireShape shape, double size_alon
   lamp.shape = shape;
   lamp.size_m = {size_along, size_across};
   return lamp;
+}
+
+// Different in every direction; steps of 30 degrees, so that a test's small step rarely meets a kink.
+std::shared_ptr<const IntensityTable> LopsidedTable() {
+  std::vector<double> c_rad, gamma_rad, intensity;
+  for (int i = 0; i < 12; ++i) c_rad.push_back(i * kPi / 6);
+  for (int i = 0; i <= 6; ++i) gamma_rad.push_back(i * kPi / 6);
+  for (const double c : c_rad) {
+    for (const double g : gamma_rad)
+      intensity.push_back(2 + std::sin(g) * (std::cos(c) + 0.5 * std::sin(c)) + 0.8 * std::cos(g));
+  }
+  return std::make_shared<IntensityTable>(
+      Normalized(ExpandPlanes(c_rad, gamma_rad, intensity, PlaneSymmetry::kNone)));
 }
 
 double LxPerLm(const Luminaire& lamp, const Eigen::Vector3d& p, const Eigen::Vector3d& normal = kUp) {
@@ -89,11 +104,12 @@ TEST(DirectLight, TheHeadingIsTheDirectionOfTheFirstSize) {
 }
 
 TEST(DirectLight, ThroughASphereRoundTheLampIsOneLumen) {
-  for (const Distribution distribution :
-       {Distribution::kIsotropic, Distribution::kLambertian, Distribution::kCosinePower}) {
+  for (const Distribution distribution : {Distribution::kIsotropic, Distribution::kLambertian,
+                                          Distribution::kCosinePower, Distribution::kMeasured}) {
     for (const LuminaireShape shape :
          {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
       Luminaire lamp = Lamp(distribution, shape, 0.8, 0.4);
+      lamp.table = LopsidedTable();
       lamp.aim = Eigen::Vector3d(0.5, 0.3, -1).normalized();
       lamp.cosine_exponent = 4;
       constexpr int kBands = 200, kSectors = 100;
@@ -141,6 +157,7 @@ class DirectLightDerivatives : public testing::TestWithParam<std::tuple<Distribu
     lamp_.aim = (lamp_.aim + 0.3 * vector()).normalized();
     lamp_.heading = vector().normalized();
     lamp_.cosine_exponent = 1.5 + 5 * unit(rng_);
+    lamp_.table = table_;
     p_ = 0.5 * vector();
     normal_ = (kUp + 0.3 * vector()).normalized();
     direct_ = DirectIlluminancePerLumen(lamp_, p_, normal_);
@@ -160,6 +177,7 @@ class DirectLightDerivatives : public testing::TestWithParam<std::tuple<Distribu
   }
 
   std::mt19937_64 rng_ = support::TestRng();
+  std::shared_ptr<const IntensityTable> table_ = LopsidedTable();
   Luminaire lamp_;
   Eigen::Vector3d p_, normal_;
   DirectIlluminance direct_;
@@ -184,6 +202,10 @@ TEST_P(DirectLightDerivatives, AreCentralDifferences) {
       const auto grow = [&](Luminaire& lamp, double step) { lamp.size_m[axis] += step; };
       ExpectDerivative(direct_.d_size[axis], grow, "size");
     }
+    const auto turn = [&](Luminaire& lamp, double step) {
+      lamp.heading = (axes.along + step * axes.across).normalized();
+    };
+    ExpectDerivative(direct_.d_heading, turn, "heading");
     const auto narrow = [&](Luminaire& lamp, double step) { lamp.cosine_exponent += step; };
     ExpectDerivative(direct_.d_exponent, narrow, "exponent");
   }
@@ -192,9 +214,49 @@ TEST_P(DirectLightDerivatives, AreCentralDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(AllLamps, DirectLightDerivatives,
                          testing::Combine(testing::Values(Distribution::kIsotropic, Distribution::kLambertian,
-                                                          Distribution::kCosinePower),
+                                                          Distribution::kCosinePower,
+                                                          Distribution::kMeasured),
                                           testing::Values(LuminaireShape::kPoint, LuminaireShape::kDisc,
                                                           LuminaireShape::kRectangle)));
+
+// C0 along the heading, C90 counter-clockwise from above, on whatever side the luminaire is turned.
+TEST(DirectLight, AMeasuredLobeIsTurnedWithItsLamp) {
+  Luminaire lamp = Lamp(Distribution::kMeasured, LuminaireShape::kPoint);
+  lamp.table = LopsidedTable();
+  const auto cd_per_lm = [&](double c, double g) {
+    const Eigen::Vector3d in_lamp(std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g));
+    return IntensityTowards(*lamp.table, in_lamp).cd_per_lm;
+  };
+  lamp.heading = {0, 1, 0};
+  // 45 degrees down, towards +y (C0), -x (C90), -y (C180), +x (C270); 2 m below.
+  const Eigen::Vector3d places[] = {{0, 2, 0}, {-2, 0, 0}, {0, -2, 0}, {2, 0, 0}};
+  for (int i = 0; i < 4; ++i) {
+    const double expected = cd_per_lm(i * kPi / 2, kPi / 4) * std::sqrt(0.5) / 8;
+    EXPECT_NEAR(LxPerLm(lamp, places[i]) / expected, 1, 1e-12) << i;  // double rounding
+  }
+  // At a wall, heading still +y: the luminaire's +y = +z x +x is -z of the world, so C90 is down.
+  lamp.aim = {1, 0, 0};
+  const Eigen::Vector3d wall(-1, 0, 0);
+  EXPECT_NEAR(LxPerLm(lamp, {1, 0, 1}, wall) / (cd_per_lm(0.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2), 1,
+              1e-12);
+  EXPECT_NEAR(LxPerLm(lamp, {1, 0, 3}, wall) / (cd_per_lm(1.5 * kPi, kPi / 4) * std::sqrt(0.5) / 2), 1,
+              1e-12);
+}
+
+TEST(DirectLight, AMeasuredLambertianIsALambertian) {
+  Luminaire measured = Lamp(Distribution::kMeasured, LuminaireShape::kRectangle, 0.6, 0.3);
+  std::vector<double> gamma_rad, intensity;
+  for (int i = 0; i <= 360; ++i) {
+    gamma_rad.push_back(i * kPi / 720);
+    intensity.push_back(std::max(0.0, std::cos(gamma_rad.back())));
+  }
+  measured.table = std::make_shared<IntensityTable>(
+      Normalized(ExpandPlanes({0}, gamma_rad, intensity, PlaneSymmetry::kRotational)));
+  Luminaire lambertian = measured;
+  lambertian.distribution = Distribution::kLambertian;
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -2, 0.4)})
+    EXPECT_NEAR(LxPerLm(measured, p) / LxPerLm(lambertian, p), 1, 1e-5);  // (0.25 deg)^2 / 8 and the flux's
+}
 
 // A screen whose edge stands over the middle of the lamp, seen from straight below.
 class HalfScreened : public testing::Test {

@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "forward/direct_light.h"
+#include "forward/photometry.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
@@ -101,6 +103,28 @@ TEST_F(RoomWithScreen, DerivativesOfALuminaireAreCentralDifferences) {
     EXPECT_LT(error.cwiseAbs().maxCoeff(), kTolerance * numeric.cwiseAbs().maxCoeff() + rounding) << c.name;
     EXPECT_GT(numeric.cwiseAbs().maxCoeff(), 10 * rounding) << c.name << ": nothing to compare";
   }
+}
+
+// A measured lobe that is four times as strong along C0 as along C180, linear in C between them: kinks at two
+// planes only, so that a step of 1 mrad meets few of them; float rounding of the light is then 1e-6 / 1e-3.
+TEST_F(RoomWithScreen, TheDerivativeOfAHeadingIsACentralDifference) {
+  const double pi = 3.14159265358979323846;
+  lamps_[0].distribution = Distribution::kMeasured;
+  lamps_[0].table = std::make_shared<IntensityTable>(
+      Normalized(ExpandPlanes({0, pi}, {0, pi / 4, pi / 2}, {2, 4, 1, 2, 1, 0.25}, PlaneSymmetry::kC0C180)));
+  DerivativeRequest request;
+  request.parameters = {{0, LuminaireQuantity::kHeading}};
+  const Illuminance light = Compute(lamps_, albedo_, request);
+  constexpr double kTurn = 1e-3;
+  const LuminaireAxes axes = AxesOf(lamps_[0]);
+  std::vector<Luminaire> up = lamps_, down = lamps_;
+  up[0].heading = std::cos(kTurn) * axes.along + std::sin(kTurn) * axes.across;
+  down[0].heading = std::cos(kTurn) * axes.along - std::sin(kTurn) * axes.across;
+  const Eigen::VectorXf numeric = (Compute(up, albedo_).total.col(0) - Compute(down, albedo_).total.col(0)) /
+                                  static_cast<float>(2 * kTurn);
+  const double largest = numeric.cwiseAbs().maxCoeff(), rounding = 1e-3 * light.total.col(0).maxCoeff();
+  EXPECT_LT((light.d_luminaire.col(0) - numeric).cwiseAbs().maxCoeff(), kTolerance * largest + rounding);
+  EXPECT_GT(largest, 100 * rounding);
 }
 
 TEST_F(RoomWithScreen, DerivativesOfReflectancesAreCentralDifferences) {

@@ -178,6 +178,10 @@ TEST_P(EveryResponse, DirectDerivativesAreCentralDifferences) {
                 l.heading = turn * axes.along;
               }),
               kTolerance * scale);
+  EXPECT_NEAR(direct.d_heading, numeric([&](Luminaire& l, double h) {
+                l.heading = std::cos(h) * axes.along + std::sin(h) * axes.across;
+              }),
+              kTolerance * scale);
 }
 
 // Form factors against quadrature over each patch of the ceiling.
