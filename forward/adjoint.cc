@@ -19,22 +19,24 @@ Importance ComputeImportance(const Room& room, const Transport& transport, const
   Importance importance;
   importance.direct = area * transport.Exitance((gathered.array() / area).matrix()).col(0).array();
   importance.exitance =
-      gathered.array() + area * transport.Irradiance((importance.direct.array() / area).matrix()).col(0).array();
+      gathered.array() +
+      area * transport.Irradiance((importance.direct.array() / area).matrix()).col(0).array();
   return importance;
 }
 
 }  // namespace
 
-AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers,
+                                  const LuminaireVisibility& visibility,
                                   const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
-                                  const Eigen::VectorXd& weights, const std::vector<LuminaireParameter>& parameters) {
+                                  const Eigen::VectorXd& weights, const DerivativeRequest& derivatives) {
   if (weights.size() != receivers.count())
     throw std::invalid_argument("ComputeAdjoint: expected one weight for every receiver");
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const Eigen::Index patches = static_cast<Eigen::Index>(room.patches.patches.size());
   Eigen::VectorXd flux(lamps);
   for (Eigen::Index k = 0; k < lamps; ++k) flux[k] = luminaires[static_cast<size_t>(k)].flux_lm;
-  const DirectColumns direct = ComputeDirectColumns(room, receivers, visibility, luminaires, parameters);
+  const DirectColumns direct = ComputeDirectColumns(room, receivers, visibility, luminaires, derivatives);
   // J per lm or per unit of each column of direct light.
   Eigen::VectorXd per_column = direct.receivers.cast<double>().transpose() * weights;
   AdjointDerivatives result;
@@ -54,9 +56,9 @@ AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers, 
   }
   result.d_flux = per_column.head(lamps);
   result.sum_lx = result.d_flux.dot(flux);
-  result.d_parameters = per_column.tail(static_cast<Eigen::Index>(parameters.size()));
-  for (size_t p = 0; p < parameters.size(); ++p)
-    result.d_parameters[static_cast<Eigen::Index>(p)] *= flux[parameters[p].luminaire];
+  result.d_parameters = per_column.tail(static_cast<Eigen::Index>(derivatives.parameters.size()));
+  for (size_t p = 0; p < derivatives.parameters.size(); ++p)
+    result.d_parameters[static_cast<Eigen::Index>(p)] *= flux[derivatives.parameters[p].luminaire];
   return result;
 }
 

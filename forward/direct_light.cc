@@ -81,45 +81,29 @@ DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Ei
   return sum;
 }
 
-namespace {
-
-// Calls use(point, weight) for every surface point in front of the receiver that it sees.
-template <typename Use>
-void ForEachVisiblePoint(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p,
-                         const Eigen::Vector3d& normal, int order, const Use& use) {
-  const LuminaireAxes axes = AxesOf(luminaire);
-  const Eigen::Vector2d sides = SidesOf(luminaire);
-  const Eigen::Vector3d start = LiftedOff(p, normal);
-  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::clamp(order, 1, kMaxOrder))) {
-    const Eigen::Vector3d point =
-        luminaire.position + sample.a * sides[0] * axes.along + sample.b * sides[1] * axes.across;
-    if (normal.dot(point - p) > 0 && !rays.Occluded(start, point)) use(point, sample.weight);
-  }
-}
-
-}  // namespace
-
-double OccludedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
-                                   const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
-                                   int order) {
-  double sum = 0;
-  const LuminaireAxes axes = AxesOf(luminaire);
-  ForEachVisiblePoint(rays, luminaire, p_in_world, normal, order,
-                      [&](const Eigen::Vector3d& point, double weight) {
-                        const Eigen::Vector3d to_lamp = point - p_in_world;
-                        const double r = to_lamp.norm();
-                        sum += weight * IntensityPerLumen(luminaire, axes, -to_lamp / r).cd_per_lm *
-                               normal.dot(to_lamp) / (r * r * r);
-                      });
-  return sum;
+void DirectIlluminance::AddScaled(double factor, const DirectIlluminance& other) {
+  lx_per_lm += factor * other.lx_per_lm;
+  d_position += factor * other.d_position;
+  d_tilt += factor * other.d_tilt;
+  d_heading += factor * other.d_heading;
+  d_size += factor * other.d_size;
+  d_exponent += factor * other.d_exponent;
 }
 
 double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                        const Eigen::Vector3d& normal, int order) {
-  double fraction = 0;
-  ForEachVisiblePoint(rays, luminaire, p_in_world, normal, order,
-                      [&](const Eigen::Vector3d&, double weight) { fraction += weight; });
-  return fraction;
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector2d sides = SidesOf(luminaire);
+  const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
+  double seen = 0, in_front = 0;
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::clamp(order, 1, kMaxOrder))) {
+    const Eigen::Vector3d point =
+        luminaire.position + sample.a * sides[0] * axes.along + sample.b * sides[1] * axes.across;
+    if (normal.dot(point - p_in_world) <= 0) continue;
+    in_front += sample.weight;
+    if (!rays.Occluded(start, point)) seen += sample.weight;
+  }
+  return in_front > 0 ? seen / in_front : 0;
 }
 
 }  // namespace luxfit

@@ -24,18 +24,16 @@ struct DirectIlluminance {
   double d_heading = 0;                                  // 1/rad: turned about aim, along towards across
   Eigen::Vector2d d_size = Eigen::Vector2d::Zero();      // 1/m
   double d_exponent = 0;
+
+  void AddScaled(double factor, const DirectIlluminance& other);
 };
 
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                                             const Eigen::Vector3d& normal);
 
-// The same without derivatives, and with every surface point tested for occlusion (`order` points a side).
-double OccludedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
-                                   const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
-                                   int order);
-
-// Share of the luminaire's surface points (`order` a side) that the receiver sees; 0 behind the receiver's
-// plane.
+// Share of the luminaire's surface points (`order` a side) in front of the receiver's plane that it sees; 0
+// where none is. What lies behind the plane is no part of DirectIlluminancePerLumen either. Every point
+// weighs the same: forward/shadowed_light.h weighs them by their light.
 double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                        const Eigen::Vector3d& normal, int order);
 

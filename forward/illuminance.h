@@ -6,7 +6,8 @@
 // D: direct illuminance, V: visible share, F: form factors, M: exitance. Derivatives with respect to a
 // luminaire's parameter take the same path with dD in place of D (light is linear in what the luminaires put
 // in), one more column each and no further factorisation; those with respect to a material's reflectance are
-// Transport::ExitanceDerivative. All are exact for frozen visibility: the motion of shadow edges is left out.
+// Transport::ExitanceDerivative. All are exact for frozen visibility; the motion of shadow edges is added
+// where asked for.
 //
 // Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k * materials +
 // m.
@@ -48,6 +49,10 @@ struct Illuminance {
 struct DerivativeRequest {
   std::vector<LuminaireParameter> parameters;
   std::vector<int> materials;
+  // Follow the edges of shadows too, where places see a part of a disc or rectangle
+  // (forward/shadowed_light.h). Costs some hundred rays a place; fits that update visibility between their
+  // steps do without.
+  bool moving_shadows = false;
 };
 
 // `albedo` by material of the scene.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/direct_light.h"
+#include "forward/shadowed_light.h"
 
 namespace luxfit {
 namespace {
@@ -51,8 +51,7 @@ PlaneIlluminance ComputePlane(const Room& room, const LitRoom& lit, const Illumi
   tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index k) {
     const Eigen::Vector3d p = result.grid.points.col(k);
     for (const Luminaire& luminaire : lit.luminaires)
-      result.direct_lx[k] += luminaire.flux_lm * OccludedIlluminancePerLumen(room.rays, luminaire, p, normal,
-                                                                             options.luminaire_order);
+      result.direct_lx[k] += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal);
     const Gathered gathered = GatherIlluminance(room, lit.patch_exitance, {p, normal, {}}, rays);
     result.indirect_lx.row(k) = gathered.illuminance_lx;
     result.is_inside[static_cast<size_t>(k)] = gathered.back_share > 0.5 ? 1 : 0;

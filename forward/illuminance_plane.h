@@ -33,8 +33,7 @@ struct PlaneGrid {
 PlaneGrid GridOf(const IlluminancePlane& plane);
 
 struct PlaneOptions {
-  int ray_count = 1024;     // a point, for indirect light: about 0.5 %
-  int luminaire_order = 6;  // points a side of a luminous surface
+  int ray_count = 1024;  // a point, for indirect light: about 0.5 %
 };
 
 struct PlaneIlluminance {

@@ -187,4 +187,16 @@ Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions
   return Subdivision(scene, rays, options).result;
 }
 
+std::vector<Eigen::Vector3d> ProbesOf(const Element& element, bool triangle) {
+  const double scale = triangle ? 2.0 / 3 : 1.0;
+  std::vector<Eigen::Vector3d> probes;
+  for (const double u : {0.25, 0.75}) {
+    for (const double v : {0.25, 0.75}) {
+      if (triangle && u + v > 1) continue;
+      probes.push_back(element.origin + scale * u * element.edge_u + scale * v * element.edge_v);
+    }
+  }
+  return probes;
+}
+
 }  // namespace luxfit

@@ -75,6 +75,9 @@ struct Patches {
   int ElementAt(int facet, double u, double v) const;
 };
 
+// Points at the quarters of an element (of a triangle: pulled into it), where its shadows are looked for.
+std::vector<Eigen::Vector3d> ProbesOf(const Element& element, bool triangle);
+
 // Throws std::invalid_argument unless 0 < element_size_m <= patch_size_m.
 Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions& options = {});
 

@@ -12,19 +12,11 @@ constexpr int kSensorOrder = 12;  // few sensors: afford the finest rule
 
 float ElementVisibility(const RayScene& rays, const Element& element, bool triangle,
                         const Luminaire& luminaire, int order) {
-  // Probes at the quarter points; those of a triangle pulled into it.
-  const double scale = triangle ? 2.0 / 3 : 1.0;
   float sum = 0;
-  int front = 0;
-  for (const double u : {0.25, 0.75}) {
-    for (const double v : {0.25, 0.75}) {
-      if (triangle && u + v > 1) continue;
-      const Eigen::Vector3d p = element.origin + scale * u * element.edge_u + scale * v * element.edge_v;
-      sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, order));
-      ++front;
-    }
-  }
-  return sum / static_cast<float>(front);
+  const std::vector<Eigen::Vector3d> probes = ProbesOf(element, triangle);
+  for (const Eigen::Vector3d& p : probes)
+    sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, order));
+  return sum / static_cast<float>(probes.size());
 }
 
 }  // namespace

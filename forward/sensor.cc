@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "forward/internal/sampling.h"
+#include "forward/shadowed_light.h"
 
 namespace luxfit {
 namespace {
@@ -211,7 +212,7 @@ DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Se
 double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Sensor& sensor,
                              int order) {
   if (sensor.response.kind == ResponseKind::kCosine)
-    return VisibleFraction(rays, luminaire, sensor.position, sensor.normal, order);
+    return VisibleShare(rays, luminaire, sensor.position, sensor.normal);
   const Eigen::Vector3d start = RayOrigin(sensor);
   double seen = 0, all = 0;
   ForEachSurfacePoint(

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// A luminous surface over the unit square (s, t), of even density: place in units of its sides, point in world.
+// A luminous surface over the unit square (s, t), of even density: place in units of its sides, point in
+// world.
 class Surface {
  public:
   explicit Surface(const Luminaire& luminaire) : luminaire_(luminaire), axes_(AxesOf(luminaire)) {
@@ -62,7 +63,8 @@ class VisibleCells {
     double s, t, weight, share;  // centre, part of the surface, part of it that is seen
   };
 
-  VisibleCells(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& start, const ShadowOptions& options)
+  VisibleCells(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& start,
+               const ShadowOptions& options)
       : rays_(rays), surface_(surface), start_(start), finest_(options.grid << options.refinements) {
     const int size = 1 << options.refinements;
     for (int i = 0; i < options.grid; ++i) {
@@ -109,7 +111,7 @@ bool HasExtent(const Luminaire& luminaire) {
 
 // The integrand at one point of the surface: E per lm of the whole surface if all of it were here.
 struct Sample {
-  Eigen::Vector3d direction;  // from the luminaire to the receiver
+  Eigen::Vector3d direction;   // from the luminaire to the receiver
   double r = 0, geometry = 0;  // m, cos(theta) / r^2
   DirectedIntensity intensity;
 };
@@ -158,23 +160,62 @@ void AddLobeDerivatives(const VisibleCells& visible, const Surface& surface, con
   sum.d_heading += turn.dot(aim);
 }
 
+// Visible shares of the pieces of an outline: where a piece's ends disagree, the edge of the shadow between
+// them is found by halving.
+class VisibleOutline {
+ public:
+  VisibleOutline(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& start,
+                 const std::vector<Eigen::Vector2d>& outline)
+      : rays_(rays), surface_(surface), start_(start) {
+    std::vector<bool> seen;
+    for (const Eigen::Vector2d& place : outline) seen.push_back(Sees(place));
+    for (size_t k = 0; k < outline.size(); ++k) {
+      const size_t next = (k + 1) % outline.size();
+      shares_.push_back(seen[k] == seen[next] ? (seen[k] ? 1 : 0)
+                                              : ShareBetween(outline[k], outline[next], seen[k]));
+    }
+  }
+  double share(size_t piece) const { return shares_[piece]; }
+
+ private:
+  bool Sees(const Eigen::Vector2d& place) const {
+    // A little inside: the rim may touch what the luminaire hangs on.
+    return !rays_.Occluded(start_, surface_.luminaire().position + (1 - 1e-6) * surface_.OffsetOf(place));
+  }
+  double ShareBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to, bool seen_at_from) const {
+    constexpr int kHalvings = 8;
+    double low = 0, high = 1;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = 0.5 * (low + high);
+      (Sees(from + middle * (to - from)) == seen_at_from ? low : high) = middle;
+    }
+    return seen_at_from ? low : 1 - low;
+  }
+
+  const RayScene& rays_;
+  const Surface& surface_;
+  Eigen::Vector3d start_;
+  std::vector<double> shares_;
+};
+
 // What the visible part of the outline sweeps.
 void AddOutlineDerivatives(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& p,
                            const Eigen::Vector3d& normal, int pieces, DirectIlluminance& sum) {
   const LuminaireAxes& axes = surface.axes();
   const Eigen::Vector3d& aim = surface.luminaire().aim;
-  const Eigen::Vector3d start = LiftedOff(p, normal);
   const std::vector<Eigen::Vector2d> outline = surface.Outline(pieces);
+  const VisibleOutline visible(rays, surface, LiftedOff(p, normal), outline);
   for (size_t k = 0; k < outline.size(); ++k) {
     const Eigen::Vector2d &from = outline[k], &to = outline[(k + 1) % outline.size()];
     const Eigen::Vector2d place = 0.5 * (from + to);
     const Eigen::Vector3d offset = surface.OffsetOf(place), point = surface.luminaire().position + offset;
     const Sample sample = SampleAt(surface, point, p, normal);
     const double cosine = aim.dot(sample.direction);
-    if (sample.geometry == 0 || std::abs(cosine) < 1e-6) continue;
-    if (rays.Occluded(start, surface.luminaire().position + (1 - 1e-6) * offset)) continue;
-    // Counter-clockwise about the aim is clockwise for the receiver in front of it: d, from the luminaire, has both signs right.
-    const double luminance = sample.intensity.cd_per_lm / (surface.area_m2() * std::abs(cosine));
+    if (visible.share(k) == 0 || sample.geometry == 0 || std::abs(cosine) < 1e-6) continue;
+    // Counter-clockwise about the aim is clockwise for the receiver in front of it: d, from the luminaire,
+    // has both signs right.
+    const double luminance =
+        visible.share(k) * sample.intensity.cd_per_lm / (surface.area_m2() * std::abs(cosine));
     const Eigen::Vector3d step = surface.OffsetOf(to - from);
     const Eigen::Vector3d swept =
         (cosine > 0 ? 1 : -1) * luminance * sample.geometry * step.cross(sample.direction);  // . velocity
@@ -186,45 +227,44 @@ void AddOutlineDerivatives(const RayScene& rays, const Surface& surface, const E
   }
 }
 
-void Scale(double factor, DirectIlluminance& light) {
-  light.lx_per_lm *= factor;
-  light.d_position *= factor;
-  light.d_tilt *= factor;
-  light.d_heading *= factor;
-  light.d_size *= factor;
-  light.d_exponent *= factor;
-}
-
 }  // namespace
 
 double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                     const Eigen::Vector3d& normal, const ShadowOptions& options) {
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
   if (!HasExtent(luminaire))
-    return normal.dot(luminaire.position - p_in_world) > 0 && !rays.Occluded(start, luminaire.position) ? 1 : 0;
+    return normal.dot(luminaire.position - p_in_world) > 0 && !rays.Occluded(start, luminaire.position) ? 1
+                                                                                                        : 0;
   const Surface surface(luminaire);
   return ShareOf(VisibleCells(rays, surface, start, options), surface, p_in_world, normal);
 }
 
+double VisibleIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
+                                  const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
+                                  const ShadowOptions& options) {
+  const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
+  return unoccluded == 0 ? 0 : unoccluded * VisibleShare(rays, luminaire, p_in_world, normal, options);
+}
+
 DirectIlluminance ShadowedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
-                                              const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
-                                              const ShadowOptions& options) {
-  DirectIlluminance whole = DirectIlluminancePerLumen(luminaire, p_in_world, normal);
+                                              const Eigen::Vector3d& p_in_world,
+                                              const Eigen::Vector3d& normal, const ShadowOptions& options) {
+  const DirectIlluminance whole = DirectIlluminancePerLumen(luminaire, p_in_world, normal);
+  DirectIlluminance sum;
   if (!HasExtent(luminaire)) {
-    Scale(VisibleShare(rays, luminaire, p_in_world, normal), whole);
-    return whole;
+    sum.AddScaled(VisibleShare(rays, luminaire, p_in_world, normal), whole);
+    return sum;
   }
   const Surface surface(luminaire);
   const VisibleCells visible(rays, surface, LiftedOff(p_in_world, normal), options);
   const double share = ShareOf(visible, surface, p_in_world, normal);
   if (share == 0 || share == 1) {
-    Scale(share, whole);
-    return whole;
+    sum.AddScaled(share, whole);
+    return sum;
   }
-  DirectIlluminance sum;
   sum.lx_per_lm = share * whole.lx_per_lm;
   AddLobeDerivatives(visible, surface, p_in_world, normal, sum);
-  AddOutlineDerivatives(rays, surface, p_in_world, normal, options.outline_points, sum);
+  AddOutlineDerivatives(rays, surface, p_in_world, normal, options.outline_pieces, sum);
   // The flux is spread over the area.
   if (surface.is_disc()) {
     sum.d_size[0] -= 2 * sum.lx_per_lm / surface.sides()[0];

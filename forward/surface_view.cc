@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "forward/dense_product.h"
-#include "forward/direct_light.h"
+#include "forward/shadowed_light.h"
 
 namespace luxfit {
 namespace {
@@ -70,8 +70,7 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
   const Eigen::Vector3d p = surface.PointAt(u, v), normal = surface.Normal();
   double direct_lx = 0;
   for (const Luminaire& luminaire : lit.luminaires)
-    direct_lx += luminaire.flux_lm *
-                 OccludedIlluminancePerLumen(room.rays, luminaire, p, normal, options.luminaire_order);
+    direct_lx += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal);
   Eigen::RowVectorXd indirect_lx;
   if (options.gather_rays > 0) {
     SensorRays turned;

@@ -36,8 +36,7 @@ struct LitRoom {
 LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, const Eigen::MatrixXd& albedo);
 
 struct ViewOptions {
-  int luminaire_order = 4;  // points a side of a luminous surface: 16 steps in a penumbra
-  int gather_rays = 0;      // 0: indirect light is interpolated; else gathered by so many rays a point
+  int gather_rays = 0;  // 0: indirect light is interpolated; else gathered by so many rays a point
 };
 
 // Illuminance (lx, one a channel) of a point of a facet's front.

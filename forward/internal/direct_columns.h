@@ -1,4 +1,7 @@
-// Direct light of all luminaires at one place, and its derivatives, as one row of a matrix.
+// Direct light of all luminaires at all places, and its derivatives, as columns.
+//
+// rows x (luminaires + parameters), lx per lm. Derivatives hold visibility fixed unless moving shadows are
+// asked for: then places that see a part of a luminaire get those of forward/shadowed_light.h.
 #ifndef LUXFIT_FORWARD_INTERNAL_DIRECT_COLUMNS_H_
 #define LUXFIT_FORWARD_INTERNAL_DIRECT_COLUMNS_H_
 
@@ -9,14 +12,14 @@
 
 namespace luxfit {
 
-// rows x (luminaires + parameters), lx per lm: elements of the room first row by row, then those receivers that are sensors.
 struct DirectColumns {
-  Eigen::MatrixXf elements;
+  Eigen::MatrixXf elements;  // of the room
   Eigen::MatrixXf receivers;
 };
-DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
+                                   const LuminaireVisibility& visibility,
                                    const std::vector<Luminaire>& luminaires,
-                                   const std::vector<LuminaireParameter>& parameters);
+                                   const DerivativeRequest& derivatives);
 
 }  // namespace luxfit
 

@@ -23,6 +23,7 @@ class SparseRoom : public testing::Test {
     RoomOptions options;
     options.patches = {0.5, 0.25};
     options.form_factors.rays_per_element = 32;
+    options.form_factors.method = FormFactorMethod::kMalley;  // the rays that the sparse store keeps
     room_ = std::make_unique<Room>(MakeRoom(scene, options));
     sparse_ = std::make_unique<SparseTransport>(room_->rays, room_->patches, options.form_factors);
   }

@@ -1,0 +1,119 @@
+#include "forward/internal/direct_columns.h"
+
+#include <tbb/parallel_for.h>
+
+#include "forward/direct_light.h"
+#include "forward/sensor.h"
+#include "forward/shadowed_light.h"
+
+namespace luxfit {
+namespace {
+
+double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity) {
+  switch (quantity) {
+    case LuminaireQuantity::kPositionX:
+      return direct.d_position.x();
+    case LuminaireQuantity::kPositionY:
+      return direct.d_position.y();
+    case LuminaireQuantity::kPositionZ:
+      return direct.d_position.z();
+    case LuminaireQuantity::kExponent:
+      return direct.d_exponent;
+    case LuminaireQuantity::kSizeAlong:
+      return direct.d_size[0];
+    case LuminaireQuantity::kSizeAcross:
+      return direct.d_size[1];
+    case LuminaireQuantity::kTiltAlong:
+      return direct.d_tilt[0];
+    case LuminaireQuantity::kTiltAcross:
+      return direct.d_tilt[1];
+    case LuminaireQuantity::kHeading:
+      return direct.d_heading;
+  }
+  return 0;
+}
+
+// One place: its light is measured at `place`, its shadows at the probes of `element`, if it is one.
+struct Spot {
+  Sensor place;
+  const Element* element = nullptr;
+  bool triangle = false;
+};
+
+class ColumnFiller {
+ public:
+  ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
+               const DerivativeRequest& derivatives)
+      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {}
+
+  // Columns for the luminaires, then for the parameters.
+  template <typename Row, typename Shares>
+  void Fill(const Spot& spot, const Shares& visible, Row&& row) const {
+    std::vector<DirectIlluminance> direct(luminaires_.size());
+    std::vector<double> share(luminaires_.size());
+    for (size_t k = 0; k < luminaires_.size(); ++k) {
+      share[k] = static_cast<double>(visible[static_cast<Eigen::Index>(k)]);
+      if (share[k] == 0) continue;
+      direct[k] = SensorIlluminancePerLumen(luminaires_[k], spot.place);
+      row[static_cast<Eigen::Index>(k)] = static_cast<float>(share[k] * direct[k].lx_per_lm);
+      const bool cosine = spot.place.response.kind == ResponseKind::kCosine;
+      if (!derivatives_.moving_shadows || derivatives_.parameters.empty() || share[k] == 1 || !cosine)
+        continue;
+      direct[k] = Shadowed(spot, luminaires_[k]);
+      share[k] = 1;  // its derivatives are those of the visible part already
+    }
+    for (size_t p = 0; p < derivatives_.parameters.size(); ++p) {
+      const LuminaireParameter& parameter = derivatives_.parameters[p];
+      const size_t k = static_cast<size_t>(parameter.luminaire);
+      row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
+          static_cast<float>(share[k] * DerivativeOf(direct[k], parameter.quantity));
+    }
+  }
+
+ private:
+  DirectIlluminance Shadowed(const Spot& spot, const Luminaire& luminaire) const {
+    if (spot.element == nullptr)
+      return ShadowedIlluminancePerLumen(rays_, luminaire, spot.place.position, spot.place.normal);
+    DirectIlluminance mean;
+    const std::vector<Eigen::Vector3d> probes = ProbesOf(*spot.element, spot.triangle);
+    for (const Eigen::Vector3d& p : probes) {
+      mean.AddScaled(1.0 / static_cast<double>(probes.size()),
+                     ShadowedIlluminancePerLumen(rays_, luminaire, p, spot.place.normal));
+    }
+    return mean;
+  }
+
+  const RayScene& rays_;
+  const std::vector<Luminaire>& luminaires_;
+  const DerivativeRequest& derivatives_;
+};
+
+}  // namespace
+
+DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
+                                   const LuminaireVisibility& visibility,
+                                   const std::vector<Luminaire>& luminaires,
+                                   const DerivativeRequest& derivatives) {
+  const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
+  const Eigen::Index columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
+  const ColumnFiller filler(room.rays, luminaires, derivatives);
+  DirectColumns result{Eigen::MatrixXf::Zero(elements, columns),
+                       Eigen::MatrixXf::Zero(receivers.count(), columns)};
+  tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
+    const Element& element = room.patches.elements[static_cast<size_t>(e)];
+    filler.Fill({{element.center, element.normal, {}}, &element, room.patches.IsTriangle(element.patch)},
+                visibility.elements.row(e), result.elements.row(e));
+  });
+  const Eigen::Index observed = static_cast<Eigen::Index>(receivers.elements.size());
+  tbb::parallel_for(Eigen::Index{0}, static_cast<Eigen::Index>(receivers.count()), [&](Eigen::Index r) {
+    if (r < observed) {
+      result.receivers.row(r) = result.elements.row(receivers.elements[static_cast<size_t>(r)]);
+    } else {
+      const Sensor& sensor = receivers.points[static_cast<size_t>(r)];
+      filler.Fill({sensor}, visibility.receivers.row(r), result.receivers.row(r));
+    }
+  });
+  return result;
+}
+
+}  // namespace luxfit
