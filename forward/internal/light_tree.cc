@@ -146,7 +146,7 @@ Probes ProbesOf(const LightNode& element) {
 
 Eigen::Vector3d PointAroundProbe(const LightNode& element, int k, double u, double v) {
   if (element.kind == FacetKind::kParallelogram)
-    return PointOnElement(element, 0.5 * (u + k % 2), 0.5 * (v + static_cast<double>(k / 2)));
+    return PointOnElement(element, 0.5 * (u + (k % 2 == 1 ? 1 : 0)), 0.5 * (v + (k >= 2 ? 1 : 0)));
   if (u + v > 1) {
     u = 1 - u;
     v = 1 - v;
