@@ -1,0 +1,40 @@
+// Links of hierarchical radiosity: how much of a source's exitance a receiver sees, and how uncertain that
+// is.
+//
+// What factor times light of the source is, by kind of receiver <- source (d: unit direction to the source):
+//   element <- element   F V          times M                                   = illuminance
+//   element <- cluster   V cos / r^2  times intensity I(-d)                     = illuminance
+//   cluster <- element   V A cos / (pi r^2)  times M          } illuminance perpendicular to d, which the
+//   cluster's cluster <- cluster   V / r^2      times intensity I(-d)   } members turn into theirs
+#ifndef LUXFIT_FORWARD_INTERNAL_LIGHT_LINKS_H_
+#define LUXFIT_FORWARD_INTERNAL_LIGHT_LINKS_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "forward/internal/light_tree.h"
+#include "forward/visibility.h"
+
+namespace luxfit {
+
+struct LightLink {
+  int32_t receiver = 0, source = 0;
+  float factor = 0;
+  // Of the receiver's illuminance over the source's mean exitance, rms over the receiver; negative where
+  // cutting the source mends more.
+  float error = 0;
+};
+
+struct LinkEvaluation {
+  enum class Verdict { kNone, kLink, kTooNear };  // no light passes; link; clusters overlap: cut first
+  Verdict verdict = Verdict::kNone;
+  LightLink link;
+};
+
+// `tolerance`: error that needs no further rays or cuts, in illuminance over the source's mean exitance.
+LinkEvaluation EvaluateLink(const LightTree& tree, const RayScene& rays, int receiver, int source,
+                            double tolerance);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_INTERNAL_LIGHT_LINKS_H_
