@@ -31,8 +31,9 @@ PlaneGrid GridOf(const IlluminancePlane& plane) {
   grid.normal = cross.normalized();
   grid.points.resize(3, static_cast<Eigen::Index>(grid.count_u) * grid.count_v);
   for (Eigen::Index k = 0; k < grid.points.cols(); ++k) {
-    const double u = (static_cast<double>(k % grid.count_u) + 0.5) / grid.count_u;
-    const double v = (static_cast<double>(k / grid.count_u) + 0.5) / grid.count_v;
+    const Eigen::Index row = k / grid.count_u, column = k - row * grid.count_u;
+    const double u = (static_cast<double>(column) + 0.5) / grid.count_u;
+    const double v = (static_cast<double>(row) + 0.5) / grid.count_v;
     grid.points.col(k) = plane.origin + u * plane.edge_u + v * plane.edge_v;
   }
   return grid;

@@ -342,7 +342,10 @@ std::vector<MeshFinding> WithRayShares(std::vector<MeshFinding> findings, const 
   };
   // A room that is inside out loses all its rays, and that is no second defect.
   const bool explained = find(MeshDefect::kInsideOut) != findings.end();
-  if (find(MeshDefect::kOpenMesh) == findings.end() && escaped_fraction > kEscapedShare && !explained) {
+  // Elements behind a flipped facet lie outside, and what falls on those beside it is lost: no hole either.
+  const bool flipped = find(MeshDefect::kFlippedFacets) != findings.end();
+  if (find(MeshDefect::kOpenMesh) == findings.end() && escaped_fraction > kEscapedShare && !explained &&
+      !flipped) {
     findings.push_back({MeshDefect::kOpenMesh,
                         1,
                         0,

@@ -151,6 +151,7 @@ class Builder {
       }
     }
     std::vector<std::pair<int, float>> weights;
+    weights.reserve(elements.size());
     for (const int e : elements)
       weights.emplace_back(e, static_cast<float>(1 / count + slope.dot(center(e) - mean)));
     return weights;

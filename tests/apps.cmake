@@ -4,6 +4,7 @@ luxfit_test(apps csv_table_test LINK luxfit_apps)
 luxfit_test(apps name_pattern_test LINK luxfit_apps)
 luxfit_test(apps session_errors_test LINK luxfit_apps)
 luxfit_test(apps session_test LINK luxfit_apps)
+luxfit_test(apps stage_room_test LINK luxfit_apps)
 luxfit_test(apps suggest_test LINK luxfit_apps)
 luxfit_test(apps tag_map_test LINK luxfit_apps)
 # Runs the program itself, which no test links.
