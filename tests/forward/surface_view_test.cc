@@ -101,7 +101,7 @@ TEST(SurfaceIlluminance, InterpolatedGatheredAndSensorsAgree) {
     const Receivers receivers = MakeReceivers(room, {}, {{p, {0, 0, 1}, {}}});
     const LuminaireVisibility visibility = ComputeVisibility(room, receivers, lit.luminaires);
     const Eigen::RowVectorXd interpolated = SurfaceIlluminance(room, lit, 4, u, v);
-    const Eigen::RowVectorXd gathered = SurfaceIlluminance(room, lit, 4, u, v, {4, 4096});
+    const Eigen::RowVectorXd gathered = SurfaceIlluminance(room, lit, 4, u, v, {4096});
     for (Eigen::Index c = 0; c < 2; ++c) {
       const double expected =
           3000 * ComputeIlluminance(room, receivers, visibility, lit.luminaires, albedo.col(c)).total(0, 0);
