@@ -12,7 +12,7 @@
 #include <numeric>
 #include <random>
 
-#include "forward/direct_light.h"
+#include "forward/shadowed_light.h"
 #include "forward/hierarchical.h"
 #include "forward/illuminance.h"
 #include "forward/room.h"
@@ -61,7 +61,7 @@ Eigen::VectorXd AlbedoOf(const Scene& scene) {
 
 DirectLight DirectLightOf(const RayScene& rays, const Luminaire& lamp) {
   return [&rays, &lamp](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-    return lamp.flux_lm * OccludedIlluminancePerLumen(rays, lamp, p, normal, 3);
+    return lamp.flux_lm * VisibleIlluminancePerLumen(rays, lamp, p, normal);
   };
 }
 

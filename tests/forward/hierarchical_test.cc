@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "forward/direct_light.h"
+#include "forward/shadowed_light.h"
 #include "forward/light_tracer.h"
 #include "forward/room.h"
 #include "tests/support/scenes.h"
@@ -26,7 +26,7 @@ struct LitScene {
 
   DirectLight Direct() const {
     return [this](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-      return lamp.flux_lm * OccludedIlluminancePerLumen(rays, lamp, p, normal, 4);
+      return lamp.flux_lm * VisibleIlluminancePerLumen(rays, lamp, p, normal);
     };
   }
   HierarchicalSolution Solve(const HierarchicalOptions& options) const {
