@@ -29,10 +29,9 @@ Place PlaceOf(const Facet& facet, const Cell& cell, int cells_u, int cells_v) {
   return {facet.PointAt(cell.i * du, cell.j * dv), du * facet.edge_u, dv * facet.edge_v};
 }
 
-Element MakeElement(const Facet& facet, const Place& place, int patch) {
+Element MakeElement(const Facet& facet, const Place& place) {
   Element element;
   element.normal = facet.Normal();
-  element.patch = patch;
   element.origin = place.origin;
   element.edge_u = place.edge_u;
   element.edge_v = place.edge_v;
@@ -83,6 +82,12 @@ std::vector<Cell> CellsOfTrianglePatch(const Cell& patch, int m) {
   return cells;
 }
 
+// A cell of a facet with the share of it that is not inside a solid.
+struct FreeCell {
+  Element element;
+  double share = 0;
+};
+
 class Subdivision {
  public:
   Subdivision(const Scene& scene, const RayScene& rays, const PatchesOptions& options)
@@ -92,6 +97,11 @@ class Subdivision {
   Patches result;
 
  private:
+  // Cells [i, i_end) x [j, j_end).
+  struct Block {
+    int i, i_end, j, j_end;
+  };
+
   void AddFacet(int index) {
     const Facet& facet = scene_.facets[static_cast<size_t>(index)];
     const bool triangle = facet.kind == FacetKind::kTriangle;
@@ -108,46 +118,104 @@ class Subdivision {
     grid.element_of_cell.assign(grid.Index(0, grid.cells_v, false), -1);
     result.grids.push_back(grid);
     result.facets.push_back(facet);
+    free_cells_.assign(grid.element_of_cell.size(), {});
     for (int j = 0; j < patches_v; ++j) {
       for (int i = 0; i < patches_u; ++i) {
-        const auto add = [&](bool upper, const std::vector<Cell>& cells) {
-          AddPatch(index, PlaceOf(facet, {i, j, upper}, patches_u, patches_v), cells);
-        };
+        const int left = i * elements_u, low = j * elements_v;
         if (!triangle) {
-          std::vector<Cell> cells;
-          for (int b = 0; b < elements_v; ++b) {
-            for (int a = 0; a < elements_u; ++a)
-              cells.push_back({i * elements_u + a, j * elements_v + b, false});
-          }
-          add(false, cells);
+          AddBlock({left, left + elements_u, low, low + elements_v});
         } else if (i + j < patches_u) {
-          add(false, CellsOfTrianglePatch({i, j, false}, elements_u));
-          if (i + j < patches_u - 1) add(true, CellsOfTrianglePatch({i, j, true}, elements_u));
+          AddTriangle(PlaceOf(facet, {i, j, false}, patches_u, patches_v),
+                      CellsOfTrianglePatch({i, j, false}, elements_u));
+          if (i + j < patches_u - 1)
+            AddTriangle(PlaceOf(facet, {i, j, true}, patches_u, patches_v),
+                        CellsOfTrianglePatch({i, j, true}, elements_u));
         }
       }
     }
   }
 
-  void AddPatch(int facet_index, const Place& place, const std::vector<Cell>& cells) {
-    const Facet& facet = scene_.facets[static_cast<size_t>(facet_index)];
+  void AddBlock(const Block& block) {
+    const Facet& facet = result.facets.back();
+    const FacetGrid& grid = result.grids.back();
+    std::vector<Cell> cells;
+    for (int j = block.j; j < block.j_end; ++j) {
+      for (int i = block.i; i < block.i_end; ++i) cells.push_back({i, j, false});
+    }
+    Find(cells);
+    const int width = block.i_end - block.i, height = block.j_end - block.j;
+    if (cells.size() == 1 || !MustSplit(cells)) {
+      Place place = PlaceOf(facet, {block.i, block.j, false}, grid.cells_u, grid.cells_v);
+      place.edge_u *= width;
+      place.edge_v *= height;
+      return AddPatch(place, cells);
+    }
+    const bool along_u = height == 1 || (width > 1 && width * facet.edge_u.norm() / grid.cells_u >=
+                                                          height * facet.edge_v.norm() / grid.cells_v);
+    Block first = block, second = block;
+    if (along_u) {
+      first.i_end = second.i = block.i + width / 2;
+    } else {
+      first.j_end = second.j = block.j + height / 2;
+    }
+    AddBlock(first);
+    AddBlock(second);
+  }
+
+  void AddTriangle(const Place& place, const std::vector<Cell>& cells) {
+    Find(cells);
+    if (cells.size() == 1 || !MustSplit(cells)) return AddPatch(place, cells);
+    const FacetGrid& grid = result.grids.back();
+    for (const Cell& cell : cells)
+      AddPatch(PlaceOf(result.facets.back(), cell, grid.cells_u, grid.cells_v), {cell});
+  }
+
+  FreeCell& At(const Cell& cell) {
+    return free_cells_[result.grids.back().Index(cell.i, cell.j, cell.upper)];
+  }
+
+  void Find(const std::vector<Cell>& cells) {
+    const Facet& facet = result.facets.back();
+    const FacetGrid& grid = result.grids.back();
+    for (const Cell& cell : cells) {
+      FreeCell& free = At(cell);
+      if (free.element.area_m2 > 0) continue;  // found on an earlier level
+      free.element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v));
+      free.share = FreeShare(rays_, free.element, facet.kind == FacetKind::kTriangle);
+      free.element.is_whole = free.share == 1;
+    }
+  }
+
+  // A patch that a solid stands on would carry light from one of its sides to the other.
+  bool MustSplit(const std::vector<Cell>& cells) {
+    std::vector<Element> free;
+    for (const Cell& cell : cells) {
+      if (At(cell).share > 0) free.push_back(At(cell).element);
+    }
+    if (free.empty()) return false;
+    const bool whole = free.size() == cells.size() &&
+                       std::all_of(free.begin(), free.end(), [](const Element& e) { return e.is_whole; });
+    return !whole || (options_.must_split && options_.must_split(free));
+  }
+
+  void AddPatch(const Place& place, const std::vector<Cell>& cells) {
+    const int facet = static_cast<int>(result.facets.size()) - 1;
     FacetGrid& grid = result.grids.back();
     Patch patch;
-    patch.facet = facet_index;
-    patch.material = facet.material;
+    patch.facet = facet;
+    patch.material = result.facets.back().material;
     patch.origin = place.origin;
     patch.edge_u = place.edge_u;
     patch.edge_v = place.edge_v;
     patch.first_element = static_cast<int>(result.elements.size());
     patch.center.setZero();
-    const bool triangle = facet.kind == FacetKind::kTriangle;
     for (const Cell& cell : cells) {
-      Element element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v),
-                                    static_cast<int>(result.patches.size()));
-      const double free_share = FreeShare(rays_, element, triangle);
-      element.is_whole = free_share == 1;
+      Element element = At(cell).element;
+      const double share = At(cell).share;
       patch.is_whole = patch.is_whole && element.is_whole;
-      if (free_share == 0) continue;
-      element.area_m2 *= free_share;
+      if (share == 0) continue;
+      element.patch = static_cast<int>(result.patches.size());
+      element.area_m2 *= share;
       grid.element_of_cell[grid.Index(cell.i, cell.j, cell.upper)] = static_cast<int>(result.elements.size());
       patch.area_m2 += element.area_m2;
       patch.center += element.area_m2 * element.center;
@@ -162,6 +230,7 @@ class Subdivision {
   const Scene& scene_;
   const RayScene& rays_;
   const PatchesOptions& options_;
+  std::vector<FreeCell> free_cells_;  // of the facet at hand
 };
 
 }  // namespace

@@ -2,9 +2,10 @@
 //
 // Facets are cut into congruent patches no larger than patch_size_m, and those into elements no larger than
 // element_size_m. A patch lies in one facet, so it never straddles materials; its elements are numbered
-// consecutively. Models let solids stand on larger faces (a cabinet against its wall): what lies inside a
-// solid sees only the backs of facets. Elements that are wholly inside are left out; of those partly inside
-// only the free share counts as area.
+// consecutively. A patch that a solid stands on, or of which `must_split` says so, is halved until it is
+// clear of it or a single element. Models let solids stand on larger faces (a cabinet against its wall): what
+// lies inside a solid sees only the backs of facets. Elements that are wholly inside are left out; of those
+// partly inside only the free share counts as area.
 //
 // Lengths m, areas m2, world frame.
 // Source: Cohen, Greenberg, Immel, Brock (1986), "An efficient radiosity approach for realistic image
@@ -14,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "forward/scene.h"
@@ -46,6 +48,8 @@ struct Element {
 struct PatchesOptions {
   double patch_size_m = 0.4;    // indirect light varies slowly
   double element_size_m = 0.1;  // direct light and shadows vary fast
+  // Whether the elements of a patch differ too much to send light as one (forward/adaptive_patches.h).
+  std::function<bool(const std::vector<Element>&)> must_split = nullptr;
 };
 
 // The grid of cells of one facet.

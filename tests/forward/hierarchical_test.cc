@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "forward/shadowed_light.h"
 #include "forward/light_tracer.h"
 #include "forward/room.h"
+#include "forward/shadowed_light.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 

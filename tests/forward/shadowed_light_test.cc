@@ -64,8 +64,8 @@ TEST(ShadowedLight, DerivativesAreThoseOfTheClosedForm) {
     move(down, -kStep);
     return (VisiblePanelLx(up, 0.05) - VisiblePanelLx(down, 0.05)) / (2 * kStep);
   };
-  // The share that is seen, and with it what the flux per area takes away, is right to 1 / 64 of the panel; per metre
-  // of a side of half a metre.
+  // The share that is seen, and with it what the flux per area takes away, is right to 1 / 64 of the panel;
+  // per metre of a side of half a metre.
   const double tolerance = VisiblePanelLx(lamp, 10) / 64 / 0.5;
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(light.d_position[axis], slope([&](Luminaire& l, double h) { l.position[axis] += h; }),

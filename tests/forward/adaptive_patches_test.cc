@@ -1,0 +1,106 @@
+#include "forward/adaptive_patches.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "forward/illuminance.h"
+#include "forward/light_tracer.h"
+#include "forward/room.h"
+#include "tests/support/scenes.h"
+
+namespace luxfit {
+namespace {
+
+// A room with a partition that throws a shadow over the floor, lit from near the ceiling.
+Scene RoomWithPartition() {
+  Scene scene = support::ClosedRoom({5, 3, 2.7});
+  support::AddBox(scene, {Eigen::Vector3d(2.95, 0, 0), Eigen::Vector3d(3.05, 2.2, 2)},
+                  support::Facing::kOutward, {"partition"});
+  return scene;
+}
+
+std::vector<Luminaire> Panel() {
+  Luminaire panel;
+  panel.position = {1.5, 1.5, 2.6};
+  panel.shape = LuminaireShape::kRectangle;
+  panel.size_m = {0.6, 0.6};
+  panel.flux_lm = 3500;
+  return {panel};
+}
+
+Patches Subdivided(const Scene& scene, const RayScene& rays, double error_percent) {
+  return Subdivide(scene, rays, AdaptivePatches(scene, rays, Panel(), error_percent, {0.8, 0.1}));
+}
+
+TEST(AdaptivePatches, AreSmallWhereLightVaries) {
+  const Scene scene = RoomWithPartition();
+  const RayScene rays(scene);
+  const Patches patches = Subdivided(scene, rays, 1);
+  // Mean size by the floor's side under the panel, and low on the far wall, where no direct light reaches.
+  double near_panel = 0, far = 0;
+  int near_count = 0, far_count = 0;
+  for (const Patch& patch : patches.patches) {
+    const bool is_floor = patch.facet == 4, is_far_wall = patch.facet == 1;
+    if (is_floor && patch.center.x() < 2.6) {
+      near_panel += patch.area_m2;
+      ++near_count;
+    }
+    if (is_far_wall && patch.center.y() < 2 && patch.center.z() < 1) {
+      far += patch.area_m2;
+      ++far_count;
+    }
+  }
+  EXPECT_LT(near_panel / near_count, 0.5 * far / far_count);
+}
+
+TEST(AdaptivePatches, AreMoreForASmallerBound) {
+  const Scene scene = RoomWithPartition();
+  const RayScene rays(scene);
+  const size_t coarse = Subdivided(scene, rays, 8).patches.size(),
+               middle = Subdivided(scene, rays, 2).patches.size(),
+               fine = Subdivided(scene, rays, 0.5).patches.size();
+  EXPECT_LT(coarse, middle);
+  EXPECT_LT(middle, fine);
+  EXPECT_THROW(Subdivided(scene, rays, 0), std::invalid_argument);
+}
+
+TEST(AdaptivePatches, NeverSpanWhatStandsOnThem) {
+  const Scene scene = RoomWithPartition();
+  const RayScene rays(scene);
+  for (const Patch& patch : Subdivide(scene, rays, {0.8, 0.1}).patches) {
+    const double low = std::min(patch.origin.x(), patch.origin.x() + patch.edge_u.x() + patch.edge_v.x());
+    const double high = std::max(patch.origin.x(), patch.origin.x() + patch.edge_u.x() + patch.edge_v.x());
+    const bool spans = patch.facet == 4 && low < 2.95 && high > 3.05 && patch.origin.y() < 2.1 &&
+                       patch.origin.y() + patch.edge_u.y() + patch.edge_v.y() < 2.2;
+    EXPECT_FALSE(spans) << patch.center.transpose();
+  }
+}
+
+// The light that reaches the shade behind the partition, against paths that know no patches.
+TEST(AdaptivePatches, GiveTheLightTracersIlluminance) {
+  const Scene scene = RoomWithPartition();
+  const std::vector<Luminaire> panel = Panel();
+  const Eigen::Vector2d albedo(0.6, 0.4);
+  const std::vector<Sensor> sensors = {
+      {{4, 0.5, 0.01}, {0, 0, 1}, {}}, {{4, 1.5, 0.8}, {0, 0, 1}, {}}, {{1.5, 0.5, 0.01}, {0, 0, 1}, {}}};
+  const RayScene rays(scene);
+  const TracedIlluminance traced = TraceIlluminance(scene, rays, panel, albedo, sensors);
+  RoomOptions options;
+  options.patches = AdaptivePatches(scene, rays, panel, 1, {0.8, 0.1});
+  const Room room = MakeRoom(scene, options);
+  const Receivers receivers = MakeReceivers(room, {}, sensors);
+  const Illuminance solved =
+      ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, panel), panel, albedo);
+  for (Eigen::Index s = 0; s < 3; ++s) {
+    const double expected = traced.direct(s, 0) + traced.indirect(s, 0);
+    const double sigma = std::hypot(traced.direct_sigma(s, 0), traced.indirect_sigma(s, 0));
+    // 2 %: twice the bound asked for, for what it leaves out (exitance varies by reflected light too).
+    EXPECT_NEAR(3500 * solved.total(s, 0), expected, 4 * sigma + 0.02 * expected) << s;
+  }
+}
+
+}  // namespace
+}  // namespace luxfit
