@@ -70,16 +70,16 @@ class PairRows {
     const Patch& patch = patches_.patches[static_cast<size_t>(p)];
     const PatchView view = ViewOf(p);
     const Eigen::Index n = rows.cols(), m = patch.element_count;
-    const auto index = [](int j) { return static_cast<Eigen::Index>(j); };
-    Eigen::ArrayXXf factors(m, static_cast<Eigen::Index>(view.partial.size()));
+    const Eigen::Index partial = static_cast<Eigen::Index>(view.partial.size());
+    Eigen::ArrayXXf factors(m, partial);
     for (Eigen::Index i = 0; i < m; ++i) {
       const Element& element = patches_.elements[static_cast<size_t>(patch.first_element + i)];
       float* const row = rows.row(patch.first_element + i).data();
       unoccluded_.Far(element, row);
       Eigen::Map<Eigen::ArrayXf>(row, n) *= Eigen::Map<const Eigen::ArrayXf>(view.sees.data(), n);
       for (const int j : view.near) row[j] = static_cast<float>(unoccluded_.Near(element, j));
-      for (size_t k = 0; k < view.partial.size(); ++k)
-        factors(i, index(static_cast<int>(k))) = element.is_whole ? row[view.partial[k]] : 0;
+      for (Eigen::Index k = 0; k < partial; ++k)
+        factors(i, k) = element.is_whole ? row[view.partial[static_cast<size_t>(k)]] : 0;
     }
     const VisibleShares shares =
         ComputeVisibleShares(rays_, patches_, p, view.partial, factors, rays_per_element_);
@@ -93,8 +93,8 @@ class PairRows {
         report.rays += buried_.Cast(element, static_cast<uint64_t>(e), row.data()).rays;
         continue;
       }
-      for (size_t k = 0; k < view.partial.size(); ++k)
-        row[view.partial[k]] *= shares.share(i, index(static_cast<int>(k)));
+      for (Eigen::Index k = 0; k < partial; ++k)
+        row[view.partial[static_cast<size_t>(k)]] *= shares.share(i, k);
       if (tallies_[static_cast<size_t>(e)].SeesNothing()) continue;
       const double missing = 1 - static_cast<double>(row.sum());
       report.missing += missing;
@@ -162,8 +162,8 @@ FormFactors PairFormFactors(const RayScene& rays, const Patches& patches, FormFa
   const PairRows rows(rays, patches, method == FormFactorMethod::kAnalytic, rays_per_element);
   FormFactors result;
   result.method = method;
-  result.element_to_patch.setZero(static_cast<Eigen::Index>(patches.elements.size()),
-                                  static_cast<Eigen::Index>(patches.patches.size()));
+  result.element_to_patch.resize(static_cast<Eigen::Index>(patches.elements.size()),
+                                 static_cast<Eigen::Index>(patches.patches.size()));
   std::vector<PairRows::Report> reports(patches.patches.size());
   tbb::parallel_for(size_t{0}, patches.patches.size(),
                     [&](size_t p) { reports[p] = rows.Fill(static_cast<int>(p), result.element_to_patch); });

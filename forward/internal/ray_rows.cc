@@ -35,9 +35,9 @@ Eigen::Matrix3f FrameOf(const Element& receiver, double turn) {
 class Origins {
  public:
   Origins(const Element& receiver, bool triangle, bool center, uint64_t hash)
-      : base_((center ? receiver.center : receiver.origin) + 1e-5 * receiver.normal),
-        edge_u_(center ? Eigen::Vector3d::Zero() : receiver.edge_u),
-        edge_v_(center ? Eigen::Vector3d::Zero() : receiver.edge_v),
+      : base_(LiftedOff(center ? receiver.center : receiver.origin, receiver.normal).cast<float>()),
+        edge_u_((center ? 0 : 1) * receiver.edge_u.cast<float>()),
+        edge_v_((center ? 0 : 1) * receiver.edge_v.cast<float>()),
         triangle_(triangle),
         u_(UnitFrom(Mix(hash))),
         v_(UnitFrom(Mix(hash + 1))) {}
@@ -48,12 +48,12 @@ class Origins {
     u_ -= u_ >= 1 ? 1 : 0;
     v_ -= v_ >= 1 ? 1 : 0;
     const bool mirrored = triangle_ && u_ + v_ > 1;
-    const double u = mirrored ? 1 - u_ : u_, v = mirrored ? 1 - v_ : v_;
-    return (base_ + u * edge_u_ + v * edge_v_).cast<float>();
+    const float u = static_cast<float>(mirrored ? 1 - u_ : u_), v = static_cast<float>(mirrored ? 1 - v_ : v_);
+    return base_ + u * edge_u_ + v * edge_v_;
   }
 
  private:
-  Eigen::Vector3d base_, edge_u_, edge_v_;
+  Eigen::Vector3f base_, edge_u_, edge_v_;
   bool triangle_;
   double u_, v_;
 };
@@ -66,6 +66,7 @@ RayRows::RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod 
       method_(method),
       count_(count),
       from_center_(IsFixedToReceiver(method)) {
+  for (const Element& element : patches.elements) patch_of_element_.push_back(element.patch);
   if (method == FormFactorMethod::kMonteCarlo) return;  // random afresh for every receiver
   const bool random = method == FormFactorMethod::kMalley || method == FormFactorMethod::kMalleyStratified;
   for (uint64_t variant = 0; variant < (random ? kVariants : 1); ++variant) {
@@ -74,7 +75,7 @@ RayRows::RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod 
 }
 
 RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) const {
-  const RayTally tally = Cast(receiver, index, [row](int patch, float weight) { row[patch] += weight; });
+  const RayTally tally = Trace(receiver, index, [row](int patch, float weight) { row[patch] += weight; });
   if (tally.scale != 1) {
     Eigen::Map<Eigen::VectorXf>(row, static_cast<Eigen::Index>(patches_.patches.size())) *=
         static_cast<float>(tally.scale);
@@ -83,6 +84,11 @@ RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) cons
 }
 
 RayTally RayRows::Cast(const Element& receiver, uint64_t index, const HitSink& add) const {
+  return Trace(receiver, index, add);
+}
+
+template <typename Add>
+RayTally RayRows::Trace(const Element& receiver, uint64_t index, const Add& add) const {
   const uint64_t hash = Mix(index);
   Directions fresh;
   if (variants_.empty()) fresh = MakeDirections(method_, count_, hash);
@@ -91,7 +97,6 @@ RayTally RayRows::Cast(const Element& receiver, uint64_t index, const HitSink& a
   const bool triangle = receiver.patch >= 0 && patches_.IsTriangle(receiver.patch);
   Origins origins(receiver, triangle, from_center_, hash);
   RayTally tally;
-  double landed = 0;
   for (Eigen::Index first = 0; first < set.unit.cols(); first += RayPacket::kSize) {
     RayPacket packet;
     for (Eigen::Index k = first; k < std::min<Eigen::Index>(first + RayPacket::kSize, set.unit.cols()); ++k) {
@@ -109,17 +114,18 @@ RayTally RayRows::Cast(const Element& receiver, uint64_t index, const HitSink& a
       if (element < 0) {
         tally.back += weight;
       } else {
-        add(patches_.elements[static_cast<size_t>(element)].patch, weight);
-        landed += weight;
+        add(patch_of_element_[static_cast<size_t>(element)], weight);
+        tally.landed += weight;
       }
     }
   }
   tally.rays = set.unit.cols();
   // A ray that meets a back started on the part of the receiver that is inside a solid: no part of its free
   // share.
-  const double counted = landed + tally.escaped;
+  const double counted = tally.landed + tally.escaped;
   if (tally.back > 0 && counted > 0) {
     tally.scale = (counted + tally.back) / counted;
+    tally.landed *= tally.scale;
     tally.escaped *= tally.scale;
   }
   return tally;
@@ -145,11 +151,13 @@ FormFactors RayFormFactors(const RayScene& rays, const Patches& patches, FormFac
   const Eigen::Index n = static_cast<Eigen::Index>(patches.elements.size());
   FormFactors result;
   result.method = method;
-  result.element_to_patch.setZero(n, static_cast<Eigen::Index>(patches.patches.size()));
+  // Zeroed row by row below: a serial pass over the pages would cost a fifth of the time.
+  result.element_to_patch.resize(n, static_cast<Eigen::Index>(patches.patches.size()));
   std::vector<RayTally> tallies(static_cast<size_t>(n));
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 64),
                     [&](const tbb::blocked_range<Eigen::Index>& range) {
                       for (Eigen::Index e = range.begin(); e < range.end(); ++e) {
+                        result.element_to_patch.row(e).setZero();
                         tallies[static_cast<size_t>(e)] =
                             rows.Cast(patches.elements[static_cast<size_t>(e)], static_cast<uint64_t>(e),
                                       result.element_to_patch.row(e).data());
@@ -160,10 +168,10 @@ FormFactors RayFormFactors(const RayScene& rays, const Patches& patches, FormFac
   result.back_fraction = all.back;
   result.rays = all.rays;
   double gaps = 0, seeing = 0;
-  for (Eigen::Index e = 0; e < n; ++e) {
-    if (tallies[static_cast<size_t>(e)].SeesNothing()) continue;
+  for (const RayTally& tally : tallies) {
+    if (tally.SeesNothing()) continue;
     seeing += 1;
-    gaps += std::pow(result.element_to_patch.row(e).sum() - 1, 2);
+    gaps += std::pow(tally.landed - 1, 2);
   }
   if (all.escaped == 0 && seeing > 0) result.closure_error = std::sqrt(gaps / seeing);
   return result;

@@ -14,8 +14,8 @@
 namespace luxfit {
 
 struct RayTally {
-  double escaped = 0, back = 0;  // in weight
-  double scale = 1;              // of what the others brought, for the rays that met a back
+  double landed = 0, escaped = 0, back = 0;  // in weight
+  double scale = 1;                          // of what the others brought, for the rays that met a back
   int64_t rays = 0;
 
   // The bottom of a cabinet, which lies in the floor, faces out of the room: what it sees is no loss of
@@ -36,8 +36,12 @@ class RayRows {
   RayTally Cast(const Element& receiver, uint64_t index, float* row) const;
 
  private:
+  template <typename Add>
+  RayTally Trace(const Element& receiver, uint64_t index, const Add& add) const;
+
   const RayScene& rays_;
   const Patches& patches_;
+  std::vector<int> patch_of_element_;  // apart from the elements, which are many times its size
   FormFactorMethod method_;
   int count_;
   bool from_center_;

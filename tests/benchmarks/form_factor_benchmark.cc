@@ -138,22 +138,28 @@ class BareEmbree {
 
 void RaysAgainstBareEmbree(benchmark::State& state) {
   const Ready room = MakeReady(Office(), {0.4, 0.1});
-  constexpr int kRays = 64;
-  BareEmbree bare(room, kRays);
-  // Turn by turn, so that a busy machine slows both; the best of each counts.
+  const int rays_per_element = static_cast<int>(state.range(0));
+  BareEmbree bare(room, rays_per_element);
+  // Argument: rays an element. The matrix that they fill is written whichever their number. Turn by turn, so
+  // that a busy machine slows both; the best of each counts.
   double best_bare = 0, best = 0;
   for (auto _ : state) {
     best_bare = std::max(best_bare, bare.MraysPerS());
     const double start = NowS();
     const FormFactors factors =
-        ComputeFormFactors(room.rays, room.patches, {kRays, FormFactorMethod::kMalley});
+        ComputeFormFactors(room.rays, room.patches, {rays_per_element, FormFactorMethod::kMalley});
     best = std::max(best, 1e-6 * static_cast<double>(factors.rays) / (NowS() - start));
   }
   state.counters["Mray/s"] = best;
   state.counters["bare_Mray/s"] = best_bare;
   state.counters["rate_of_bare"] = best / best_bare;
 }
-BENCHMARK(RaysAgainstBareEmbree)->Unit(benchmark::kMillisecond)->Iterations(15)->UseRealTime();
+BENCHMARK(RaysAgainstBareEmbree)
+    ->Arg(64)
+    ->Arg(256)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(15)
+    ->UseRealTime();
 
 double IlluminanceError(const Patches& patches, const FormFactorMatrix& a, const FormFactorMatrix& b) {
   Eigen::VectorXf exitance(static_cast<Eigen::Index>(patches.patches.size()));

@@ -12,10 +12,10 @@
 #include <numeric>
 #include <random>
 
-#include "forward/shadowed_light.h"
 #include "forward/hierarchical.h"
 #include "forward/illuminance.h"
 #include "forward/room.h"
+#include "forward/shadowed_light.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

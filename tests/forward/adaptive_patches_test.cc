@@ -48,7 +48,7 @@ TEST(AdaptivePatches, AreSmallWhereLightVaries) {
       near_panel += patch.area_m2;
       ++near_count;
     }
-    if (is_far_wall && patch.center.y() < 2 && patch.center.z() < 1) {
+    if (is_far_wall && patch.center.y() < 2 && patch.center.z() < 0.6) {
       far += patch.area_m2;
       ++far_count;
     }
