@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+
+#include "forward/polygon_factor.h"
 
 namespace luxfit {
 namespace {
@@ -35,10 +38,49 @@ Eigen::Vector2d SidesOf(const Luminaire& luminaire) {
   return luminaire.size_m;
 }
 
+bool IsLambertianRectangle(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle && luminaire.distribution == Distribution::kLambertian;
+}
+
+// E = pi L F, L = Phi / (pi A), with F in closed form; nothing where the receiver's plane cuts the rectangle.
+std::optional<DirectIlluminance> LambertianRectangle(const Luminaire& luminaire, const Eigen::Vector3d& p,
+                                                     const Eigen::Vector3d& normal) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector3d u = luminaire.size_m[0] * axes.along, v = luminaire.size_m[1] * axes.across;
+  const ConvexPolygon polygon =
+      MakePolygon(luminaire.position - 0.5 * (u + v), u, v, FacetKind::kParallelogram);
+  int in_front = 0;
+  for (int k = 0; k < polygon.count; ++k) in_front += normal.dot(polygon[k] - p) > 0 ? 1 : 0;
+  if (in_front == 0) return DirectIlluminance{};
+  if (in_front < polygon.count) return std::nullopt;
+  const PolygonGradient factor = PointToPolygonGradient(p, normal, polygon);
+  const double area = luminaire.size_m.prod();
+  DirectIlluminance sum;
+  sum.lx_per_lm = factor.factor / area;
+  const Eigen::Vector2d places[4] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+  for (size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d gradient = factor.d_vertex[k] / area;
+    const Eigen::Vector3d offset = places[k][0] * u + places[k][1] * v;
+    sum.d_position += gradient;
+    sum.d_size +=
+        Eigen::Vector2d(places[k][0] * gradient.dot(axes.along), places[k][1] * gradient.dot(axes.across));
+    // Turns as in the sum over surface points below; a Lambertian lobe adds nothing of its own, it is the
+    // surface's cosine.
+    sum.d_tilt +=
+        Eigen::Vector2d(gradient.dot(axes.across.cross(offset)), -gradient.dot(axes.along.cross(offset)));
+    sum.d_heading += gradient.dot(luminaire.aim.cross(offset));
+  }
+  sum.d_size -= sum.lx_per_lm * luminaire.size_m.cwiseInverse();
+  return sum;
+}
+
 }  // namespace
 
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                                             const Eigen::Vector3d& normal) {
+  if (IsLambertianRectangle(luminaire)) {
+    if (const auto exact = LambertianRectangle(luminaire, p_in_world, normal)) return *exact;
+  }
   DirectIlluminance sum;
   const LuminaireAxes axes = AxesOf(luminaire);
   const Eigen::Vector2d sides = SidesOf(luminaire);

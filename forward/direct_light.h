@@ -4,9 +4,11 @@
 //   point q
 //
 // lx for flux in lm, metres, world frame. Unoccluded: multiply by VisibleFraction where things stand between.
-// The number of surface points grows as the receiver comes near, so that the quadrature error stays below 0.1
-// %. Derivatives are exact for the sum above; they leave out the motion of shadow edges. Source:
-// inverse-square cosine law, IES Lighting Handbook, 10th ed., ch. 10.
+// A Lambertian rectangle has its closed form (forward/polygon_factor.h), a point and a uniform sphere are one
+// point; the others are sums over surface points, whose number grows as the receiver comes near, so that the
+// error stays below 0.1 %. Derivatives are those of the sum; they leave out the motion of shadow edges
+// (forward/shadowed_light.h has it). Source: inverse-square cosine law, IES Lighting Handbook, 10th ed.,
+// ch. 10.
 #ifndef LUXFIT_FORWARD_DIRECT_LIGHT_H_
 #define LUXFIT_FORWARD_DIRECT_LIGHT_H_
 

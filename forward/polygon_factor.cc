@@ -136,6 +136,31 @@ double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, c
   return std::max(0.0, -sum / (2 * kPi));
 }
 
+PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                                       const ConvexPolygon& polygon) {
+  PolygonGradient result;
+  result.d_vertex.fill(Eigen::Vector3d::Zero());
+  for (int i = 0; i < polygon.count; ++i) {
+    const int next = (i + 1) % polygon.count;
+    // One edge adds f = angle (n . w) / |w|, w = a x b.
+    const Eigen::Vector3d a = polygon[i] - p, b = polygon[next] - p, w = a.cross(b);
+    const double s = w.norm(), q = a.dot(b), r4 = a.squaredNorm() * b.squaredNorm();
+    if (s < 1e-300) continue;
+    const double angle = std::atan2(s, q), height = normal.dot(w);
+    result.factor += angle * height / s;
+    const double bend = (q / r4 - angle / s) / (s * s);  // of angle / s with s, over s
+    result.d_vertex[static_cast<size_t>(i)] +=
+        height * (bend * b.cross(w) - b / r4) + angle / s * b.cross(normal);
+    result.d_vertex[static_cast<size_t>(next)] +=
+        height * (bend * w.cross(a) - a / r4) + angle / s * normal.cross(a);
+  }
+  // The sign as in PointToPolygon; a point behind the polygon sees nothing of it.
+  const double scale = result.factor < 0 ? -1 / (2 * kPi) : 0;
+  result.factor *= scale;
+  for (Eigen::Vector3d& d : result.d_vertex) d *= scale;
+  return result;
+}
+
 double PolygonToPolygon(const ConvexPolygon& from, const ConvexPolygon& to) {
   const Eigen::Vector3d area_from = AreaVector(from), area_to = AreaVector(to);
   const double area = area_from.norm();

@@ -44,6 +44,15 @@ ConvexPolygon InFrontOf(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
 // Share of the cosine-weighted hemisphere over a point that a polygon covers.
 double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const ConvexPolygon& polygon);
 
+// The same for a polygon that lies wholly in front of the point's plane, with its gradient with respect to
+// each corner (1/m).
+struct PolygonGradient {
+  double factor = 0;
+  std::array<Eigen::Vector3d, 8> d_vertex;
+};
+PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                                       const ConvexPolygon& polygon);
+
 // Share of what polygon `from` sends that polygon `to` receives.
 double PolygonToPolygon(const ConvexPolygon& from, const ConvexPolygon& to);
 
