@@ -168,6 +168,8 @@ class VisibleOutline {
                  const std::vector<Eigen::Vector2d>& outline)
       : rays_(rays), surface_(surface), start_(start) {
     std::vector<bool> seen;
+    seen.reserve(outline.size());
+    shares_.reserve(outline.size());
     for (const Eigen::Vector2d& place : outline) seen.push_back(Sees(place));
     for (size_t k = 0; k < outline.size(); ++k) {
       const size_t next = (k + 1) % outline.size();
