@@ -48,7 +48,8 @@ class Origins {
     u_ -= u_ >= 1 ? 1 : 0;
     v_ -= v_ >= 1 ? 1 : 0;
     const bool mirrored = triangle_ && u_ + v_ > 1;
-    const float u = static_cast<float>(mirrored ? 1 - u_ : u_), v = static_cast<float>(mirrored ? 1 - v_ : v_);
+    const float u = static_cast<float>(mirrored ? 1 - u_ : u_),
+                v = static_cast<float>(mirrored ? 1 - v_ : v_);
     return base_ + u * edge_u_ + v * edge_v_;
   }
 

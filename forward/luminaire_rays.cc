@@ -1,0 +1,85 @@
+#include "forward/luminaire_rays.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "forward/internal/sampling.h"
+#include "forward/internal/tabulated.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Unit vector at gamma from the aim and C from the heading.
+Eigen::Vector3d DirectionAt(const Luminaire& luminaire, const LuminaireAxes& axes, double gamma, double c) {
+  return std::cos(gamma) * luminaire.aim +
+         std::sin(gamma) * (std::cos(c) * axes.along + std::sin(c) * axes.across);
+}
+
+// Mean of the intensity around the aim.
+double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, double gamma) {
+  const int turns = luminaire.distribution == Distribution::kMeasured ? 72 : 1;
+  double sum = 0;
+  for (int k = 0; k < turns; ++k)
+    sum +=
+        IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * kPi * (k + 0.5) / turns))
+            .cd_per_lm;
+  return sum / turns;
+}
+
+Eigen::Vector3d SurfacePoint(const Luminaire& luminaire, const LuminaireAxes& axes, double s, double t) {
+  if (luminaire.shape == LuminaireShape::kRectangle)
+    return luminaire.position + (s - 0.5) * luminaire.size_m[0] * axes.along +
+           (t - 0.5) * luminaire.size_m[1] * axes.across;
+  if (luminaire.shape == LuminaireShape::kDisc) {
+    const double radius = 0.5 * luminaire.size_m[0] * std::sqrt(s);
+    return luminaire.position +
+           radius * (std::cos(2 * kPi * t) * axes.along + std::sin(2 * kPi * t) * axes.across);
+  }
+  return luminaire.position;
+}
+
+}  // namespace
+
+LuminaireRays SampleDistribution(const Luminaire& luminaire, int ray_count) {
+  if (ray_count < 1) throw std::invalid_argument("SampleDistribution: expected ray_count >= 1");
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Tabulated polar(
+      0, kPi, [&](double gamma) { return MeanIntensity(luminaire, axes, gamma) * std::sin(gamma); });
+  const std::vector<Eigen::Vector2d> cells = Isocell(ray_count);
+  LuminaireRays rays;
+  rays.directions.resize(3, static_cast<Eigen::Index>(cells.size()));
+  rays.share.resize(rays.directions.cols());
+  for (Eigen::Index k = 0; k < rays.directions.cols(); ++k) {
+    const Eigen::Vector2d& cell = cells[static_cast<size_t>(k)];
+    const double gamma = polar.Quantile(cell[0]);
+    rays.directions.col(k) = DirectionAt(luminaire, axes, gamma, 2 * kPi * cell[1]);
+    const double mean = MeanIntensity(luminaire, axes, gamma);
+    const double here = IntensityPerLumen(luminaire, axes, rays.directions.col(k)).cd_per_lm;
+    rays.share[k] = mean > 0 ? here / mean : 0;
+  }
+  rays.share /= rays.share.sum();
+  return rays;
+}
+
+Eigen::VectorXf LuminaireFormFactors(const RayScene& rays, const Patches& patches, const Luminaire& luminaire,
+                                     int ray_count) {
+  const LuminaireRays sample = SampleDistribution(luminaire, ray_count);
+  const LuminaireAxes axes = AxesOf(luminaire);
+  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));
+  for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
+    // The plastic number's recurrence spreads the starts over the surface.
+    const double n = static_cast<double>(k + 1);
+    const Eigen::Vector3d start =
+        SurfacePoint(luminaire, axes, Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n));
+    const RayHit hit = rays.Trace(start, sample.directions.col(k));
+    if (hit.facet < 0 || !hit.front) continue;
+    if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)
+      row[patches.elements[static_cast<size_t>(element)].patch] += static_cast<float>(sample.share[k]);
+  }
+  return row;
+}
+
+}  // namespace luxfit
