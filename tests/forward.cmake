@@ -31,5 +31,6 @@ luxfit_test(forward illuminance_test LINK luxfit::forward)
 luxfit_test(forward colour_illuminance_test LINK luxfit::forward)
 luxfit_test(forward placement_test LINK luxfit::forward)
 
+luxfit_test(validation cie171_test LINK luxfit::forward)
 luxfit_test(validation office_forward_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(validation office_view_test LINK luxfit::forward luxfit::calib nlohmann_json::nlohmann_json)
