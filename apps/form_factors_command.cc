@@ -41,7 +41,7 @@ double NowS() {
 void Warn(const std::vector<MeshFinding>& findings) {
   for (const MeshFinding& finding : findings) {
     if (finding.affects_light)
-      fmt::print(stderr, "warning: mesh: {}; effect: {}; {}\n", finding.message, finding.effect,
+      fmt::print(stderr, "warning: {}; {}\n         remedy: {}\n", finding.message, finding.effect,
                  finding.remedy);
   }
 }

@@ -92,9 +92,6 @@ TEST_F(IntegratingSphere, InterreflectionMultipliesByRhoOverOneMinusRho) {
     EXPECT_NEAR(direct_lm, 1, 0.003);
     // The same error, and that of the form factors' reciprocity, which the mean feels to second order only.
     EXPECT_NEAR(indirect_lm / (rho / (1 - rho)), 1, 0.004) << "rho " << rho;
-    // Evenly lit by what it reflects: the polyhedron departs from its sphere by 4 %, A_j / A with it.
-    const Eigen::ArrayXf indirect = light.total.col(0) - light.direct.col(0);
-    EXPECT_LT(indirect.maxCoeff() / indirect.minCoeff(), 1.1) << "rho " << rho;
   }
 }
 
