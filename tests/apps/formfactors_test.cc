@@ -87,7 +87,7 @@ TEST_F(FormFactorsCommandTest, WarnsOfAnOpenMesh) {
   folder_.Write("open.obj", std::string(kCube).substr(0, std::string(kCube).rfind("f 4 8 5 1")));
   const support::ProgramRun run = Run("open.obj", "f.json", "--patch-size 1");
   ASSERT_EQ(run.status, 0) << run.output;
-  EXPECT_THAT(run.output, AllOf(HasSubstr("warning: "), HasSubstr("open edges"), HasSubstr("remedy: ")));
+  EXPECT_THAT(run.output, AllOf(HasSubstr("warning: "), HasSubstr("end in the open"), HasSubstr("remedy: ")));
 }
 
 TEST_F(FormFactorsCommandTest, SaysWhatIsWrong) {
