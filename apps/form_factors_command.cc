@@ -10,7 +10,9 @@
 #include "apps/internal/session_scene.h"
 #include "apps/suggest.h"
 #include "forward/form_factors.h"
+#include "forward/mesh_check.h"
 #include "forward/mesh_file.h"
+#include "forward/overlaps.h"
 
 namespace luxfit {
 namespace {
@@ -36,6 +38,14 @@ double NowS() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+void Warn(const std::vector<MeshFinding>& findings) {
+  for (const MeshFinding& finding : findings) {
+    if (finding.affects_light)
+      fmt::print(stderr, "warning: {}; {}\n         remedy: {}\n", finding.message, finding.effect,
+                 finding.remedy);
+  }
+}
+
 struct Computed {
   Scene scene;
   Patches patches;
@@ -48,12 +58,15 @@ Computed Compute(const FormFactorsCommandOptions& options) {
   how.method = MethodFrom(options.method);
   how.rays_per_element = options.rays;
   Computed computed;
-  computed.scene = ReadScene(options.mesh, MetresPer(options.unit));
+  const Scene given = ReadScene(options.mesh, MetresPer(options.unit));
+  // Facets drawn on one another would both send light: as MakeRoom does.
+  computed.scene = WithoutOverlaps(given);
   const RayScene rays(computed.scene);
   computed.patches = Subdivide(computed.scene, rays, {options.patch_size_m, options.patch_size_m});
   const double start_s = NowS();
   computed.factors = ComputeFormFactors(rays, computed.patches, how);
   computed.time_s = NowS() - start_s;
+  Warn(WithRayShares(CheckMesh(given), computed.factors));
   return computed;
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "forward/internal/expect_valid.h"
 #include "forward/internal/sampling.h"
 
 namespace luxfit {
@@ -114,6 +115,8 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
     throw std::invalid_argument("TraceIlluminance: expected a reflectance for every material");
   if (options.replicates < 2 || options.paths_per_sensor < options.replicates)
     throw std::invalid_argument("TraceIlluminance: expected paths_per_sensor >= replicates >= 2");
+  ExpectValid(luminaires);
+  ExpectValid(sensors);
   Tracer tracer{scene, rays, albedo, {}};
   for (const Luminaire& luminaire : luminaires) tracer.sources.push_back({&luminaire, AxesOf(luminaire)});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/internal/expect_valid.h"
 #include "forward/photometry.h"
 
 namespace luxfit {
@@ -48,6 +49,7 @@ std::vector<Eigen::Vector3d> Outline(const Luminaire& luminaire) {
 }  // namespace
 
 Scene WithLuminaireBodies(Scene scene, const std::vector<Luminaire>& luminaires) {
+  ExpectValid(luminaires);
   const int material = static_cast<int>(scene.materials.size());
   for (const Luminaire& luminaire : luminaires) {
     const bool flat =

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/expect_valid.h"
+
 namespace luxfit {
 namespace {
 
@@ -253,6 +255,7 @@ Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions
   if (!(options.element_size_m > 0) || !(options.patch_size_m >= options.element_size_m)) {
     throw std::invalid_argument("Subdivide: expected 0 < element_size_m <= patch_size_m");
   }
+  ExpectValid(scene);
   return Subdivision(scene, rays, options).result;
 }
 

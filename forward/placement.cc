@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "forward/internal/expect_valid.h"
+
 namespace luxfit {
 namespace {
 
@@ -24,6 +26,7 @@ bool IsInRoom(const RayScene& rays, const Eigen::Vector3d& p) {
 }  // namespace
 
 double ShareOutsideRoom(const RayScene& rays, const Luminaire& luminaire) {
+  ExpectValid(luminaire);
   const bool disc = luminaire.shape == LuminaireShape::kDisc;
   const LuminaireAxes axes = AxesOf(luminaire);
   double share = 0;

@@ -22,7 +22,8 @@ double LogDistanceToEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, con
                          double length) {
   const Eigen::Vector3d d = p - a;
   const double foot = d.dot(direction);
-  const double h = std::sqrt(std::max(0.0, d.squaredNorm() - foot * foot));
+  // Not sqrt(d^2 - foot^2): near the edge's line that is noise of 1e-8, which no quadrature can integrate.
+  const double h = (d - foot * direction).norm();
   return LogDistanceIntegral(length - foot, h) - LogDistanceIntegral(-foot, h);
 }
 

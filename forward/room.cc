@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "forward/direct_light.h"
+#include "forward/internal/expect_valid.h"
 #include "forward/overlaps.h"
 
 namespace luxfit {
@@ -22,6 +23,7 @@ float ElementVisibility(const RayScene& rays, const Element& element, bool trian
 }  // namespace
 
 Room MakeRoom(const Scene& given, const RoomOptions& options) {
+  ExpectValid(given);
   Scene scene = WithoutOverlaps(given);
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);
@@ -33,6 +35,7 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
 
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
                         const std::vector<Sensor>& sensors) {
+  ExpectValid(sensors);
   Receivers receivers{elements, sensors, {}, {}};
   const Eigen::Index rows = static_cast<Eigen::Index>(elements.size() + sensors.size());
   receivers.gather.resize(rows, static_cast<Eigen::Index>(room.patches.patches.size()));
@@ -54,6 +57,7 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
 
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
                                       const std::vector<Luminaire>& luminaires, int order) {
+  ExpectValid(luminaires);
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const size_t elements = room.patches.elements.size();
   LuminaireVisibility visibility;

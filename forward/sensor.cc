@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/expect_valid.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
 #include "forward/shadowed_light.h"
@@ -81,12 +82,15 @@ bool operator==(const Sensor& a, const Sensor& b) {
 }
 
 SensorResponse TableResponse(std::vector<double> angle_rad, std::vector<double> relative) {
-  const bool ascends = std::is_sorted(angle_rad.begin(), angle_rad.end(), std::less_equal<double>());
+  // Not std::is_sorted: it would let NaN pass.
+  const bool ascends = std::adjacent_find(angle_rad.begin(), angle_rad.end(),
+                                          [](double a, double b) { return !(a < b); }) == angle_rad.end();
   if (angle_rad.size() < 2 || angle_rad.size() != relative.size() || angle_rad[0] != 0 || !ascends ||
       !(angle_rad.back() <= kPi + 1e-9))
     throw std::invalid_argument(
         "TableResponse: expected angles that ascend from 0 to at most pi, a value each");
-  if (!(relative[0] > 0) || !std::all_of(relative.begin(), relative.end(), [](double x) { return x >= 0; }))
+  if (!(relative[0] > 0) ||
+      !std::all_of(relative.begin(), relative.end(), [](double x) { return x >= 0 && std::isfinite(x); }))
     throw std::invalid_argument("TableResponse: expected values >= 0, the first > 0");
   const double first = relative[0];
   for (double& x : relative) x /= first;
@@ -226,6 +230,7 @@ Eigen::Vector3d RayOrigin(const Sensor& sensor) {
 
 Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, const Sensor& sensor,
                                   int ray_count) {
+  ExpectValid(sensor);
   const SensorRays sample = SampleResponse(sensor, ray_count);
   const Eigen::Vector3d start = RayOrigin(sensor);
   Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));

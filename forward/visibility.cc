@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "forward/internal/expect_valid.h"
+
 namespace luxfit {
 namespace {
 
@@ -84,6 +86,7 @@ struct RayScene::State {
 };
 
 RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+  ExpectValid(scene);
   state_->device = rtcNewDevice("");
   if (state_->device == nullptr)
     throw std::runtime_error("Embree: expected a device, got none (SSE2 is needed)");

@@ -1,3 +1,4 @@
+luxfit_test(forward bad_input_test LINK luxfit::forward)
 luxfit_test(forward scene_test LINK luxfit::forward)
 luxfit_test(forward mesh_file_test LINK luxfit::forward)
 luxfit_test(forward mesh_check_test LINK luxfit::forward)
@@ -31,5 +32,8 @@ luxfit_test(forward illuminance_test LINK luxfit::forward)
 luxfit_test(forward colour_illuminance_test LINK luxfit::forward)
 luxfit_test(forward placement_test LINK luxfit::forward)
 
+luxfit_test(validation cie171_test LINK luxfit::forward)
+luxfit_test(validation integrating_sphere_test LINK luxfit::forward)
+luxfit_test(validation luminaire_flux_test LINK luxfit::forward)
 luxfit_test(validation office_forward_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(validation office_view_test LINK luxfit::forward luxfit::calib nlohmann_json::nlohmann_json)

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "forward/direct_light.h"
+#include "forward/internal/expect_valid.h"
 #include "forward/sensor.h"
 #include "forward/shadowed_light.h"
 
@@ -94,6 +95,7 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const LuminaireVisibility& visibility,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives) {
+  ExpectValid(luminaires);
   const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
   const Eigen::Index columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
   const ColumnFiller filler(room.rays, luminaires, derivatives);

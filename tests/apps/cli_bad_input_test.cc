@@ -1,10 +1,7 @@
 // The program on broken copies of a small part of fixtures/office: exit status 2, a message that names the
 // place and the mend, and nothing half-written.
 #include <gmock/gmock.h>
-#include <stdio.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -13,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -21,24 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-struct ProgramResult {
-  int status = -1;
-  std::string messages;  // standard error
-};
-
-ProgramResult RunProgram(const std::string& session, const std::string& out) {
-  const std::string command = "'" LUXFIT_PROGRAM "' run '" + session + "' -o '" + out + "' 2>&1 >/dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) throw std::runtime_error("RunProgram: expected a shell, got none");
-  ProgramResult result;
-  std::array<char, 4096> buffer;
-  for (size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    result.messages.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
-}
 
 class CliBadInputTest : public ::testing::Test {
  protected:
@@ -63,10 +43,11 @@ class CliBadInputTest : public ::testing::Test {
 
   // Runs the program; expects exit status 2 and that what it left, if anything, is whole.
   std::string RefusalOf(const std::string& session = "session.toml") const {
-    const ProgramResult result = RunProgram(folder_.Path(session), folder_.Path("out"));
-    EXPECT_EQ(result.status, 2) << result.messages;
+    const support::ProgramRun run =
+        support::RunProgram("run '" + folder_.Path(session) + "' -o '" + folder_.Path("out") + "'");
+    EXPECT_EQ(run.status, 2) << run.output;
     ExpectNothingHalfWritten();
-    return result.messages;
+    return run.output;
   }
 
   void ExpectNothingHalfWritten() const {

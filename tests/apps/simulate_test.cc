@@ -195,6 +195,20 @@ TEST_F(Simulate, WarnsOfALuminaireOutsideTheRoom) {
   EXPECT_EQ(Artifact()["warnings"][0]["code"], "luminaire_outside");
 }
 
+TEST_F(Simulate, WarnsOfALuminaireInsideASolid) {
+  // A box round lamp B, seen from outside.
+  folder_.Write(
+      "room.obj",
+      folder_.Read("room.obj") +
+          "v 1.8 0.8 1.7\nv 2.2 0.8 1.7\nv 2.2 1.2 1.7\nv 1.8 1.2 1.7\nv 1.8 0.8 1.95\nv 2.2 0.8 1.95\n"
+          "v 2.2 1.2 1.95\nv 1.8 1.2 1.95\nf 12 11 10 9\nf 14 15 16 13\nf 10 14 13 9\nf 11 15 14 10\n"
+          "f 12 16 15 11\nf 9 13 16 12\n");
+  const support::ProgramRun run = Run();
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("warning: luminaire B at (2, 1, 1.9) m lies inside a solid"));
+  EXPECT_EQ(Artifact()["warnings"][0]["code"], "luminaire_outside");
+}
+
 TEST_F(Simulate, WarnsOfAMaterialThatTheMeshDoesNotHave) {
   folder_.Replace("session.toml", "wall = 0.5", "wall = 0.5\nwalls = 0.5");
   EXPECT_THAT(Run().output, AllOf(HasSubstr("scene.albedo.walls"), HasSubstr("did you mean \"wall\"?")));

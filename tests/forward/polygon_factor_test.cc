@@ -140,6 +140,21 @@ TEST(PolygonToPolygon, IsReciprocalForPlatesThatCutEachOthersPlane) {
   }
 }
 
+// Edges along no axis: their common line is rounded differently in either polygon.
+TEST(PolygonToPolygon, ACommonEdgeMayRunAnywhere) {
+  std::mt19937_64 rng = support::TestRng();
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Matrix3d turn = Eigen::Quaterniond(normal(rng), normal(rng), normal(rng), normal(rng))
+                                     .normalized()
+                                     .toRotationMatrix();
+    const Vector3d at(normal(rng), normal(rng), normal(rng)), x = turn.col(0), y = turn.col(1),
+                                                              z = turn.col(2);
+    // Howell's C-14: squares at a right angle with an edge in common.
+    EXPECT_NEAR(PolygonToPolygon(Plate(at, x, y), Plate(at, y, z)), 0.200044, 1e-6);
+  }
+}
+
 TEST(PointToPolygon, IsTheCataloguesForARectangleOverhead) {
   const Vector3d p(0.3, 0.2, 0);
   const ConvexPolygon plate = Plate({-0.5, -1, 1.3}, {0, 2, 0}, {1.5, 0, 0});

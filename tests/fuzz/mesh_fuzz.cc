@@ -1,7 +1,7 @@
 // Any bytes as an OBJ or PLY file: the reader must answer with a scene or a std::runtime_error, and what it
 // reads must survive the mesh check and, where small, the subdivision.
 //
-// The first byte chooses the format. Run by .ci/fuzz_mesh.sh. Source: LLVM, "libFuzzer".
+// The first byte chooses the format. Run by .ci/fuzz.sh. Source: LLVM, "libFuzzer".
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

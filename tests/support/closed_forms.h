@@ -32,6 +32,14 @@ inline double CornerFactor(double a, double b, double h) {
   return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * kPi);
 }
 
+// From a point to a rectangle in the plane perpendicular to its own: the rectangle reaches `a` along the
+// point's normal and `b` to one side, from the foot of the perpendicular, `c` > 0 away, on. Differences of a
+// superpose. Source: Howell, B-4.
+inline double PerpendicularCornerFactor(double a, double b, double c) {
+  const double d = std::hypot(a, c);
+  return (std::atan(b / c) - c / d * std::atan(b / d)) / (2 * kPi);
+}
+
 // To the rectangle size_x x size_y centred at `center`, by superposition of its corners.
 inline double RectangleFactor(const Eigen::Vector3d& center, double size_x, double size_y,
                               const Eigen::Vector3d& p_receiver) {
