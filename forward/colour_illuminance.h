@@ -21,6 +21,9 @@ struct ColourIlluminance {
   Eigen::MatrixXf total;   // receivers x luminaires, lx per lm
   Eigen::MatrixXf direct;  // its direct part
   int solved_channels = 0;
+  RadiositySolver solver = RadiositySolver::kAuto;  // the one used
+  int iterations = 0;                               // of the slowest channel
+  double error_percent = 0;                         // bound of forward/solvers.h; the worst channel's
 };
 
 // `albedo_rgb` is 3 x materials of the scene; `weights` those of R, G, B in luminance.
@@ -28,7 +31,9 @@ ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& re
                                            const LuminaireVisibility& visibility,
                                            const std::vector<Luminaire>& luminaires,
                                            const Eigen::Matrix3Xd& albedo_rgb,
-                                           const Eigen::Vector3d& weights);
+                                           const Eigen::Vector3d& weights,
+                                           const RadiositySolverOptions& solver = {
+                                               RadiositySolver::kCholesky});
 
 }  // namespace luxfit
 
