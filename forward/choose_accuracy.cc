@@ -35,8 +35,8 @@ class Chooser {
     choice_.options.solver.tolerance_percent = kBouncesShare * options.error_percent;
   }
 
-  AccuratePrediction Run() {
-    Prediction last = Try(coarsest_m_, kFewestRays, nullptr);
+  AccurateSceneLight Run() {
+    SceneLight last = Try(coarsest_m_, kFewestRays, nullptr);
     if (last.room.patches.patches.empty()) {
       choice_.patches_because = choice_.rays_because = choice_.bounces_because =
           "no surface reflects: all light is direct";
@@ -52,19 +52,18 @@ class Chooser {
   }
 
  private:
-  Prediction Try(double patch_size_m, int rays, const Prediction* before) {
+  SceneLight Try(double patch_size_m, int rays, const SceneLight* before) {
     choice_.options.room.patches = PatchesOfSize(patch_size_m);
     choice_.options.room.form_factors.rays_per_element = rays;
-    Prediction now = PredictIlluminance(lit_, choice_.options);
-    const double change = before ? RelativeRmsPercent(before->light.total.cast<double>(),
-                                                      now.light.total.cast<double>())
-                                 : 0;
+    SceneLight now = ComputeSceneLight(lit_, choice_.options);
+    const double change =
+        before ? RelativeRmsPercent(before->light.total.cast<double>(), now.light.total.cast<double>()) : 0;
     choice_.tried.push_back({patch_size_m, rays, static_cast<int>(now.room.patches.patches.size()),
                              static_cast<int>(now.room.patches.elements.size()), change});
     return now;
   }
 
-  Prediction ChooseRays(Prediction last) {
+  SceneLight ChooseRays(SceneLight last) {
     const double allowed = kRaysShare * options_.error_percent;
     double change = 0;
     int rays = kFewestRays;
@@ -82,7 +81,7 @@ class Chooser {
   }
 
   // The number of bounces that a bound asks for hardly depends on the patches: found on the coarse ones.
-  void ChooseBounces(const Prediction& coarse) {
+  void ChooseBounces(const SceneLight& coarse) {
     RadiositySolverOptions iterated = choice_.options.solver;
     iterated.solver = RadiositySolver::kConjugateGradient;
     const int products = Relight(lit_, coarse, iterated).iterations + 1;
@@ -97,7 +96,8 @@ class Chooser {
                                 ", below a tenth of the error, and cost less than all";
       return;
     }
-    choice_.bounces_because = "all cost " + std::to_string(products) + " products or a factorisation, no more than the " +
+    choice_.bounces_because = "all cost " + std::to_string(products) +
+                              " products or a factorisation, no more than the " +
                               "bounces that would leave out " + Percent(series.tolerance_percent);
   }
 
@@ -107,7 +107,7 @@ class Chooser {
            4.0 * tried.patches * 4.0 * tried.elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 
-  Prediction ChoosePatches(Prediction last) {
+  SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
     const int rays = choice_.tried.back().rays_per_element;
     double size_m = coarsest_m_, before = 0, error = 0;
@@ -126,7 +126,8 @@ class Chooser {
     choice_.patches_because =
         "twice the size changes the illuminance by " + Percent(before) + ": estimated error " +
         Percent(error) +
-        (reached ? ", below " + Percent(allowed) : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
+        (reached ? ", below " + Percent(allowed)
+                 : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
     return last;
   }
 
@@ -146,7 +147,7 @@ class Chooser {
 
 }  // namespace
 
-AccuratePrediction ChooseAccuracy(const LitScene& lit, const AccuracyOptions& options) {
+AccurateSceneLight ChooseAccuracy(const LitScene& lit, const AccuracyOptions& options) {
   if (!(options.error_percent > 0))
     throw std::invalid_argument("ChooseAccuracy: expected an error > 0 percent");
   return Chooser(lit, options).Run();

@@ -16,7 +16,7 @@
 // some hundredths of a percent) and no part of the estimate. Deterministic: no clock is asked.
 //
 // Limits of memory end the halving: `reached` false, the estimate says how far it came.
-// Throws std::invalid_argument for an error that is not > 0, and as PredictIlluminance does.
+// Throws std::invalid_argument for an error that is not > 0, and as ComputeSceneLight does.
 // Source: Richardson (1911), "The approximate arithmetical solution by finite differences"; Roache (1994),
 // "Perspective: a method for uniform reporting of grid refinement studies" (error from successive grids).
 #ifndef LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/prediction.h"
+#include "forward/scene_light.h"
 
 namespace luxfit {
 
@@ -45,7 +45,7 @@ struct TriedAccuracy {
 };
 
 struct AccuracyChoice {
-  PredictionOptions options;
+  SceneLightOptions options;
   bool all_bounces = true;
   double patches_error_percent = 0, rays_error_percent = 0, bounces_error_percent = 0;
   double estimated_error_percent = 0;  // the three together
@@ -54,11 +54,11 @@ struct AccuracyChoice {
   std::string patches_because, rays_because, bounces_because;
 };
 
-struct AccuratePrediction {
+struct AccurateSceneLight {
   AccuracyChoice choice;
-  Prediction prediction;  // by choice.options
+  SceneLight light;  // by choice.options
 };
-AccuratePrediction ChooseAccuracy(const LitScene& lit, const AccuracyOptions& options = {});
+AccurateSceneLight ChooseAccuracy(const LitScene& lit, const AccuracyOptions& options = {});
 
 }  // namespace luxfit
 

@@ -11,8 +11,7 @@ namespace luxfit {
 ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& receivers,
                                            const LuminaireVisibility& visibility,
                                            const std::vector<Luminaire>& luminaires,
-                                           const Eigen::Matrix3Xd& albedo_rgb,
-                                           const Eigen::Vector3d& weights,
+                                           const Eigen::Matrix3Xd& albedo_rgb, const Eigen::Vector3d& weights,
                                            const RadiositySolverOptions& solver) {
   if (albedo_rgb.cols() != static_cast<Eigen::Index>(room.scene.materials.size()))
     throw std::invalid_argument("ComputeColourIlluminance: expected a reflectance for every material");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "forward/illuminance.h"
+#include "forward/solvers.h"
 
 namespace luxfit {
 
@@ -27,13 +28,10 @@ struct ColourIlluminance {
 };
 
 // `albedo_rgb` is 3 x materials of the scene; `weights` those of R, G, B in luminance.
-ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& receivers,
-                                           const LuminaireVisibility& visibility,
-                                           const std::vector<Luminaire>& luminaires,
-                                           const Eigen::Matrix3Xd& albedo_rgb,
-                                           const Eigen::Vector3d& weights,
-                                           const RadiositySolverOptions& solver = {
-                                               RadiositySolver::kCholesky});
+ColourIlluminance ComputeColourIlluminance(
+    const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+    const std::vector<Luminaire>& luminaires, const Eigen::Matrix3Xd& albedo_rgb,
+    const Eigen::Vector3d& weights, const RadiositySolverOptions& solver = {RadiositySolver::kCholesky});
 
 }  // namespace luxfit
 

@@ -1,4 +1,4 @@
-#include "forward/prediction.h"
+#include "forward/scene_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,17 @@ PatchesOptions PatchesOfSize(double patch_size_m) {
   return options;
 }
 
-ColourIlluminance Relight(const LitScene& lit, const Prediction& prediction,
+ColourIlluminance Relight(const LitScene& lit, const SceneLight& prediction,
                           const RadiositySolverOptions& solver) {
   return ComputeColourIlluminance(prediction.room, prediction.receivers, prediction.visibility,
                                   lit.luminaires, lit.albedo_rgb, lit.channel_weights, solver);
 }
 
-Prediction PredictIlluminance(const LitScene& lit, const PredictionOptions& options) {
+SceneLight ComputeSceneLight(const LitScene& lit, const SceneLightOptions& options) {
   Room room = MakeRoom(lit.scene, options.room);
   Receivers receivers = MakeReceivers(room, {}, lit.sensors);
   LuminaireVisibility visibility = ComputeVisibility(room, receivers, lit.luminaires);
-  Prediction prediction{std::move(room), std::move(receivers), std::move(visibility), {}};
+  SceneLight prediction{std::move(room), std::move(receivers), std::move(visibility), {}};
   prediction.light = Relight(lit, prediction, options.solver);
   return prediction;
 }
