@@ -2,26 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace luxfit {
 
 void RecordAccuracy(const AccuracyChoice& choice, int patches, double error_percent, RunContext& context) {
   const SceneLightOptions& options = choice.options;
-  std::vector<std::string> sizes, rays;
+  const FormFactorOptions& form_factors = options.room.form_factors;
+  const auto named = [](FormFactorMethod method, int count) {
+    return fmt::format("{}, {} rays", ToString(method), count);
+  };
+  std::vector<std::string> sizes, methods;
   for (const TriedAccuracy& tried : choice.tried) {
     const std::string size = fmt::format("{:g} m", tried.patch_size_m),
-                      count = std::to_string(tried.rays_per_element);
-    if (sizes.empty() || sizes.back() != size) sizes.push_back(size);
-    if (rays.empty() || rays.back() != count) rays.push_back(count);
+                      how = named(tried.method, tried.rays_per_element);
+    if (std::count(sizes.begin(), sizes.end(), size) == 0) sizes.push_back(size);
+    if (std::count(methods.begin(), methods.end(), how) == 0) methods.push_back(how);
   }
   context.choices.push_back(
       {"patches",
        fmt::format("{} patches up to {:g} m, elements up to {:g} m", patches,
                    options.room.patches.patch_size_m, options.room.patches.element_size_m),
        sizes, choice.patches_because});
-  context.choices.push_back({"rays per element", std::to_string(options.room.form_factors.rays_per_element),
-                             rays, choice.rays_because});
+  context.choices.push_back({"form factors", named(form_factors.method, form_factors.rays_per_element),
+                             methods, choice.rays_because});
   context.choices.push_back({"bounces",
                              choice.all_bounces ? "all" : std::to_string(options.solver.bounces),
                              {"as many as the error asks for", "all"},
@@ -40,6 +45,7 @@ nlohmann::json TriedJson(const AccuracyChoice& choice) {
   nlohmann::json list = nlohmann::json::array();
   for (const TriedAccuracy& tried : choice.tried) {
     list.push_back({{"patch_size_m", tried.patch_size_m},
+                    {"method", ToString(tried.method)},
                     {"rays", tried.rays_per_element},
                     {"patches", tried.patches},
                     {"elements", tried.elements},

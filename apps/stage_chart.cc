@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <thread>
 
 #include "apps/accuracy_choices.h"
@@ -124,10 +125,20 @@ json Artifact(const Session& session, const ChartOptions& options, const Chart& 
   return artifact;
 }
 
+// What is missing may have been fitted.
+GivenScene ReadGiven(const Session& session, RunContext& context) {
+  try {
+    return ReadGivenScene(session, "chart", context);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(std::string(e.what()) +
+                             "; or give the result of an earlier fit: --result OUT/result.json");
+  }
+}
+
 }  // namespace
 
 json ChartSession(const Session& session, const ChartOptions& options, RunContext& context) {
-  GivenScene given = ReadGivenScene(session, "chart", context);
+  GivenScene given = ReadGiven(session, context);
   if (given.lit.sensors.empty()) given.lit.sensors = WorkPlane(session, given.lit.scene);
   Chart chart;
   {

@@ -11,7 +11,7 @@ namespace {
 
 // Shares of the error: together, as a root of squares and a tenth, they stay below it.
 constexpr double kPatchesShare = 0.8, kRaysShare = 0.4, kBouncesShare = 0.1;
-constexpr int kFewestRays = 16;
+constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64;
 
 std::string Percent(double percent) {
   char text[32];
@@ -36,7 +36,7 @@ class Chooser {
   }
 
   AccurateSceneLight Run() {
-    SceneLight last = Try(coarsest_m_, kFewestRays, nullptr);
+    SceneLight last = Try(coarsest_m_, {kHybridRays, FormFactorMethod::kHybrid}, nullptr);
     if (last.room.patches.patches.empty()) {
       choice_.patches_because = choice_.rays_because = choice_.bounces_because =
           "no surface reflects: all light is direct";
@@ -52,31 +52,44 @@ class Chooser {
   }
 
  private:
-  SceneLight Try(double patch_size_m, int rays, const SceneLight* before) {
+  SceneLight Try(double patch_size_m, const FormFactorOptions& form_factors, const SceneLight* before) {
     choice_.options.room.patches = PatchesOfSize(patch_size_m);
-    choice_.options.room.form_factors.rays_per_element = rays;
+    choice_.options.room.form_factors = form_factors;
     SceneLight now = ComputeSceneLight(lit_, choice_.options);
     const double change =
         before ? RelativeRmsPercent(before->light.total.cast<double>(), now.light.total.cast<double>()) : 0;
-    choice_.tried.push_back({patch_size_m, rays, static_cast<int>(now.room.patches.patches.size()),
+    choice_.tried.push_back({patch_size_m, form_factors.rays_per_element, form_factors.method,
+                             static_cast<int>(now.room.patches.patches.size()),
                              static_cast<int>(now.room.patches.elements.size()), change});
     return now;
   }
 
-  SceneLight ChooseRays(SceneLight last) {
+  SceneLight ChooseRays(SceneLight closed_form) {
     const double allowed = kRaysShare * options_.error_percent;
+    const std::string where = " on patches of " + Number(coarsest_m_) + " m";
     double change = 0;
-    int rays = kFewestRays;
+    for (int rays = kFewestRays; rays <= std::min(kMostSampled, options_.max_rays); rays *= 2) {
+      SceneLight sampled = Try(coarsest_m_, {rays, FormFactorMethod::kMalleyStratified}, &closed_form);
+      change = choice_.tried.back().change_percent;
+      if (change > allowed) continue;
+      choice_.rays_error_percent = change;
+      choice_.rays_because =
+          "differs from closed forms by " + Percent(change) + ", below " + Percent(allowed) + where;
+      return sampled;
+    }
+    const std::string sampled_because = "sampling differs from closed forms by " + Percent(change) +
+                                        ", more than " + Percent(allowed) + where;
+    SceneLight last = std::move(closed_form);
+    int rays = kHybridRays;
     do {
       rays *= 2;
-      last = Try(coarsest_m_, rays, &last);
+      last = Try(coarsest_m_, {rays, FormFactorMethod::kHybrid}, &last);
       change = choice_.tried.back().change_percent;
     } while (change > allowed && rays < options_.max_rays);
     choice_.rays_error_percent = change;
     choice_.reached = choice_.reached && change <= allowed;
-    choice_.rays_because = "half as many change the illuminance by " + Percent(change) +
-                           (change <= allowed ? ", below " : ", more than ") + Percent(allowed) +
-                           " on patches of " + Number(coarsest_m_) + " m";
+    choice_.rays_because =
+        sampled_because + "; half as many rays for shadows change it by " + Percent(change);
     return last;
   }
 
@@ -109,12 +122,12 @@ class Chooser {
 
   SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
-    const int rays = choice_.tried.back().rays_per_element;
+    const FormFactorOptions form_factors = choice_.options.room.form_factors;
     double size_m = coarsest_m_, before = 0, error = 0;
     while (true) {
       if (!Fits(choice_.tried.back())) break;
       size_m /= 2;
-      last = Try(size_m, rays, &last);
+      last = Try(size_m, form_factors, &last);
       const double change = choice_.tried.back().change_percent;
       error = ErrorFrom(before, change);
       before = change;

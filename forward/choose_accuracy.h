@@ -1,8 +1,10 @@
-// Patch size, rays and bounces for an error that is asked for, at little more than the cost of using them.
+// Patch size, form factors, rays and bounces for an error that is asked for, at little more than the cost of
+// using them.
 //
-//   rays      doubled on coarse patches until doubling changes the sensors' illuminance by less than a part
-//             of the error. Errors of N and N / 2 rays are at worst independent, so the change is no smaller
-//             than the error of N.
+//   rays      on coarse patches, doubled until form factors by cosine-weighted rays (malley_stratified)
+//             change the sensors' illuminance by less than a part of the error from what closed forms with
+//             rays for shadows (hybrid) give. Finer patches cast more rays in all, so their noise is no
+//             larger. Where 256 rays do not do it: hybrid, rays doubled until doubling changes less.
 //   patches   halved until halving changes it by less than a part of the error. With errors C h^p the error
 //             at h is  change(2 h -> h) / (2^p - 1).  p = 1 is assumed: constant patches at shadow edges and
 //             at solids; where smooth, p = 2 and the estimate is three times the error. Where the last but
@@ -40,6 +42,7 @@ struct AccuracyOptions {
 struct TriedAccuracy {
   double patch_size_m = 0;
   int rays_per_element = 0;
+  FormFactorMethod method = FormFactorMethod::kHybrid;
   int patches = 0, elements = 0;
   double change_percent = 0;  // from the one compared with; 0: the first
 };
