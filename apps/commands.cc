@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/earlier_result.h"
 #include "apps/plan_svg.h"
 #include "apps/stages.h"
 
@@ -47,9 +48,20 @@ int RunCommand(const CommandOptions& options) {
 int SimulateCommand(const CommandOptions& options) {
   const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
-  const nlohmann::json artifact = SimulateSession(session, context);
+  const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
   Print(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/illuminance.csv").c_str());
+  return 0;
+}
+
+int ChartCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  if (!options.earlier_result.empty()) session = WithResult(std::move(session), options.earlier_result);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact =
+      ChartSession(session, {options.error_percent, options.budget_s, options.threads}, context);
+  Print(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/chart.svg").c_str());
   return 0;
 }
 

@@ -15,11 +15,19 @@ struct CommandOptions {
   std::string out;           // folder; nothing is written outside it
   std::string command_line;  // as typed, for the artifacts
   bool json = false;         // print the result as JSON on standard output
+  int threads = 0;           // 0: all cores
+  // Of simulate and chart.
+  double error_percent = 1;
+  // Of chart.
+  double budget_s = 120;
+  std::string earlier_result;  // path of a result.json whose luminaires and reflectances count as given
 };
 
 int RunCommand(const CommandOptions& options);
 // Forward only: writes OUT/illuminance.csv and OUT/stages/simulate.json.
 int SimulateCommand(const CommandOptions& options);
+// Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json.
+int ChartCommand(const CommandOptions& options);
 int RegisterCommand(const CommandOptions& options);
 // Reads OUT/result.json.
 int CheckCommand(const CommandOptions& options);

@@ -53,7 +53,6 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   luxfit::CommandOptions options;
   options.command_line = CommandLine(argc, argv);
-  int threads = 0;
 
   const auto add = [&](const std::string& name, const std::string& help, bool session,
                        int (*command)(const luxfit::CommandOptions&)) {
@@ -66,7 +65,7 @@ int main(int argc, char** argv) {
       sub->add_option("OUT", options.out, "folder of an earlier run")->required();
     }
     sub->add_flag("--json", options.json, "print the result as JSON on standard output");
-    sub->add_option("--threads", threads, "cores to use (0: all)")->check(CLI::NonNegativeNumber);
+    sub->add_option("--threads", options.threads, "cores to use (0: all)")->check(CLI::NonNegativeNumber);
     return std::make_pair(sub, command);
   };
   const std::vector<std::pair<CLI::App*, int (*)(const luxfit::CommandOptions&)>> commands = {
@@ -76,19 +75,35 @@ int main(int argc, char** argv) {
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
       add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,
           luxfit::SimulateCommand),
+      add("chart", "speed against accuracy of the forward model, everything given", true,
+          luxfit::ChartCommand),
       add("check", "measured against predicted luxmeter readings of an earlier run", false,
           luxfit::CheckCommand)};
 
+  for (const char* name : {"simulate", "chart"}) {
+    app.get_subcommand(name)
+        ->add_option("--error", options.error_percent,
+                     "asked of patches, rays and bounces, percent of illuminance")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+  }
+  CLI::App* const chart = app.get_subcommand("chart");
+  chart->add_option("--budget", options.budget_s, "seconds in all; points that would take longer are skipped")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  chart->add_option("--result", options.earlier_result,
+                    "result.json of a fit: its luminaires and reflectances count as given");
+
   luxfit::FormFactorsCommandOptions form_factors;
   form_factors.command_line = options.command_line;
-  CLI::App* const form_factors_command = AddFormFactors(app, form_factors, threads);
+  CLI::App* const form_factors_command = AddFormFactors(app, form_factors, options.threads);
 
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : kBadInput;
   }
-  const luxfit::ThreadLimit limit(threads);
+  const luxfit::ThreadLimit limit(options.threads);
   try {
     if (form_factors_command->parsed()) return luxfit::FormFactorsCommand(form_factors);
     for (const auto& [sub, command] : commands) {

@@ -6,6 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/svg.h"
+
 namespace luxfit {
 namespace {
 
@@ -51,10 +53,10 @@ std::string Cameras(const Plan& plan, const json& views) {
     text += fmt::format(
         "<path d=\"M{0:.1f} {1:.1f} L{2:.1f} {3:.1f} L{4:.1f} {5:.1f} Z\" fill=\"#3b6fb6\" "
         "fill-opacity=\"0.25\" "
-        "stroke=\"#3b6fb6\"/><text x=\"{0:.1f}\" y=\"{6:.1f}\" fill=\"#3b6fb6\">{7}</text>\n",
+        "stroke=\"#3b6fb6\"/>",
         x, y, x + length * std::cos(angle - spread), y + length * std::sin(angle - spread),
-        x + length * std::cos(angle + spread), y + length * std::sin(angle + spread), y - 5,
-        view["view"].get<std::string>());
+        x + length * std::cos(angle + spread), y + length * std::sin(angle + spread));
+    text += SvgText(x, y - 5, view["view"].get<std::string>(), " fill=\"#3b6fb6\"");
   }
   return text;
 }
@@ -64,22 +66,20 @@ std::string Luminaires(const Plan& plan, const json& luminaires) {
   for (const json& l : luminaires) {
     const double x = plan.X(l["position_m"][0].get<double>()), y = plan.Y(l["position_m"][1].get<double>());
     const json& size = l["size_m"];
-    const std::string style = "fill=\"#ffd84d\" stroke=\"#a67c00\" stroke-width=\"1.5\"";
+    const std::string style = " fill=\"#ffd84d\" stroke=\"#a67c00\" stroke-width=\"1.5\"";
     if (l["shape"] == "rectangle") {
       const double w = plan.scale * size[0].get<double>(), h = plan.scale * size[1].get<double>();
-      text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n",
+      text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"{}/>\n",
                           x - w / 2, y - h / 2, w, h, style);
     } else {
       const double radius = size.empty() ? 0 : 0.5 * plan.scale * size[0].get<double>();
-      text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" {}/>\n", x, y,
-                          std::max(6.0, radius), style);
+      text += SvgCircle(x, y, std::max(6.0, radius), style);
     }
     const std::string flux =
         l["flux_lm"].is_number()
             ? fmt::format("{:.0f} ± {:.0f} lm", l["flux_lm"].get<double>(), l["flux_sigma_lm"].get<double>())
             : "flux undetermined";
-    text += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\">{}: {}</text>\n", x + 8, y - 8,
-                        l["id"].get<std::string>(), flux);
+    text += SvgText(x + 8, y - 8, l["id"].get<std::string>() + ": " + flux, " font-weight=\"bold\"");
   }
   return text;
 }
@@ -103,11 +103,9 @@ std::string LuxmeterPoints(const Plan& plan, const Session& session, const json&
   for (const auto& [id, point] : points) {
     const double error = std::abs(point.worst_percent);
     const char* colour = error < 2 ? "#2e8b57" : (error < 5 ? "#e08a00" : "#c62828");
-    text += fmt::format(
-        "<circle cx=\"{0:.1f}\" cy=\"{1:.1f}\" r=\"5\" fill=\"{2}\"/><text x=\"{3:.1f}\" y=\"{4:.1f}\" "
-        "fill=\"{2}\">{5} "
-        "{6:+.1f} %</text>\n",
-        point.x, point.y, colour, point.x + 8, point.y + 4, id, point.worst_percent);
+    const std::string fill = fmt::format(" fill=\"{}\"", colour);
+    text += SvgCircle(point.x, point.y, 5, fill);
+    text += SvgText(point.x + 8, point.y + 4, fmt::format("{} {:+.1f} %", id, point.worst_percent), fill);
   }
   return text;
 }
@@ -120,23 +118,22 @@ std::string PlanSvg(const Session& session, const Scene& scene, const json& resu
   if (plan.box.isEmpty()) return "";
   plan.scale = (kWidthPx - 2 * kMarginPx) / plan.box.sizes().x();
   const double height = plan.scale * plan.box.sizes().y() + 2 * kMarginPx;
-  std::string text = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1:.0f}\" font-family=\"sans-serif\" "
-      "font-size=\"13\">\n"
-      "<rect width=\"{0}\" height=\"{1:.0f}\" fill=\"white\"/>\n",
-      kWidthPx, height + kLegendPx);
-  text += Outlines(plan, scene) + Cameras(plan, result["views"]) +
-          LuxmeterPoints(plan, session, result["luxmeter"]) + Luminaires(plan, result["luminaires"]);
   const json& summary = result["summary"];
-  text += fmt::format(
-      "<text x=\"{0}\" y=\"{1:.0f}\">{2}: {3:.1f} m x {4:.1f} m. Yellow: fitted luminaires, ± 1 sigma. Blue: "
-      "registered views."
-      "</text>\n<text x=\"{0}\" y=\"{5:.0f}\">Dots: luxmeter points with the worst error of their states "
-      "(green below 2 %, orange "
-      "below 5 %); mean {6:.2f} % over {7} readings.</text>\n</svg>\n",
-      kMarginPx, height + 8, session.name, plan.box.sizes().x(), plan.box.sizes().y(), height + 28,
-      summary["mean_abs_error_percent"].get<double>(), summary["readings_checked"].get<int>());
-  return text;
+  std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
+                     LuxmeterPoints(plan, session, result["luxmeter"]) +
+                     Luminaires(plan, result["luminaires"]);
+  text +=
+      SvgText(kMarginPx, height + 8,
+              fmt::format("{}: {:.1f} m x {:.1f} m. Yellow: fitted luminaires, ± 1 sigma. Blue: registered "
+                          "views.",
+                          session.name, plan.box.sizes().x(), plan.box.sizes().y()));
+  text += SvgText(
+      kMarginPx, height + 28,
+      fmt::format(
+          "Dots: luxmeter points with the worst error of their states (green below 2 %, orange below 5 "
+          "%); mean {:.2f} % over {} readings.",
+          summary["mean_abs_error_percent"].get<double>(), summary["readings_checked"].get<int>()));
+  return SvgDocument(kWidthPx, height + kLegendPx, text);
 }
 
 }  // namespace luxfit

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages.h"
-#include "forward/luminaire_body.h"
 #include "forward/mesh_check.h"
 #include "forward/mesh_file.h"
 #include "inverse/survey_check.h"
@@ -48,20 +47,6 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
       size.x(), size.y(), size.z()));
 }
 
-RoomOptions OptionsFor(const Scene& scene, const RoomDetail& detail) {
-  RoomOptions options;
-  options.patches.patch_size_m = detail.patch_size_m;
-  if (detail.max_patches > 0) {
-    double area_m2 = 0;
-    for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
-    options.patches.patch_size_m = std::max(detail.patch_size_m, std::sqrt(area_m2 / detail.max_patches));
-  }
-  // Four elements a side at least, as in the default.
-  options.patches.element_size_m = std::clamp(options.patches.element_size_m,
-                                              options.patches.patch_size_m / 4, options.patches.patch_size_m);
-  return options;
-}
-
 }  // namespace
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
@@ -71,15 +56,29 @@ StageTimer::StageTimer(RunContext& context, std::string stage, const std::string
 
 StageTimer::~StageTimer() { context_.timing_s[stage_] += NowS() - start_s_; }
 
-Room LoadRoom(const Session& session, RunContext& context, const RoomDetail& detail) {
+LoadedMesh LoadMesh(const Session& session) {
+  LoadedMesh mesh;
+  mesh.scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
+  CheckTagsLieOnMesh(session, mesh.scene);
+  ExpectRoomSize(session, mesh.scene, PatchesOptions{});
+  mesh.findings = CheckMesh(mesh.scene);
+  return mesh;
+}
+
+void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunContext& context) {
+  for (const MeshFinding& finding : WithRayShares(findings, room.form_factors)) {
+    if (finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
+      context.warnings.push_back(
+          {ToString(finding.defect), finding.message + "; " + finding.effect, finding.remedy});
+  }
+}
+
+Room LoadRoom(const Session& session, RunContext& context) {
   if (!session.scene) return MakeRoom(Scene{});
   const StageTimer timer(context, "scene", session.scene->mesh);
-  const Scene scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
-  CheckTagsLieOnMesh(session, scene);
-  const RoomOptions options = OptionsFor(scene, detail);
-  ExpectRoomSize(session, scene, PatchesOptions{});
-  const std::vector<MeshFinding> findings = CheckMesh(scene);
-  Room room = MakeRoom(WithLuminaireBodies(scene, detail.bodies), options);
+  const LoadedMesh mesh = LoadMesh(session);
+  const RoomOptions options;
+  Room room = MakeRoom(mesh.scene, options);
   context.choices.push_back({"patches",
                              fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",
                                          room.patches.patches.size(), options.patches.patch_size_m,
@@ -89,11 +88,7 @@ Room LoadRoom(const Session& session, RunContext& context, const RoomDetail& det
                              "docs/accuracy.md tells what finer ones change"});
   context.choices.push_back(
       {"bounces", "all", {}, "the radiosity system is factored once: every bounce costs the same as one"});
-  for (const MeshFinding& finding : WithRayShares(findings, room.form_factors)) {
-    if (finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
-      context.warnings.push_back(
-          {ToString(finding.defect), finding.message + "; " + finding.effect, finding.remedy});
-  }
+  WarnOfMesh(mesh.findings, room, context);
   return room;
 }
 

@@ -21,6 +21,7 @@
 #include "calib/camera.h"
 #include "calib/luminance.h"
 #include "calib/registration.h"
+#include "forward/mesh_check.h"
 #include "forward/room.h"
 #include "inverse/choose_model.h"
 #include "inverse/fit_luminaires.h"
@@ -63,16 +64,16 @@ class StageTimer {
   double start_s_;
 };
 
-// How finely a room is cut, and what hangs in it beside the mesh.
-struct RoomDetail {
-  double patch_size_m = PatchesOptions{}.patch_size_m;
-  int max_patches = 0;                 // larger patches where they would be more; 0: no limit
-  std::vector<Luminaire> bodies = {};  // opaque, black: forward/luminaire_body.h
+// The mesh of a session that has a [scene], checked against the tag survey, and what is wrong with it.
+struct LoadedMesh {
+  Scene scene;
+  std::vector<MeshFinding> findings;
 };
+LoadedMesh LoadMesh(const Session& session);
+void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunContext& context);
 
-// Mesh, checked against the tag survey, with its form factors; an empty room where the session has no
-// [scene].
-Room LoadRoom(const Session& session, RunContext& context, const RoomDetail& detail = {});
+// That mesh with its form factors; an empty room where the session has no [scene].
+Room LoadRoom(const Session& session, RunContext& context);
 
 struct RegisteredSession {
   std::vector<Camera> cameras;
@@ -98,8 +99,18 @@ SessionFit FitSession(const Session& session, const Room& room, const std::vecto
                       RunContext& context);
 
 // What a session gives in full, simulated: the artifact of OUT/stages/simulate.json, which it writes with
-// OUT/illuminance.csv (id,state,lux,direct_lux,indirect_lux of every reading).
-nlohmann::json SimulateSession(const Session& session, RunContext& context);
+// OUT/illuminance.csv (id,state,lux,direct_lux,indirect_lux of every reading). Patches, rays and bounces are
+// chosen for that error.
+nlohmann::json SimulateSession(const Session& session, double error_percent, RunContext& context);
+
+// Speed against accuracy of the forward model on such a session: writes OUT/chart.csv, OUT/chart.svg and
+// OUT/stages/chart.json, which it returns.
+struct ChartOptions {
+  double error_percent = 1;  // that the automatic choice is asked for
+  double budget_s = 120;     // points that would take longer are skipped
+  int threads = 0;           // asked for; 0: all
+};
+nlohmann::json ChartSession(const Session& session, const ChartOptions& options, RunContext& context);
 
 // Parts of any artifact.
 nlohmann::json ChoicesJson(const RunContext& context);
@@ -110,6 +121,7 @@ nlohmann::json ResultJson(const Session& session, const Room& room, const Regist
                           const SessionFit& fit, const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string SimulationTable(const nlohmann::json& artifact);
+std::string ChartTable(const nlohmann::json& artifact);
 std::string LuxmeterTable(const nlohmann::json& result);
 std::string WarningText(const nlohmann::json& result);
 

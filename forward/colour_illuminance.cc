@@ -1,21 +1,28 @@
 #include "forward/colour_illuminance.h"
 
+#include <algorithm>
 #include <stdexcept>
+
+#include "forward/dense_product.h"
+#include "forward/internal/direct_columns.h"
 
 namespace luxfit {
 
 ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& receivers,
                                            const LuminaireVisibility& visibility,
                                            const std::vector<Luminaire>& luminaires,
-                                           const Eigen::Matrix3Xd& albedo_rgb,
-                                           const Eigen::Vector3d& weights) {
+                                           const Eigen::Matrix3Xd& albedo_rgb, const Eigen::Vector3d& weights,
+                                           const RadiositySolverOptions& solver) {
   if (albedo_rgb.cols() != static_cast<Eigen::Index>(room.scene.materials.size()))
     throw std::invalid_argument("ComputeColourIlluminance: expected a reflectance for every material");
   if (!(weights.array() >= 0).all() || !(weights.sum() > 0))
     throw std::invalid_argument("ComputeColourIlluminance: expected weights >= 0, not all 0");
+  const DirectColumns direct = ComputeDirectColumns(room, receivers, visibility, luminaires, {});
   ColourIlluminance result;
-  const auto lamps = static_cast<Eigen::Index>(luminaires.size());
-  result.total = Eigen::MatrixXf::Zero(receivers.count(), lamps);
+  result.direct = direct.receivers;
+  result.total = direct.receivers;
+  const bool reflects = !room.patches.patches.empty();
+  const Eigen::MatrixXf patch_direct = PatchMean(room.patches, direct.elements);
   Eigen::Vector3d share = weights / weights.sum();
   for (int channel = 0; channel < 3; ++channel) {
     if (share[channel] == 0) continue;
@@ -26,9 +33,13 @@ ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& re
       weight += share[other];
       share[other] = 0;  // solved with this one
     }
-    const Illuminance light = ComputeIlluminance(room, receivers, visibility, luminaires, albedo);
-    result.total += static_cast<float>(weight) * light.total;
-    result.direct = light.direct;
+    if (reflects) {
+      const RadiositySolution solution = SolveRadiosity(room.transport, albedo, patch_direct, solver);
+      result.total += static_cast<float>(weight) * Product(receivers.gather, solution.exitance);
+      result.solver = solution.solver;
+      result.iterations = std::max(result.iterations, solution.iterations);
+      result.error_percent = std::max(result.error_percent, solution.error_percent);
+    }
     ++result.solved_channels;
   }
   return result;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "forward/illuminance.h"
+#include "forward/solvers.h"
 
 namespace luxfit {
 
@@ -21,14 +22,16 @@ struct ColourIlluminance {
   Eigen::MatrixXf total;   // receivers x luminaires, lx per lm
   Eigen::MatrixXf direct;  // its direct part
   int solved_channels = 0;
+  RadiositySolver solver = RadiositySolver::kAuto;  // the one used
+  int iterations = 0;                               // of the slowest channel
+  double error_percent = 0;                         // bound of forward/solvers.h; the worst channel's
 };
 
 // `albedo_rgb` is 3 x materials of the scene; `weights` those of R, G, B in luminance.
-ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& receivers,
-                                           const LuminaireVisibility& visibility,
-                                           const std::vector<Luminaire>& luminaires,
-                                           const Eigen::Matrix3Xd& albedo_rgb,
-                                           const Eigen::Vector3d& weights);
+ColourIlluminance ComputeColourIlluminance(
+    const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+    const std::vector<Luminaire>& luminaires, const Eigen::Matrix3Xd& albedo_rgb,
+    const Eigen::Vector3d& weights, const RadiositySolverOptions& solver = {RadiositySolver::kCholesky});
 
 }  // namespace luxfit
 

@@ -12,6 +12,8 @@ luxfit_test(apps cli_bad_input_test LINK opencv_core opencv_imgcodecs nlohmann_j
 add_dependencies(apps_cli_bad_input_test luxfit)
 luxfit_test(apps formfactors_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_formfactors_test luxfit)
+luxfit_test(apps chart_test LINK nlohmann_json::nlohmann_json)
+add_dependencies(apps_chart_test luxfit)
 luxfit_test(apps run_test WHOLE LINK truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_run_test luxfit)
 luxfit_test(apps simulate_test LINK nlohmann_json::nlohmann_json)

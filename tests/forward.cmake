@@ -30,6 +30,7 @@ luxfit_test(forward light_tracer_test LINK luxfit::forward nlohmann_json::nlohma
 luxfit_test(forward room_test LINK luxfit::forward)
 luxfit_test(forward illuminance_test LINK luxfit::forward)
 luxfit_test(forward colour_illuminance_test LINK luxfit::forward)
+luxfit_test(forward choose_accuracy_test LINK luxfit::forward)
 luxfit_test(forward placement_test LINK luxfit::forward)
 
 luxfit_test(validation cie171_test LINK luxfit::forward)

@@ -1,0 +1,71 @@
+#include "apps/earlier_result.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "apps/artifact.h"
+#include "apps/input_error.h"
+#include "apps/suggest.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+Eigen::Vector3d VectorFrom(const json& list) {
+  return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
+}
+
+void Replace(SessionLuminaire& luminaire, const json& fitted, const std::string& path) {
+  if (!fitted.at("flux_lm").is_number())
+    throw InputError({path, 0}, "luminaires",
+                     "expected fluxes in lm, but that of " + Quoted(luminaire.id) +
+                         " is relative; run the fit with a luxmeter reading that sets the scale");
+  luminaire.line = std::max(luminaire.line, 1);  // it is described now
+  luminaire.position_m = VectorFrom(fitted.at("position_m"));
+  luminaire.aim = VectorFrom(fitted.at("aim"));
+  luminaire.flux_lm = fitted.at("flux_lm").get<double>();
+  luminaire.shape = fitted.at("shape").get<std::string>();
+  luminaire.size_m = fitted.at("size_m").get<std::vector<double>>();
+  // A photometric file stays the session's own.
+  if (luminaire.photometry_path.empty()) luminaire.photometry = fitted.at("photometry").get<std::string>();
+  if (fitted.contains("cosine_exponent")) luminaire.cosine_exponent = fitted["cosine_exponent"].get<double>();
+}
+
+}  // namespace
+
+Session WithResult(Session session, const std::string& path) {
+  const json result = ReadJson(path);
+  if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
+    throw InputError({path, 0}, "format",
+                     "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
+                     "wrote");
+  try {
+    for (const json& fitted : result.at("luminaires")) {
+      const std::string id = fitted.at("id").get<std::string>();
+      const auto known = std::find_if(session.luminaires.begin(), session.luminaires.end(),
+                                      [&](const SessionLuminaire& l) { return l.id == id; });
+      if (known == session.luminaires.end())
+        throw InputError({path, 0}, "luminaires",
+                         "expected luminaires of " + session.path + ", got " + Quoted(id) +
+                             "; give the result of this session");
+      Replace(*known, fitted, path);
+    }
+    for (const json& material : result.at("materials")) {
+      if (!session.scene) break;
+      const json &rgb = material.at("albedo_rgb"), &grey = material.at("albedo");
+      const std::string name = material.at("name").get<std::string>();
+      if (rgb.is_array()) {
+        session.scene->known_albedo_rgb[name] = VectorFrom(rgb);
+      } else if (grey.is_number()) {
+        session.scene->known_albedo_rgb[name] = Eigen::Vector3d::Constant(grey.get<double>());
+      }
+    }
+  } catch (const json::exception& e) {
+    throw InputError({path, 0}, "", std::string("expected a whole result of luxfit; ") + e.what());
+  }
+  session.input_files.push_back(path);
+  return session;
+}
+
+}  // namespace luxfit

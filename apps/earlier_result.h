@@ -1,0 +1,20 @@
+// A session whose luminaires and reflectances are those of an earlier fit.
+//
+// What the result holds replaces what the session says (heading apart, which no fit estimates); what the fit
+// did not determine stays as the session has it, and is missing where that says nothing.
+//
+// Throws std::runtime_error naming the file where it is no result of luxfit, or one without fluxes in lm.
+#ifndef LUXFIT_APPS_EARLIER_RESULT_H_
+#define LUXFIT_APPS_EARLIER_RESULT_H_
+
+#include <string>
+
+#include "apps/session.h"
+
+namespace luxfit {
+
+Session WithResult(Session session, const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_EARLIER_RESULT_H_

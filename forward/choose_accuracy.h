@@ -1,0 +1,68 @@
+// Patch size, form factors, rays and bounces for an error that is asked for, at little more than the cost of
+// using them.
+//
+//   rays      on coarse patches, doubled until form factors by cosine-weighted rays (malley_stratified)
+//             change the sensors' illuminance by less than a part of the error from what closed forms with
+//             rays for shadows (hybrid) give. Finer patches cast more rays in all, so their noise is no
+//             larger. Where 256 rays do not do it: hybrid, rays doubled until doubling changes less.
+//   patches   halved until halving changes it by less than a part of the error. With errors C h^p the error
+//             at h is  change(2 h -> h) / (2^p - 1).  p = 1 is assumed: constant patches at shadow edges and
+//             at solids; where smooth, p = 2 and the estimate is three times the error. Where the last but
+//             one change was less than twice as large, p is smaller and is taken from their ratio.
+//   bounces   the fewest whose truncation bound (forward/solvers.h) is below a tenth of the error, where
+//             they take fewer products than iterating to that bound; else all.
+//
+// What was tried last is the result: it is not computed again. A halving costs 4 to 16 times what went
+// before, so all coarser ones together stay below the last. Changes are root mean squares over all sensors
+// and luminaires (RelativeRmsPercent). Rays of the sensors themselves are the same throughout (16384 each,
+// some hundredths of a percent) and no part of the estimate. Deterministic: no clock is asked.
+//
+// Limits of memory end the halving: `reached` false, the estimate says how far it came.
+// Throws std::invalid_argument for an error that is not > 0, and as ComputeSceneLight does.
+// Source: Richardson (1911), "The approximate arithmetical solution by finite differences"; Roache (1994),
+// "Perspective: a method for uniform reporting of grid refinement studies" (error from successive grids).
+#ifndef LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
+#define LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
+
+#include <string>
+#include <vector>
+
+#include "forward/scene_light.h"
+
+namespace luxfit {
+
+struct AccuracyOptions {
+  double error_percent = 1;       // rms over sensors and luminaires, of the illuminance
+  double coarsest_patch_m = 0.8;  // a dozen patches a wall: seen in no time
+  int max_patches = 20000;        // 1.6 GB of coupling
+  double max_matrix_bytes = 2e9;  // of the form factors, elements x patches
+  int max_rays = 1024;
+};
+
+struct TriedAccuracy {
+  double patch_size_m = 0;
+  int rays_per_element = 0;
+  FormFactorMethod method = FormFactorMethod::kHybrid;
+  int patches = 0, elements = 0;
+  double change_percent = 0;  // from the one compared with; 0: the first
+};
+
+struct AccuracyChoice {
+  SceneLightOptions options;
+  bool all_bounces = true;
+  double patches_error_percent = 0, rays_error_percent = 0, bounces_error_percent = 0;
+  double estimated_error_percent = 0;  // the three together
+  bool reached = true;
+  std::vector<TriedAccuracy> tried;  // in order
+  std::string patches_because, rays_because, bounces_because;
+};
+
+struct AccurateSceneLight {
+  AccuracyChoice choice;
+  SceneLight light;  // by choice.options
+};
+AccurateSceneLight ChooseAccuracy(const LitScene& lit, const AccuracyOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
