@@ -86,7 +86,7 @@ struct Setup {
 class ChartMaker {
  public:
   ChartMaker(const LitScene& lit, double error_percent, double budget_s)
-      : lit_(lit), error_percent_(error_percent), end_s_(NowS() + budget_s) {
+      : lit_(lit), error_percent_(error_percent), budget_s_(budget_s), end_s_(NowS() + budget_s) {
     for (Luminaire& luminaire : lit_.luminaires) luminaire.flux_lm = 1;
     for (Sensor& sensor : lit_.sensors) sensor.response = {};
     chart_.reference = TraceWithin(lit_, kReferenceShare * budget_s);
@@ -95,14 +95,19 @@ class ChartMaker {
   Chart Run() {
     MeasureAutomatic();
     SweepAskedErrors();
-    SweepFormFactors();
-    MeasureGrid();
+    if (chart_.points.front().patches > 0) {
+      // The coarsest first: they tell what the others will take.
+      const std::vector<double> sizes = Sizes();
+      MeasureGrid(sizes.front());
+      SweepFormFactors();
+      for (size_t i = 1; i < sizes.size(); ++i) MeasureGrid(sizes[i]);
+    }
     MarkFront(chart_.points);
     return std::move(chart_);
   }
 
  private:
-  static constexpr double kReferenceShare = 0.2;
+  static constexpr double kReferenceShare = 0.2, kPointShare = 0.15;  // of the budget; one point
 
   double ErrorOf(const ColourIlluminance& light) const {
     return RelativeRmsPercent(light.total.cast<double>(), chart_.reference.lx_per_lm);
@@ -229,7 +234,7 @@ class ChartMaker {
   }
 
   bool IsTooLong(const ChartPoint& point, double expected_s) {
-    if (NowS() + expected_s <= end_s_) return false;
+    if (NowS() + expected_s <= end_s_ && expected_s <= kPointShare * budget_s_) return false;
     chart_.skipped.push_back({point, expected_s});
     return true;
   }
@@ -238,13 +243,18 @@ class ChartMaker {
   // these take the time, 4 times the rays where those do), else the automatic choice.
   double ExpectedS(const Setup& setup) const {
     if (measured_.count(setup) > 0) return 0;
+    const bool pairwise = setup.method == FormFactorMethod::kHybrid ||
+                          setup.method == FormFactorMethod::kAnalytic ||
+                          setup.method == FormFactorMethod::kWallace;
     double by_rays_s = -1, by_size_s = -1;
     for (const auto& [known, point] : measured_) {
       if (known.method != setup.method) continue;
       const double rays = static_cast<double>(setup.rays) / known.rays;
       const double size = known.patch_size_m / setup.patch_size_m;
-      if (size == 1 && rays > 1) by_rays_s = point.time_s * rays;
-      if (size > 1) by_size_s = point.time_s * std::pow(size, 3) * std::max(1.0, rays);
+      // Of pairs, hidden ones alone take rays.
+      if (pairwise && size == 1) by_rays_s = point.time_s * std::max(1.0, std::sqrt(rays));
+      if (!pairwise && size == 1 && rays > 1) by_rays_s = point.time_s * rays;
+      if (size > 1) by_size_s = point.time_s * std::pow(size, pairwise ? 4 : 2.5) * std::max(1.0, rays);
     }
     if (by_rays_s >= 0) return by_rays_s;
     if (by_size_s >= 0) return by_size_s;
@@ -277,7 +287,6 @@ class ChartMaker {
   }
 
   void SweepFormFactors() {
-    if (chart_.points.front().patches == 0) return;
     const Setup chosen = SetupOf(chart_.choice.options);
     for (const FormFactorMethod method : AllFormFactorMethods())
       Measure("method", {method, chosen.rays, chosen.patch_size_m});
@@ -285,17 +294,14 @@ class ChartMaker {
     for (const double size_m : Sizes()) Measure("patch_size", {chosen.method, chosen.rays, size_m});
   }
 
-  void MeasureGrid() {
-    if (chart_.points.front().patches == 0) return;
-    for (const double size_m : Sizes()) {
-      for (const int rays : Rays()) {
-        for (const FormFactorMethod method : AllFormFactorMethods()) Measure("grid", {method, rays, size_m});
-      }
+  void MeasureGrid(double size_m) {
+    for (const int rays : Rays()) {
+      for (const FormFactorMethod method : AllFormFactorMethods()) Measure("grid", {method, rays, size_m});
     }
   }
 
   LitScene lit_;
-  double error_percent_, end_s_;
+  double error_percent_, budget_s_, end_s_;
   Chart chart_;
   std::map<Setup, ChartPoint> measured_;
 };

@@ -12,6 +12,7 @@ namespace {
 // Shares of the error: together, as a root of squares and a tenth, they stay below it.
 constexpr double kPatchesShare = 0.8, kRaysShare = 0.4, kBouncesShare = 0.1;
 constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64;
+constexpr double kOneDraw = 2;  // of a sampled error over its sigma, at 95 %
 
 std::string Percent(double percent) {
   char text[32];
@@ -70,15 +71,15 @@ class Chooser {
     double change = 0;
     for (int rays = kFewestRays; rays <= std::min(kMostSampled, options_.max_rays); rays *= 2) {
       SceneLight sampled = Try(coarsest_m_, {rays, FormFactorMethod::kMalleyStratified}, &closed_form);
-      change = choice_.tried.back().change_percent;
+      change = kOneDraw * choice_.tried.back().change_percent;
       if (change > allowed) continue;
       choice_.rays_error_percent = change;
-      choice_.rays_because =
-          "differs from closed forms by " + Percent(change) + ", below " + Percent(allowed) + where;
+      choice_.rays_because = "twice its difference from closed forms is " + Percent(change) + ", below " +
+                             Percent(allowed) + where;
       return sampled;
     }
-    const std::string sampled_because = "sampling differs from closed forms by " + Percent(change) +
-                                        ", more than " + Percent(allowed) + where;
+    const std::string sampled_because = "twice the difference of sampling from closed forms is " +
+                                        Percent(change) + ", more than " + Percent(allowed) + where;
     SceneLight last = std::move(closed_form);
     int rays = kHybridRays;
     do {

@@ -3,8 +3,9 @@
 //
 //   rays      on coarse patches, doubled until form factors by cosine-weighted rays (malley_stratified)
 //             change the sensors' illuminance by less than a part of the error from what closed forms with
-//             rays for shadows (hybrid) give. Finer patches cast more rays in all, so their noise is no
-//             larger. Where 256 rays do not do it: hybrid, rays doubled until doubling changes less.
+//             rays for shadows (hybrid) give. Finer patches cast more rays in all. The difference is
+//             one draw, and sensors share the patches that light them, so it is doubled. Where 256 rays do
+//             not do it: hybrid, rays doubled until doubling changes less.
 //   patches   halved until halving changes it by less than a part of the error. With errors C h^p the error
 //             at h is  change(2 h -> h) / (2^p - 1).  p = 1 is assumed: constant patches at shadow edges and
 //             at solids; where smooth, p = 2 and the estimate is three times the error. Where the last but
