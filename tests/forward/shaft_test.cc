@@ -55,6 +55,7 @@ TEST(Shaft, ProvesWhatRaysFind) {
     const bool blocks = shaft.IsBlockedBy(blocker);
     EXPECT_FALSE(excludes && blocks);
     Scene scene;
+    scene.materials = {"plate"};
     scene.facets = {c};
     const RayScene rays(scene);
     int hits = 0, seen = 0;
