@@ -49,6 +49,7 @@ class Chooser {
     choice_.bounces_error_percent = last.light.error_percent;
     choice_.estimated_error_percent =
         std::hypot(choice_.patches_error_percent, choice_.rays_error_percent) + choice_.bounces_error_percent;
+    choice_.reached = choice_.estimated_error_percent <= options_.error_percent;
     return {choice_, std::move(last)};
   }
 
@@ -88,7 +89,6 @@ class Chooser {
       change = choice_.tried.back().change_percent;
     } while (change > allowed && rays < options_.max_rays);
     choice_.rays_error_percent = change;
-    choice_.reached = choice_.reached && change <= allowed;
     choice_.rays_because =
         sampled_because + "; half as many rays for shadows change it by " + Percent(change);
     return last;
@@ -136,7 +136,6 @@ class Chooser {
     }
     choice_.patches_error_percent = error;
     const bool reached = before > 0 && error <= allowed;
-    choice_.reached = choice_.reached && reached;
     choice_.patches_because =
         "twice the size changes the illuminance by " + Percent(before) + ": estimated error " +
         Percent(error) +
