@@ -202,7 +202,7 @@ class ChartMaker {
       // A tenth of the error may ask for patches a quarter as large, 64 times the work.
       const double times = std::pow(std::max(1.0, error_percent_ / percent), 1.5);
       ChartPoint expected = PointOf("asked_error", chart_.choice.options);
-      if (IsTooLong(expected, 2 * times * chart_.choosing_s)) continue;
+      if (IsTooLong(expected, times * chart_.choosing_s)) continue;
       const AccuracyChoice choice = ChooseAccuracy(lit_, asked).choice;
       ChartPoint point = Measured("asked_error", choice.options);
       point.estimated_error_percent = choice.estimated_error_percent;

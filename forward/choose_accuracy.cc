@@ -9,8 +9,8 @@
 namespace luxfit {
 namespace {
 
-// Shares of the error: together, as a root of squares and a tenth, they stay below it.
-constexpr double kPatchesShare = 0.8, kRaysShare = 0.4, kBouncesShare = 0.1;
+// Shares of the error: together, as a root of squares and a twentieth, they stay below it.
+constexpr double kPatchesShare = 0.9, kRaysShare = 0.3, kBouncesShare = 0.05;
 constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64;
 constexpr double kOneDraw = 2;  // of a sampled error over its sigma, at 95 %
 
@@ -49,6 +49,7 @@ class Chooser {
     choice_.bounces_error_percent = last.light.error_percent;
     choice_.estimated_error_percent =
         std::hypot(choice_.patches_error_percent, choice_.rays_error_percent) + choice_.bounces_error_percent;
+    choice_.reached = choice_.estimated_error_percent <= options_.error_percent;
     return {choice_, std::move(last)};
   }
 
@@ -88,7 +89,6 @@ class Chooser {
       change = choice_.tried.back().change_percent;
     } while (change > allowed && rays < options_.max_rays);
     choice_.rays_error_percent = change;
-    choice_.reached = choice_.reached && change <= allowed;
     choice_.rays_because =
         sampled_because + "; half as many rays for shadows change it by " + Percent(change);
     return last;
@@ -107,7 +107,7 @@ class Chooser {
       choice_.options.solver = series;
       choice_.all_bounces = false;
       choice_.bounces_because = std::to_string(series.bounces) + " leave out at most " + Percent(bound) +
-                                ", below a tenth of the error, and cost less than all";
+                                ", below a twentieth of the error, and cost less than all";
       return;
     }
     choice_.bounces_because = "all cost " + std::to_string(products) +
@@ -136,7 +136,6 @@ class Chooser {
     }
     choice_.patches_error_percent = error;
     const bool reached = before > 0 && error <= allowed;
-    choice_.reached = choice_.reached && reached;
     choice_.patches_because =
         "twice the size changes the illuminance by " + Percent(before) + ": estimated error " +
         Percent(error) +
@@ -147,8 +146,9 @@ class Chooser {
 
   // Of the finest patches, from the last two changes; `before` 0: there was only one.
   static double ErrorFrom(double before, double change) {
-    constexpr double kSlowest = 3;
-    if (before == 0 || change == 0) return change;
+    constexpr double kSlowest = 1.5;
+    if (before == 0) return kSlowest * change;
+    if (change == 0) return 0;
     const double ratio = before / change;
     return change * (ratio > 1 ? std::clamp(1 / (ratio - 1), 1.0, kSlowest) : kSlowest);
   }

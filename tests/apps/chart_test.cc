@@ -115,6 +115,9 @@ TEST_F(ChartCommandTest, WritesTableChartAndArtifact) {
   EXPECT_EQ(automatic, 1);
   EXPECT_EQ(by_factor["solver"], 7);
   EXPECT_EQ(by_factor["bounces"], 9);
+  // On a busy machine the budget may end before some: then they are listed as skipped.
+  for (const auto& skipped : nlohmann::json::parse(run.output)["skipped"])
+    ++by_factor[skipped["factor"].get<std::string>()];
   for (const char* factor : {"automatic", "asked_error", "method", "rays", "patch_size", "grid"})
     EXPECT_GE(by_factor[factor], 1) << factor;
   // Direct light alone leaves half of the light out; all bounces do not.
