@@ -126,14 +126,13 @@ std::string Automatic(const ChartPoint& point, const LogAxis& x, const LogAxis& 
                                         point.patch_size_m, point.rays, bounces);
   const std::string figures = fmt::format("{:.2g} s, error {:.2g} %, estimated {:.2g} %", point.time_s,
                                           point.error_percent, point.estimated_error_percent.value_or(0));
-  // Above the points of its column, where there are few: accurate ones lie below.
-  const bool left = px > (kLeftPx + kRightPx) / 2;
-  const double tx = px + (left ? -40 : 40), ty = std::max(kTopPx + 26, py - 120);
-  const std::string anchor = left ? " text-anchor=\"end\" font-weight=\"bold\"" : " font-weight=\"bold\"";
-  const std::string halo = " stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\"";
+  // At the lower left, under the front, where no point can lie.
+  const double tx = kLeftPx + 12, ty = kBottomPx - 34;
+  const std::string style =
+      " font-weight=\"bold\" stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\"";
   return SvgCircle(px, py, 11, " fill=\"none\" stroke=\"#d00000\" stroke-width=\"2.5\"") +
-         SvgLine(px, py - 11, tx, ty + 18, " stroke=\"#d00000\"") +
-         SvgText(tx, ty - 4, label, anchor + halo) + SvgText(tx, ty + 13, figures, anchor + halo);
+         SvgLine(px, py + 11, tx + 60, ty - 18, " stroke=\"#d00000\"") + SvgText(tx, ty - 4, label, style) +
+         SvgText(tx, ty + 13, figures, style);
 }
 
 std::string Legend(const Chart& chart) {
@@ -170,7 +169,8 @@ std::string ChartSvg(const Chart& chart, const std::string& title) {
   }
   least = std::max(least, kLeastPercent);
   const LogAxis x = AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kLeftPx, kRightPx);
-  const LogAxis y = AxisFor(least, std::max(most, 2 * least), kBottomPx, kTopPx);
+  constexpr double kRoomForLabel = 3;  // below the least error
+  const LogAxis y = AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kBottomPx, kTopPx);
   std::string body =
       SvgText(kLeftPx, 26, title, " font-size=\"17\" font-weight=\"bold\"") +
       SvgText(kLeftPx, 46,

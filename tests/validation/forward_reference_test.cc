@@ -1,7 +1,7 @@
 // `luxfit simulate` on the rooms of fixtures/forward_reference, against an independent renderer.
 //
 // Limits are those set for the engine: rms 1 % and no point worse than 4 % for each luminaire. The renderer's
-// own error is some tenths of a percent (it stops after a number of bounces).
+// own error is some tenths of a percent (its sampling, and perhaps a limit of its bounces).
 #include <gtest/gtest.h>
 
 #include <algorithm>
