@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -181,6 +182,45 @@ TEST(Illuminance, OfAnEmptySceneIsDirect) {
   EXPECT_NEAR(light.total(0, 0), 1 / (4 * pi), 1e-6);         // cos / pi / h^2, in floats
   EXPECT_NEAR(light.total(1, 0), 4. / 5 / (5 * pi), 1e-6);    // cos^2 / pi / r^2
   EXPECT_NEAR(light.d_luminaire(0, 0), -2 / (8 * pi), 1e-6);  // d(h^-2 / pi) / dh
+}
+
+// In a penumbra the motion of the shadow's edge is most of the change.
+TEST_F(RoomWithScreen, MovingShadowsAreThoseOfARoomComputedAnew) {
+  Luminaire panel;
+  panel.position = {0.7, 1.1, 2.2};
+  panel.shape = LuminaireShape::kRectangle;
+  panel.size_m = {0.8, 0.5};
+  // On the floor behind the screen, whose top at x = 1.65, z = 1.2 hides the panel's parts beyond its line of
+  // sight.
+  const Receivers sensors =
+      MakeReceivers(room_, {}, {{{2.6, 1.1, 0.01}, {0, 0, 1}}, {{2.4, 1.1, 0.01}, {0, 0, 1}}});
+  const auto compute = [&](const Luminaire& lamp, const DerivativeRequest& request) {
+    return ComputeIlluminance(room_, sensors, ComputeVisibility(room_, sensors, {lamp}), {lamp}, albedo_,
+                              request);
+  };
+  DerivativeRequest request;
+  request.parameters = {{0, LuminaireQuantity::kPositionX}, {0, LuminaireQuantity::kPositionZ}};
+  const Illuminance frozen = compute(panel, request);
+  request.moving_shadows = true;
+  const Illuminance moving = compute(panel, request);
+  const float open_lx =
+      static_cast<float>(DirectIlluminancePerLumen(panel, {2.5, 1.1, 0.01}, {0, 0, 1}).lx_per_lm);
+  int partly = 0;
+  for (int parameter = 0; parameter < 2; ++parameter) {
+    // 4 cm each way: shares are found to 1 / 64 of the panel, so the quotient to open / 64 / 8 cm.
+    constexpr double kMove = 0.04;
+    Luminaire up = panel, down = panel;
+    up.position[parameter == 0 ? 0 : 2] += kMove;
+    down.position[parameter == 0 ? 0 : 2] -= kMove;
+    const Eigen::VectorXf slope = (compute(up, {}).total - compute(down, {}).total).col(0) / (2 * kMove);
+    for (Eigen::Index r = 0; r < 2; ++r) {
+      EXPECT_NEAR(moving.d_luminaire(r, parameter), slope[r], open_lx / 64 / (2 * kMove))
+          << r << " " << parameter;
+      partly +=
+          std::abs(frozen.d_luminaire(r, parameter) - slope[r]) > 2 * open_lx / 64 / (2 * kMove) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(partly, 0);  // with visibility held the derivative is another
 }
 
 }  // namespace
