@@ -25,10 +25,10 @@ constexpr int kPlaneSide = 8;        // points along the longer side
 // Whether most of what a point sees above it is the inside of the room.
 bool IsInFreeAir(const RayScene& rays, const Sensor& sensor) {
   const SensorRays sample = SampleResponse(sensor, 64);
-  int front = 0;
+  Eigen::Index front = 0;
   for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
     const RayHit hit = rays.Trace(sensor.position, sample.directions.col(k));
-    front += hit.facet >= 0 && hit.front;
+    front += hit.facet >= 0 && hit.front ? 1 : 0;
   }
   return 2 * front > sample.directions.cols();
 }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = 4, kMiddle = 2.2;  // distances in radii, see pair_rows.h
-constexpr int kPoints = 4;
+constexpr size_t kPoints = 4;
 
 double RadiusOf(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
   return 0.5 * std::max((u + v).norm(), (u - v).norm());
@@ -67,9 +67,9 @@ UnoccludedFactors::UnoccludedFactors(const Patches& patches, bool contour_always
   for (size_t j = 0; j < count_; ++j) {
     const Patch& patch = patches.patches[j];
     radius_[j] = RadiusOf(patch.edge_u, patch.edge_v);
-    for (int e = 0; e < patch.element_count; ++e) {
-      const Element& element = patches.elements[static_cast<size_t>(patch.first_element + e)];
-      element_radius_[j] = std::max(element_radius_[j], RadiusOf(element.edge_u, element.edge_v));
+    const auto first = patches.elements.begin() + patch.first_element;
+    for (auto element = first; element != first + patch.element_count; ++element) {
+      element_radius_[j] = std::max(element_radius_[j], RadiusOf(element->edge_u, element->edge_v));
     }
     const Facet& facet = patches.facets[static_cast<size_t>(patch.facet)];
     const Eigen::Vector3d normal = facet.Normal();
