@@ -8,12 +8,11 @@
 #include <stdexcept>
 
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Generator = std::mt19937_64;
 
@@ -38,23 +37,10 @@ struct Source {
   const Luminaire* luminaire;
   LuminaireAxes axes;
 
-  Eigen::Vector3d PointAt(const Eigen::Vector2d& unit) const {
-    const Luminaire& lamp = *luminaire;
-    if (lamp.shape == LuminaireShape::kRectangle) {
-      return lamp.position + (unit[0] - 0.5) * lamp.size_m[0] * axes.along +
-             (unit[1] - 0.5) * lamp.size_m[1] * axes.across;
-    }
-    if (lamp.shape == LuminaireShape::kDisc) {
-      const double radius = 0.5 * lamp.size_m[0] * std::sqrt(unit[0]), angle = 2 * kPi * unit[1];
-      return lamp.position + radius * (std::cos(angle) * axes.along + std::sin(angle) * axes.across);
-    }
-    return lamp.position;
-  }
-
   // From one point of the luminaire's surface, that of all its flux.
   double DirectLx(const RayScene& rays, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                   const Eigen::Vector2d& unit) const {
-    const Eigen::Vector3d point = PointAt(unit), to_lamp = point - p;
+    const Eigen::Vector3d point = SurfacePointAt(*luminaire, axes, unit), to_lamp = point - p;
     const double height = normal.dot(to_lamp);
     if (height <= 0) return 0;
     const double r = to_lamp.norm();

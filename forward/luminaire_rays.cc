@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
 
@@ -27,18 +28,6 @@ double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, doub
         IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * kPi * (k + 0.5) / turns))
             .cd_per_lm;
   return sum / turns;
-}
-
-Eigen::Vector3d SurfacePoint(const Luminaire& luminaire, const LuminaireAxes& axes, double s, double t) {
-  if (luminaire.shape == LuminaireShape::kRectangle)
-    return luminaire.position + (s - 0.5) * luminaire.size_m[0] * axes.along +
-           (t - 0.5) * luminaire.size_m[1] * axes.across;
-  if (luminaire.shape == LuminaireShape::kDisc) {
-    const double radius = 0.5 * luminaire.size_m[0] * std::sqrt(s);
-    return luminaire.position +
-           radius * (std::cos(2 * kPi * t) * axes.along + std::sin(2 * kPi * t) * axes.across);
-  }
-  return luminaire.position;
 }
 
 }  // namespace
@@ -72,8 +61,8 @@ Eigen::VectorXf LuminaireFormFactors(const RayScene& rays, const Patches& patche
   for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
     // The plastic number's recurrence spreads the starts over the surface.
     const double n = static_cast<double>(k + 1);
-    const Eigen::Vector3d start =
-        SurfacePoint(luminaire, axes, Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n));
+    const Eigen::Vector3d start = SurfacePointAt(
+        luminaire, axes, {Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n)});
     const RayHit hit = rays.Trace(start, sample.directions.col(k));
     if (hit.facet < 0 || !hit.front) continue;
     if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)
