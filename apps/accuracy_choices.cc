@@ -13,20 +13,24 @@ void RecordAccuracy(const AccuracyChoice& choice, int patches, double error_perc
   const auto named = [](FormFactorMethod method, int count) {
     return fmt::format("{}, {} rays", ToString(method), count);
   };
-  std::vector<std::string> sizes, methods;
+  std::vector<std::string> sizes, methods, sensor_rays;
   for (const TriedAccuracy& tried : choice.tried) {
-    const std::string size = fmt::format("{:g} m", tried.patch_size_m),
+    const std::string size = fmt::format("{:g} m, elements {:g} m", tried.patch_size_m, tried.element_size_m),
                       how = named(tried.method, tried.rays_per_element);
     if (std::count(sizes.begin(), sizes.end(), size) == 0) sizes.push_back(size);
     if (std::count(methods.begin(), methods.end(), how) == 0) methods.push_back(how);
+    const std::string rays = std::to_string(tried.rays_per_sensor);
+    if (std::count(sensor_rays.begin(), sensor_rays.end(), rays) == 0) sensor_rays.push_back(rays);
   }
   context.choices.push_back(
       {"patches",
-       fmt::format("{} patches up to {:g} m, elements up to {:g} m", patches,
-                   options.room.patches.patch_size_m, options.room.patches.element_size_m),
+       fmt::format("{} patches of {:g} m and less, split where illuminance varies to elements of {:g} m",
+                   patches, options.room.patches.patch_size_m, options.room.patches.element_size_m),
        sizes, choice.patches_because});
   context.choices.push_back({"form factors", named(form_factors.method, form_factors.rays_per_element),
                              methods, choice.rays_because});
+  context.choices.push_back(
+      {"rays of a sensor", std::to_string(options.rays_per_sensor), sensor_rays, choice.sensors_because});
   context.choices.push_back({"bounces",
                              choice.all_bounces ? "all" : std::to_string(options.solver.bounces),
                              {"as many as the error asks for", "all"},
@@ -45,6 +49,8 @@ nlohmann::json TriedJson(const AccuracyChoice& choice) {
   nlohmann::json list = nlohmann::json::array();
   for (const TriedAccuracy& tried : choice.tried) {
     list.push_back({{"patch_size_m", tried.patch_size_m},
+                    {"element_size_m", tried.element_size_m},
+                    {"rays_per_sensor", tried.rays_per_sensor},
                     {"method", ToString(tried.method)},
                     {"rays", tried.rays_per_element},
                     {"patches", tried.patches},

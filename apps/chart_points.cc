@@ -77,9 +77,14 @@ ChartReference TraceWithin(const LitScene& lit, double budget_s) {
 struct Setup {
   FormFactorMethod method;
   int rays;
-  double patch_size_m;
+  double patch_size_m, element_size_m;
+  bool adaptive;
+  int rays_per_sensor;
   bool operator<(const Setup& other) const {
-    return std::tie(patch_size_m, rays, method) < std::tie(other.patch_size_m, other.rays, other.method);
+    const auto tied = [](const Setup& s) {
+      return std::tie(s.element_size_m, s.patch_size_m, s.rays, s.method, s.adaptive, s.rays_per_sensor);
+    };
+    return tied(*this) < tied(other);
   }
 };
 
@@ -114,26 +119,39 @@ class ChartMaker {
   }
 
   static Setup SetupOf(const SceneLightOptions& options) {
-    return {options.room.form_factors.method, options.room.form_factors.rays_per_element,
-            options.room.patches.patch_size_m};
+    const PatchesOptions& patches = options.room.patches;
+    return {options.room.form_factors.method,
+            options.room.form_factors.rays_per_element,
+            patches.patch_size_m,
+            patches.element_size_m,
+            patches.must_split != nullptr,
+            options.rays_per_sensor};
   }
 
   static ChartPoint PointOf(const std::string& factor, const SceneLightOptions& options) {
     ChartPoint point;
     point.factor = factor;
-    std::tie(point.method, point.rays, point.patch_size_m) =
-        std::make_tuple(options.room.form_factors.method, options.room.form_factors.rays_per_element,
-                        options.room.patches.patch_size_m);
+    point.method = options.room.form_factors.method;
+    point.rays = options.room.form_factors.rays_per_element;
+    point.patch_size_m = options.room.patches.patch_size_m;
+    point.element_size_m = options.room.patches.element_size_m;
+    point.adaptive = options.room.patches.must_split != nullptr;
     point.solver = options.solver.solver;
     if (point.solver == RadiositySolver::kNeumann) point.bounces = options.solver.bounces;
     return point;
   }
 
-  SceneLightOptions OptionsOf(const Setup& setup) const {
+  // Patches of one size, all else as chosen.
+  SceneLightOptions UniformOptions(double patch_size_m, const FormFactorOptions& form_factors) const {
     SceneLightOptions options = chart_.choice.options;
-    options.room.patches = PatchesOfSize(setup.patch_size_m);
-    options.room.form_factors = {setup.rays, setup.method};
+    options.room.patches = PatchesOfSize(patch_size_m);
+    options.room.form_factors = form_factors;
     return options;
+  }
+  // Of uniform patches whose elements are as small as those of the choice.
+  double ChosenSizeM() const {
+    const double ratio = PatchesOfSize(1).element_size_m;
+    return chart_.choice.options.room.patches.element_size_m / ratio;
   }
 
   void MeasureAutomatic() {
@@ -250,7 +268,7 @@ class ChartMaker {
     for (const auto& [known, point] : measured_) {
       if (known.method != setup.method) continue;
       const double rays = static_cast<double>(setup.rays) / known.rays;
-      const double size = known.patch_size_m / setup.patch_size_m;
+      const double size = known.element_size_m / setup.element_size_m;
       // Of pairs, hidden ones alone take rays.
       if (pairwise && size == 1) by_rays_s = point.time_s * std::max(1.0, std::sqrt(rays));
       if (!pairwise && size == 1 && rays > 1) by_rays_s = point.time_s * rays;
@@ -259,13 +277,13 @@ class ChartMaker {
     if (by_rays_s >= 0) return by_rays_s;
     if (by_size_s >= 0) return by_size_s;
     const ChartPoint& automatic = chart_.points.front();
-    return automatic.time_s * std::pow(std::max(1.0, automatic.patch_size_m / setup.patch_size_m), 3) *
+    return automatic.time_s * std::pow(std::max(1.0, automatic.element_size_m / setup.element_size_m), 3) *
            std::max(1.0, static_cast<double>(setup.rays) / automatic.rays);
   }
 
-  void Measure(const std::string& factor, const Setup& setup) {
-    const SceneLightOptions options = OptionsOf(setup);
-    if (!IsTooLong(PointOf(factor, options), ExpectedS(setup)))
+  void Measure(const std::string& factor, double patch_size_m, const FormFactorOptions& form_factors) {
+    const SceneLightOptions options = UniformOptions(patch_size_m, form_factors);
+    if (!IsTooLong(PointOf(factor, options), ExpectedS(SetupOf(options))))
       chart_.points.push_back(Measured(factor, options));
   }
 
@@ -280,23 +298,23 @@ class ChartMaker {
   // From the coarsest that the choice tried to a half of what it chose.
   std::vector<double> Sizes() const {
     std::vector<double> sizes;
-    const double finest_m = chart_.choice.options.room.patches.patch_size_m / 2;
+    const double finest_m = ChosenSizeM() / 2;
     for (double size_m = chart_.choice.tried.front().patch_size_m; size_m > 0.99 * finest_m; size_m /= 2)
       sizes.push_back(size_m);
     return sizes;
   }
 
   void SweepFormFactors() {
-    const Setup chosen = SetupOf(chart_.choice.options);
+    const FormFactorOptions chosen = chart_.choice.options.room.form_factors;
     for (const FormFactorMethod method : AllFormFactorMethods())
-      Measure("method", {method, chosen.rays, chosen.patch_size_m});
-    for (const int rays : Rays()) Measure("rays", {chosen.method, rays, chosen.patch_size_m});
-    for (const double size_m : Sizes()) Measure("patch_size", {chosen.method, chosen.rays, size_m});
+      Measure("method", ChosenSizeM(), {chosen.rays_per_element, method});
+    for (const int rays : Rays()) Measure("rays", ChosenSizeM(), {rays, chosen.method});
+    for (const double size_m : Sizes()) Measure("patch_size", size_m, chosen);
   }
 
   void MeasureGrid(double size_m) {
     for (const int rays : Rays()) {
-      for (const FormFactorMethod method : AllFormFactorMethods()) Measure("grid", {method, rays, size_m});
+      for (const FormFactorMethod method : AllFormFactorMethods()) Measure("grid", size_m, {rays, method});
     }
   }
 

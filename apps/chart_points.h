@@ -27,8 +27,9 @@ struct ChartPoint {
   std::string factor;  // automatic, asked_error, method, rays, patch_size, bounces, solver or grid
   FormFactorMethod method = FormFactorMethod::kHybrid;
   int rays = 0;
-  double patch_size_m = 0;
-  std::optional<int> bounces;  // none: all
+  double patch_size_m = 0, element_size_m = 0;  // largest patch, smallest element
+  bool adaptive = false;                        // patches split where illuminance varies
+  std::optional<int> bounces;                   // none: all
   RadiositySolver solver = RadiositySolver::kAuto;
   int patches = 0;
   double time_s = 0, error_percent = 0;

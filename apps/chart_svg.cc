@@ -122,8 +122,8 @@ std::string Front(const std::vector<ChartPoint>& points, const LogAxis& x, const
 std::string Automatic(const ChartPoint& point, const LogAxis& x, const LogAxis& y) {
   const double px = x(point.time_s), py = y(point.error_percent);
   const std::string bounces = point.bounces ? fmt::format("{} bounces", *point.bounces) : "all bounces";
-  const std::string label = fmt::format("automatic: {} {:g} m, {} rays, {}", ToString(point.method),
-                                        point.patch_size_m, point.rays, bounces);
+  const std::string label = fmt::format("automatic: {} {:g} to {:g} m, {} rays, {}", ToString(point.method),
+                                        point.patch_size_m, point.element_size_m, point.rays, bounces);
   const std::string figures = fmt::format("{:.2g} s, error {:.2g} %, estimated {:.2g} %", point.time_s,
                                           point.error_percent, point.estimated_error_percent.value_or(0));
   // At the lower left, under the front, where no point can lie.

@@ -63,12 +63,13 @@ std::string BouncesOf(const ChartPoint& point) {
 
 std::string Csv(const Chart& chart) {
   std::string text =
-      "factor,method,rays,patch_size_m,bounces,solver,patches,time_s,error_percent,estimated_error_percent,"
+      "factor,method,rays,patch_size_m,element_size_m,adaptive,bounces,solver,patches,time_s,error_percent,"
+      "estimated_error_percent,"
       "on_front,automatic\n";
   for (const ChartPoint& p : chart.points) {
-    text += fmt::format("{},{},{},{:g},{},{},{},{:.4g},{:.4g},{},{:d},{:d}\n", p.factor, ToString(p.method),
-                        p.rays, p.patch_size_m, BouncesOf(p), ToString(p.solver), p.patches, p.time_s,
-                        p.error_percent,
+    text += fmt::format("{},{},{},{:g},{:g},{:d},{},{},{},{:.4g},{:.4g},{},{:d},{:d}\n", p.factor,
+                        ToString(p.method), p.rays, p.patch_size_m, p.element_size_m, p.adaptive,
+                        BouncesOf(p), ToString(p.solver), p.patches, p.time_s, p.error_percent,
                         p.estimated_error_percent ? fmt::format("{:.4g}", *p.estimated_error_percent) : "",
                         p.on_front, p.automatic);
   }
@@ -80,6 +81,8 @@ json PointJson(const ChartPoint& p) {
                 {"method", ToString(p.method)},
                 {"rays", p.rays},
                 {"patch_size_m", p.patch_size_m},
+                {"element_size_m", p.element_size_m},
+                {"adaptive", p.adaptive},
                 {"bounces", BouncesOf(p)},
                 {"solver", ToString(p.solver)},
                 {"patches", p.patches},
@@ -161,12 +164,13 @@ std::string ChartTable(const json& artifact) {
                   artifact["session"].get<std::string>(), artifact["points"].get<int>(),
                   artifact["skipped"].size(), artifact["reference"]["sigma_percent"].get<double>());
   const auto row = [](const json& p) {
-    return fmt::format("{:<18} {:>6} {:>8g} {:>8} {:<19} {:>9.4f} {:>9.3f}\n", p["method"].get<std::string>(),
-                       p["rays"].get<int>(), p["patch_size_m"].get<double>(), p["bounces"].get<std::string>(),
+    return fmt::format("{:<18} {:>6} {:>7g} {:>9g} {:>7} {:<19} {:>9.4f} {:>9.3f}\n",
+                       p["method"].get<std::string>(), p["rays"].get<int>(), p["patch_size_m"].get<double>(),
+                       p["element_size_m"].get<double>(), p["bounces"].get<std::string>(),
                        p["solver"].get<std::string>(), p["time_s"].get<double>(),
                        p["error_percent"].get<double>());
   };
-  text += "method               rays  patch m  bounces solver                 time s   error %\n";
+  text += "method               rays patch m element m bounces solver                 time s   error %\n";
   for (const json& p : artifact["front"]) text += row(p);
   text += "\nautomatic choice:\n" + row(artifact["automatic"]);
   text += fmt::format("estimated error {:.2g} %; choosing it took {:.3g} s with its result\n",

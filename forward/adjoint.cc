@@ -2,7 +2,9 @@
 
 #include <stdexcept>
 
+#include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
+#include "forward/internal/gather.h"
 
 namespace luxfit {
 namespace {
@@ -21,6 +23,23 @@ Importance ComputeImportance(const Room& room, const Transport& transport, const
   importance.exitance =
       gathered.array() +
       area * transport.Irradiance((importance.direct.array() / area).matrix()).col(0).array();
+  return importance;
+}
+
+// What a lux of indirect light at each element adds to the sum, and what a lm/m2 emitted there does.
+struct ElementImportance {
+  Eigen::VectorXf illuminance, exitance;
+};
+
+ElementImportance ImportanceOfElements(const Room& room, const Receivers& receivers,
+                                       const Eigen::VectorXd& albedo, const Eigen::VectorXd& weights) {
+  const Eigen::Index observed = static_cast<Eigen::Index>(receivers.elements.size());
+  ElementImportance importance;
+  importance.exitance =
+      receivers.sensor_to_element.transpose() * weights.tail(weights.size() - observed).cast<float>();
+  importance.illuminance = importance.exitance.cwiseProduct(ElementAlbedo(room.patches, albedo));
+  for (Eigen::Index r = 0; r < observed; ++r)
+    importance.illuminance[receivers.elements[static_cast<size_t>(r)]] += static_cast<float>(weights[r]);
   return importance;
 }
 
@@ -44,13 +63,26 @@ AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers,
   result.d_albedo.setZero(albedo.size());
   if (patches > 0) {
     const Transport transport(room.transport, albedo);
-    const Eigen::VectorXf gathered = receivers.gather.transpose() * weights.cast<float>();
-    const Importance importance = ComputeImportance(room, transport, gathered);
+    const ElementImportance at = ImportanceOfElements(room, receivers, albedo, weights);
+    const Importance importance =
+        ComputeImportance(room, transport, room.form_factors.element_to_patch.transpose() * at.illuminance);
+    // What receivers see of their own direct light is in their columns already.
     const Eigen::MatrixXf at_patches = PatchMean(room.patches, direct.elements);
-    per_column += (at_patches.transpose() * importance.direct).cast<double>();
+    per_column +=
+        (at_patches.transpose() * importance.direct +
+         direct.elements.transpose() * at.exitance.cwiseProduct(ElementAlbedo(room.patches, albedo)))
+            .cast<double>();
+    const Eigen::VectorXf element_lit = direct.elements.leftCols(lamps) * flux.cast<float>();
     const Eigen::VectorXf lit = at_patches.leftCols(lamps) * flux.cast<float>();
-    const Eigen::VectorXf total = lit + transport.Irradiance(transport.Exitance(lit)).col(0);
+    const Eigen::VectorXf exitance = transport.Exitance(lit).col(0);
+    const Eigen::VectorXf total = lit + transport.Irradiance(exitance).col(0);
     result.d_patch_albedo = importance.exitance.cwiseProduct(total).cast<double>();
+    const Eigen::VectorXf element_total =
+        element_lit + Product(room.form_factors.element_to_patch, exitance).col(0);
+    for (Eigen::Index e = 0; e < element_total.size(); ++e) {
+      result.d_patch_albedo[room.patches.elements[static_cast<size_t>(e)].patch] +=
+          static_cast<double>(at.exitance[e] * element_total[e]);
+    }
     for (Eigen::Index i = 0; i < patches; ++i)
       result.d_albedo[room.transport.patch_material[static_cast<size_t>(i)]] += result.d_patch_albedo[i];
   }

@@ -1,8 +1,9 @@
 // Derivatives of one weighted sum of illuminances with respect to everything, by one adjoint solve.
 //
-//   J = sum_r w_r E_r,   E = D + G M,   M = (I - rho F)^-1 rho D_p
-//   a = (I - F^T rho)^-1 G^T w            adjoint: J per exitance emitted at a patch
-//   dJ/dD_p = rho a,   dJ/drho_i = a_i E_i
+//   J = sum_r w_r E_r,   E as in forward/illuminance.h,   M = (I - rho F)^-1 rho D_p
+//   g = G^T w_s                              J per exitance emitted at an element, towards sensors
+//   a = (I - F^T rho)^-1 F_e^T (w_e + rho g) adjoint: J per exitance emitted at a patch
+//   dJ/dD_p = rho a,   dJ/dD_e = rho g,   dJ/drho_i = a_i E_i + sum over its elements of g_e E_e
 //
 // Forward mode (forward/illuminance.h) costs one column of light a parameter; this costs one column a sum,
 // whatever the number of parameters: reflectances of all patches, direct light of all elements, and through

@@ -6,13 +6,16 @@
 #include <stdexcept>
 #include <utility>
 
+#include "forward/adaptive_patches.h"
+
 namespace luxfit {
 namespace {
 
 // Shares of the error: together, as a root of squares and a twentieth, they stay below it.
-constexpr double kPatchesShare = 0.9, kRaysShare = 0.3, kBouncesShare = 0.05;
-constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64;
-constexpr double kOneDraw = 2;  // of a sampled error over its sigma, at 95 %
+constexpr double kPatchesShare = 0.85, kRaysShare = 0.3, kSensorsShare = 0.2, kBouncesShare = 0.05;
+constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64, kFewestSensorRays = 1024;
+constexpr double kFirstBoundPercent = 1;  // of AdaptivePatches, at the first halving
+constexpr double kOneDraw = 2;            // of a sampled error over its sigma, at 95 %
 
 std::string Percent(double percent) {
   char text[32];
@@ -37,41 +40,71 @@ class Chooser {
   }
 
   AccurateSceneLight Run() {
-    SceneLight last = Try(coarsest_m_, {kHybridRays, FormFactorMethod::kHybrid}, nullptr);
+    choice_.options.rays_per_sensor = kFewestSensorRays;
+    choice_.options.room = {PatchesOfSize(coarsest_m_), {kHybridRays, FormFactorMethod::kHybrid}};
+    SceneLight last = Try(nullptr);
     if (last.room.patches.patches.empty()) {
-      choice_.patches_because = choice_.rays_because = choice_.bounces_because =
+      choice_.patches_because = choice_.rays_because = choice_.sensors_because = choice_.bounces_because =
           "no surface reflects: all light is direct";
       return {choice_, std::move(last)};
     }
+    last = ChooseSensorRays(std::move(last));
     last = ChooseRays(std::move(last));
     ChooseBounces(last);
     last = ChoosePatches(std::move(last));
     choice_.bounces_error_percent = last.light.error_percent;
     choice_.estimated_error_percent =
-        std::hypot(choice_.patches_error_percent, choice_.rays_error_percent) + choice_.bounces_error_percent;
+        std::hypot(choice_.patches_error_percent, choice_.rays_error_percent, choice_.sensors_error_percent) +
+        choice_.bounces_error_percent;
     choice_.reached = choice_.estimated_error_percent <= options_.error_percent;
     return {choice_, std::move(last)};
   }
 
  private:
-  SceneLight Try(double patch_size_m, const FormFactorOptions& form_factors, const SceneLight* before) {
-    choice_.options.room.patches = PatchesOfSize(patch_size_m);
-    choice_.options.room.form_factors = form_factors;
+  static double ChangePercent(const ColourIlluminance& before, const ColourIlluminance& now) {
+    return RelativeRmsPercent(before.total.cast<double>(), now.total.cast<double>());
+  }
+
+  // By choice_.options as they stand.
+  SceneLight Try(const ColourIlluminance* before) {
     SceneLight now = ComputeSceneLight(lit_, choice_.options);
-    const double change =
-        before ? RelativeRmsPercent(before->light.total.cast<double>(), now.light.total.cast<double>()) : 0;
-    choice_.tried.push_back({patch_size_m, form_factors.rays_per_element, form_factors.method,
-                             static_cast<int>(now.room.patches.patches.size()),
-                             static_cast<int>(now.room.patches.elements.size()), change});
+    Record(now, before ? ChangePercent(*before, now.light) : 0);
     return now;
+  }
+
+  void Record(const SceneLight& now, double change_percent) {
+    const RoomOptions& room = choice_.options.room;
+    choice_.tried.push_back({room.patches.patch_size_m, room.patches.element_size_m,
+                             room.form_factors.rays_per_element, choice_.options.rays_per_sensor,
+                             room.form_factors.method, static_cast<int>(now.room.patches.patches.size()),
+                             static_cast<int>(now.room.patches.elements.size()), change_percent});
+  }
+
+  SceneLight ChooseSensorRays(SceneLight last) {
+    const double allowed = kSensorsShare * options_.error_percent;
+    while (true) {
+      const ColourIlluminance before = last.light;
+      choice_.options.rays_per_sensor *= 4;
+      last = Regather(lit_, std::move(last), choice_.options);
+      Record(last, ChangePercent(before, last.light));
+      const double error = choice_.tried.back().change_percent / 2;
+      choice_.sensors_error_percent = error;
+      const bool enough = error <= allowed;
+      if (!enough && 4 * choice_.options.rays_per_sensor <= options_.max_rays_per_sensor) continue;
+      choice_.sensors_because = "a quarter of them changes it by twice " + Percent(error) +
+                                (enough ? ", below " : ", no more are tried; more than ") + Percent(allowed);
+      return last;
+    }
   }
 
   SceneLight ChooseRays(SceneLight closed_form) {
     const double allowed = kRaysShare * options_.error_percent;
     const std::string where = " on patches of " + Number(coarsest_m_) + " m";
     double change = 0;
+    FormFactorOptions& form_factors = choice_.options.room.form_factors;
     for (int rays = kFewestRays; rays <= std::min(kMostSampled, options_.max_rays); rays *= 2) {
-      SceneLight sampled = Try(coarsest_m_, {rays, FormFactorMethod::kMalleyStratified}, &closed_form);
+      form_factors = {rays, FormFactorMethod::kMalleyStratified};
+      SceneLight sampled = Try(&closed_form.light);
       change = kOneDraw * choice_.tried.back().change_percent;
       if (change > allowed) continue;
       choice_.rays_error_percent = change;
@@ -82,12 +115,12 @@ class Chooser {
     const std::string sampled_because = "twice the difference of sampling from closed forms is " +
                                         Percent(change) + ", more than " + Percent(allowed) + where;
     SceneLight last = std::move(closed_form);
-    int rays = kHybridRays;
+    form_factors = {kHybridRays, FormFactorMethod::kHybrid};
     do {
-      rays *= 2;
-      last = Try(coarsest_m_, {rays, FormFactorMethod::kHybrid}, &last);
+      form_factors.rays_per_element *= 2;
+      last = Try(&last.light);
       change = choice_.tried.back().change_percent;
-    } while (change > allowed && rays < options_.max_rays);
+    } while (change > allowed && form_factors.rays_per_element < options_.max_rays);
     choice_.rays_error_percent = change;
     choice_.rays_because =
         sampled_because + "; half as many rays for shadows change it by " + Percent(change);
@@ -116,32 +149,44 @@ class Chooser {
   }
 
   bool Fits(const TriedAccuracy& tried) const {
-    // A half of the size makes four of each.
-    return 4.0 * tried.patches <= options_.max_patches &&
-           4.0 * tried.patches * 4.0 * tried.elements * sizeof(float) <= options_.max_matrix_bytes;
+    // Elements of half the size are four times as many; patches grow by less, as most are split no further.
+    constexpr double kPatchesGrow = 2;
+    const double patches = kPatchesGrow * tried.patches;
+    return patches <= options_.max_patches &&
+           patches * 4.0 * tried.elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 
   SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
-    const FormFactorOptions form_factors = choice_.options.room.form_factors;
-    double size_m = coarsest_m_, before = 0, error = 0;
-    while (true) {
-      if (!Fits(choice_.tried.back())) break;
-      size_m /= 2;
-      last = Try(size_m, form_factors, &last);
+    PatchesOptions sizes = PatchesOfSize(coarsest_m_);
+    double bound_percent = kFirstBoundPercent, before = 0, error = 0;
+    while (Fits(choice_.tried.back())) {
+      sizes.element_size_m /= 2;
+      choice_.options.room.patches = AdaptivePatches(std::move(last.room), IndirectLx(last.light),
+                                                     lit_.luminaires, bound_percent, sizes);
+      last = Try(&last.light);
       const double change = choice_.tried.back().change_percent;
       error = ErrorFrom(before, change);
       before = change;
+      bound_percent /= 2;
       if (error <= allowed) break;
     }
     choice_.patches_error_percent = error;
     const bool reached = before > 0 && error <= allowed;
     choice_.patches_because =
-        "twice the size changes the illuminance by " + Percent(before) + ": estimated error " +
-        Percent(error) +
+        "elements of twice the size, patches split at twice the variation, change the illuminance by " +
+        Percent(before) + ": estimated error " + Percent(error) +
         (reached ? ", below " + Percent(allowed)
                  : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
     return last;
+  }
+
+  // Of all luminaires.
+  Eigen::VectorXf IndirectLx(const ColourIlluminance& light) const {
+    Eigen::VectorXf flux_lm(static_cast<Eigen::Index>(lit_.luminaires.size()));
+    for (Eigen::Index k = 0; k < flux_lm.size(); ++k)
+      flux_lm[k] = static_cast<float>(lit_.luminaires[static_cast<size_t>(k)].flux_lm);
+    return light.element_indirect * flux_lm;
   }
 
   // Of the finest patches, from the last two changes; `before` 0: there was only one.

@@ -5,6 +5,7 @@
 
 #include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
+#include "forward/internal/gather.h"
 
 namespace luxfit {
 
@@ -21,6 +22,7 @@ ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& re
   ColourIlluminance result;
   result.direct = direct.receivers;
   result.total = direct.receivers;
+  result.element_indirect.setZero(direct.elements.rows(), direct.elements.cols());
   const bool reflects = !room.patches.patches.empty();
   const Eigen::MatrixXf patch_direct = PatchMean(room.patches, direct.elements);
   Eigen::Vector3d share = weights / weights.sum();
@@ -35,7 +37,11 @@ ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& re
     }
     if (reflects) {
       const RadiositySolution solution = SolveRadiosity(room.transport, albedo, patch_direct, solver);
-      result.total += static_cast<float>(weight) * Product(receivers.gather, solution.exitance);
+      const Eigen::MatrixXf indirect = Product(room.form_factors.element_to_patch, solution.exitance);
+      const Eigen::MatrixXf exitance =
+          ElementAlbedo(room.patches, albedo).asDiagonal() * (direct.elements + indirect);
+      result.total += static_cast<float>(weight) * GatherAtReceivers(receivers, indirect, exitance);
+      result.element_indirect += static_cast<float>(weight) * indirect;
       result.solver = solution.solver;
       result.iterations = std::max(result.iterations, solution.iterations);
       result.error_percent = std::max(result.error_percent, solution.error_percent);

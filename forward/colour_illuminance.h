@@ -19,8 +19,9 @@
 namespace luxfit {
 
 struct ColourIlluminance {
-  Eigen::MatrixXf total;   // receivers x luminaires, lx per lm
-  Eigen::MatrixXf direct;  // its direct part
+  Eigen::MatrixXf total;             // receivers x luminaires, lx per lm
+  Eigen::MatrixXf direct;            // its direct part
+  Eigen::MatrixXf element_indirect;  // elements of the room x luminaires, lx per lm
   int solved_channels = 0;
   RadiositySolver solver = RadiositySolver::kAuto;  // the one used
   int iterations = 0;                               // of the slowest channel

@@ -2,6 +2,7 @@
 
 #include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
+#include "forward/internal/gather.h"
 
 namespace luxfit {
 
@@ -36,9 +37,21 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
           exitance.col(lamps + parameters + k * materials + m) = d.col(k);
       }
     }
-    const Eigen::MatrixXf indirect = Product(receivers.gather, exitance);
-    at_receivers += indirect.leftCols(lamps + parameters);
-    result.d_albedo = indirect.rightCols(lamps * materials);
+    const Eigen::MatrixXf indirect = Product(room.form_factors.element_to_patch, exitance);
+    Eigen::MatrixXf reflected = indirect;  // exitance of elements
+    reflected.leftCols(lamps + parameters) += at_elements;
+    const Eigen::MatrixXf lit = reflected.leftCols(lamps);
+    const Eigen::VectorXf element_albedo = ElementAlbedo(room.patches, albedo);
+    reflected.array().colwise() *= element_albedo.array();
+    for (Eigen::Index m = 0; m < materials; ++m) {
+      const Eigen::VectorXf of_material = ElementAlbedo(
+          room.patches, Eigen::VectorXd::Unit(albedo.size(), derivatives.materials[static_cast<size_t>(m)]));
+      for (Eigen::Index k = 0; k < lamps; ++k)
+        reflected.col(lamps + parameters + k * materials + m) += of_material.cwiseProduct(lit.col(k));
+    }
+    const Eigen::MatrixXf gathered = GatherAtReceivers(receivers, indirect, reflected);
+    at_receivers += gathered.leftCols(lamps + parameters);
+    result.d_albedo = gathered.rightCols(lamps * materials);
   }
   result.total = at_receivers.leftCols(lamps);
   result.d_luminaire = at_receivers.rightCols(parameters);

@@ -1,9 +1,10 @@
 // Illuminance of any receiver from any luminaire, direct and interreflected, with derivatives.
 //
-//   E_rk = V_rk D_rk + sum_j F_rj M_jk,     M_k = Exitance(patch mean of V D_k)        lx per lm of luminaire
-//   k
+//   E_ek = V_ek D_ek + sum_j F_ej M_jk,     M_k = Exitance(patch mean of V D_k)        element e
+//   E_sk = V_sk D_sk + sum_e G_se rho_e E_ek                                           sensor s
 //
-// D: direct illuminance, V: visible share, F: form factors, M: exitance. Derivatives with respect to a
+// lx per lm of luminaire k. D: direct illuminance, V: visible share, F and G: form factors, M: exitance.
+// Derivatives with respect to a
 // luminaire's parameter take the same path with dD in place of D (light is linear in what the luminaires put
 // in), one more column each and no further factorisation; those with respect to a material's reflectance are
 // Transport::ExitanceDerivative. All are exact for frozen visibility; the motion of shadow edges is added

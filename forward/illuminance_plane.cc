@@ -45,7 +45,7 @@ PlaneIlluminance ComputePlane(const Room& room, const LitRoom& lit, const Illumi
   result.grid = GridOf(plane);
   const Eigen::Index count = result.grid.points.cols();
   result.direct_lx.setZero(count);
-  result.indirect_lx.setZero(count, lit.patch_exitance.cols());
+  result.indirect_lx.setZero(count, lit.element_exitance.cols());
   result.is_inside.assign(static_cast<size_t>(count), 0);
   const Eigen::Vector3d normal = result.grid.normal;
   const SensorRays rays = SampleResponse({Eigen::Vector3d::Zero(), normal, {}}, options.ray_count);
@@ -53,7 +53,7 @@ PlaneIlluminance ComputePlane(const Room& room, const LitRoom& lit, const Illumi
     const Eigen::Vector3d p = result.grid.points.col(k);
     for (const Luminaire& luminaire : lit.luminaires)
       result.direct_lx[k] += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal);
-    const Gathered gathered = GatherIlluminance(room, lit.patch_exitance, {p, normal, {}}, rays);
+    const Gathered gathered = GatherIlluminance(room, lit.element_exitance, {p, normal, {}}, rays);
     result.indirect_lx.row(k) = gathered.illuminance_lx;
     result.is_inside[static_cast<size_t>(k)] = gathered.back_share > 0.5 ? 1 : 0;
   });

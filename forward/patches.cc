@@ -197,7 +197,8 @@ class Subdivision {
     if (free.empty()) return false;
     const bool whole = free.size() == cells.size() &&
                        std::all_of(free.begin(), free.end(), [](const Element& e) { return e.is_whole; });
-    return !whole || (options_.must_split && options_.must_split(free));
+    const int facet = static_cast<int>(result.facets.size()) - 1;
+    return !whole || (options_.must_split && options_.must_split(facet, free));
   }
 
   void AddPatch(const Place& place, const std::vector<Cell>& cells) {

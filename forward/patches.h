@@ -48,8 +48,9 @@ struct Element {
 struct PatchesOptions {
   double patch_size_m = 0.4;    // indirect light varies slowly
   double element_size_m = 0.1;  // direct light and shadows vary fast
-  // Whether the elements of a patch differ too much to send light as one (forward/adaptive_patches.h).
-  std::function<bool(const std::vector<Element>&)> must_split = nullptr;
+  // Whether the elements of a patch of a facet differ too much to send light as one
+  // (forward/adaptive_patches.h).
+  std::function<bool(int facet, const std::vector<Element>&)> must_split = nullptr;
 };
 
 // The grid of cells of one facet.

@@ -34,24 +34,24 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
 }
 
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
-                        const std::vector<Sensor>& sensors) {
+                        const std::vector<Sensor>& sensors, int rays_per_sensor) {
   ExpectValid(sensors);
   Receivers receivers{elements, sensors, {}, {}};
-  const Eigen::Index rows = static_cast<Eigen::Index>(elements.size() + sensors.size());
-  receivers.gather.resize(rows, static_cast<Eigen::Index>(room.patches.patches.size()));
-  Eigen::Index row = 0;
+  receivers.points.reserve(elements.size() + sensors.size());
   for (const int e : elements) {
-    receivers.gather.row(row++) = room.form_factors.element_to_patch.row(e);
-    receivers.points.push_back({room.patches.elements[static_cast<size_t>(e)].center,
-                                room.patches.elements[static_cast<size_t>(e)].normal,
-                                {}});
+    const Element& element = room.patches.elements[static_cast<size_t>(e)];
+    receivers.points.push_back({element.center, element.normal, {}});
   }
-  // Without patches there is nothing to gather from.
-  tbb::parallel_for(size_t{0}, room.patches.patches.empty() ? 0 : sensors.size(), [&](size_t i) {
-    receivers.gather.row(row + static_cast<Eigen::Index>(i)) =
-        SensorFormFactors(room.rays, room.patches, sensors[i]);
-  });
   receivers.points.insert(receivers.points.end(), sensors.begin(), sensors.end());
+  const Eigen::Index count = static_cast<Eigen::Index>(room.patches.elements.size());
+  std::vector<Eigen::SparseVector<float>> rows(sensors.size());
+  // Without elements there is nothing to gather from.
+  tbb::parallel_for(size_t{0}, count == 0 ? 0 : sensors.size(), [&](size_t i) {
+    rows[i] = SensorFormFactors(room.rays, room.patches, sensors[i], rays_per_sensor).sparseView();
+  });
+  receivers.sensor_to_element.resize(static_cast<Eigen::Index>(sensors.size()), count);
+  for (size_t i = 0; i < rows.size() && count > 0; ++i)
+    receivers.sensor_to_element.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
   return receivers;
 }
 

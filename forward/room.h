@@ -1,14 +1,18 @@
 // A room made ready for light: everything that depends on geometry alone, computed once.
 //
 // Receivers are the places whose illuminance is asked for: elements of the room first (in the order given),
-// then sensor points. An empty scene is allowed: then all light is direct.
+// then sensor points. Elements gather from patches, sensors from elements, whose direct light is known in
+// finer detail: patches may be coarse, as they only carry light from the second reflection on. An empty scene
+// is allowed: then all light is direct.
 //
 // Throws as its parts do (Subdivide, ComputeFormFactors).
-// Source: see forward/form_factors.h and forward/transport.h.
+// Source: see forward/form_factors.h and forward/transport.h; Reichert (1992), "A two-pass radiosity method
+// driven by lights and viewer position" (final gather).
 #ifndef LUXFIT_FORWARD_ROOM_H_
 #define LUXFIT_FORWARD_ROOM_H_
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "forward/form_factors.h"
@@ -39,12 +43,12 @@ Room MakeRoom(const Scene& given, const RoomOptions& options = {});
 struct Receivers {
   std::vector<int> elements;  // indices into room.patches.elements
   std::vector<Sensor> sensors;
-  FormFactorMatrix gather;     // receivers x patches
-  std::vector<Sensor> points;  // centre and normal of every receiver
+  Eigen::SparseMatrix<float, Eigen::RowMajor> sensor_to_element;  // form factors, sensors x elements
+  std::vector<Sensor> points;                                     // centre and normal of every receiver
   int count() const { return static_cast<int>(points.size()); }
 };
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
-                        const std::vector<Sensor>& sensors);
+                        const std::vector<Sensor>& sensors, int rays_per_sensor = kSensorRays);
 
 // Share of each luminaire that each place sees: elements x luminaires and receivers x luminaires, in [0, 1].
 // Elements are probed at 2 x 2 points against `order` points a side of the luminaire, sensors at their point.

@@ -81,6 +81,12 @@ double DistanceToFacet(const Facet& facet, const Eigen::Vector3d& p) {
 
 }  // namespace
 
+Eigen::Vector2d Facet::CoordinatesOf(const Eigen::Vector3d& p) const {
+  const double uu = edge_u.squaredNorm(), vv = edge_v.squaredNorm(), uv = edge_u.dot(edge_v);
+  const double u = edge_u.dot(p - origin), v = edge_v.dot(p - origin);
+  return Eigen::Vector2d(vv * u - uv * v, uu * v - uv * u) / (uu * vv - uv * uv);
+}
+
 Eigen::AlignedBox3d Scene::Bounds() const {
   Eigen::AlignedBox3d box;
   for (const Facet& facet : facets) {

@@ -28,6 +28,8 @@ struct Facet {
   Eigen::Vector3d Normal() const { return edge_u.cross(edge_v).normalized(); }
   double AreaM2() const { return (kind == FacetKind::kTriangle ? 0.5 : 1.0) * edge_u.cross(edge_v).norm(); }
   Eigen::Vector3d PointAt(double u, double v) const { return origin + u * edge_u + v * edge_v; }
+  // (u, v) of the point of its plane that is nearest to p.
+  Eigen::Vector2d CoordinatesOf(const Eigen::Vector3d& p) const;
 };
 
 struct Scene {

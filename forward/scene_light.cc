@@ -10,7 +10,7 @@ namespace luxfit {
 PatchesOptions PatchesOfSize(double patch_size_m) {
   PatchesOptions options;
   options.patch_size_m = patch_size_m;
-  options.element_size_m = patch_size_m / 2;
+  options.element_size_m = patch_size_m / 4;
   return options;
 }
 
@@ -22,9 +22,15 @@ ColourIlluminance Relight(const LitScene& lit, const SceneLight& prediction,
 
 SceneLight ComputeSceneLight(const LitScene& lit, const SceneLightOptions& options) {
   Room room = MakeRoom(lit.scene, options.room);
-  Receivers receivers = MakeReceivers(room, {}, lit.sensors);
+  Receivers receivers = MakeReceivers(room, {}, lit.sensors, options.rays_per_sensor);
   LuminaireVisibility visibility = ComputeVisibility(room, receivers, lit.luminaires);
   SceneLight prediction{std::move(room), std::move(receivers), std::move(visibility), {}};
+  prediction.light = Relight(lit, prediction, options.solver);
+  return prediction;
+}
+
+SceneLight Regather(const LitScene& lit, SceneLight prediction, const SceneLightOptions& options) {
+  prediction.receivers = MakeReceivers(prediction.room, {}, lit.sensors, options.rays_per_sensor);
   prediction.light = Relight(lit, prediction, options.solver);
   return prediction;
 }

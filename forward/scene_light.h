@@ -33,10 +33,11 @@ struct LitScene {
 
 struct SceneLightOptions {
   RoomOptions room;
+  int rays_per_sensor = kSensorRays;
   RadiositySolverOptions solver;
 };
 
-// Patches no larger than that, of elements half as large.
+// Patches no larger than that, of elements a quarter as large, whose direct light sensors gather.
 PatchesOptions PatchesOfSize(double patch_size_m);
 
 struct SceneLight {
@@ -46,6 +47,9 @@ struct SceneLight {
   ColourIlluminance light;
 };
 SceneLight ComputeSceneLight(const LitScene& lit, const SceneLightOptions& options = {});
+
+// The light alone, once more with other rays of the sensors.
+SceneLight Regather(const LitScene& lit, SceneLight prediction, const SceneLightOptions& options);
 
 // The light alone, once more with another solver.
 ColourIlluminance Relight(const LitScene& lit, const SceneLight& prediction,

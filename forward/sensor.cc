@@ -233,12 +233,11 @@ Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, 
   ExpectValid(sensor);
   const SensorRays sample = SampleResponse(sensor, ray_count);
   const Eigen::Vector3d start = RayOrigin(sensor);
-  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));
+  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.elements.size()));
   for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
     const RayHit hit = rays.Trace(start, sample.directions.col(k));
     if (hit.facet < 0 || !hit.front) continue;
-    if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)
-      row[patches.elements[static_cast<size_t>(element)].patch] += 1.0f;
+    if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0) row[element] += 1.0f;
   }
   return static_cast<float>(sample.total / static_cast<double>(sample.directions.cols())) * row;
 }

@@ -2,7 +2,7 @@
 //
 //   E = int L(d) w(d) dOmega                                d: unit vector towards the light
 //     = Phi sum_q w_q I(gamma_q) w(d_q) / r_q^2             direct, lx
-//     + sum_j M_j 1/pi int_j w(d) dOmega                    indirect: SensorFormFactors
+//     + sum_e M_e 1/pi int_e w(d) dOmega                    indirect, over elements: SensorFormFactors
 //
 //   cosine           w = max(0, cos theta)                        theta from the normal
 //   table            w = s(theta), the meter's measured response to a beam, 1 at normal incidence
@@ -69,11 +69,13 @@ DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Se
 double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Sensor& sensor,
                              int order);
 
-// One weight a patch: illuminance of the sensor per exitance of the patch. Sums to 1 in a closed room (not
-// for a table, see above). About `ray_count` rays, importance-sampled by the response. A ray that meets the
-// back of a facet brings nothing. Throws std::invalid_argument if ray_count < 1.
+constexpr int kSensorRays = 16384;
+
+// One weight an element: illuminance of the sensor per exitance of the element. Sums to 1 in a closed room
+// (not for a table, see above). About `ray_count` rays, importance-sampled by the response. A ray that meets
+// the back of a facet brings nothing. Throws std::invalid_argument if ray_count < 1.
 Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, const Sensor& sensor,
-                                  int ray_count = 16384);
+                                  int ray_count = kSensorRays);
 
 // The rays of SensorFormFactors: each unit direction stands for the same part of `total`.
 struct SensorRays {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "forward/dense_product.h"
+#include "forward/internal/gather.h"
 #include "forward/shadowed_light.h"
 
 namespace luxfit {
@@ -77,7 +78,7 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
     turned.directions =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix() *
         rays.directions;
-    indirect_lx = GatherIlluminance(room, lit.patch_exitance, {p, normal, {}}, turned).illuminance_lx;
+    indirect_lx = GatherIlluminance(room, lit.element_exitance, {p, normal, {}}, turned).illuminance_lx;
   } else {
     indirect_lx =
         Interpolate(lit.interpolation, lit.vertex_indirect_lx, facet, u, v).cast<double>().cwiseMax(0.0);
@@ -108,20 +109,24 @@ LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, co
     }
   });
   const Eigen::MatrixXf patch_direct = PatchMean(room.patches, lit.element_direct_lx);
-  lit.patch_exitance.resize(patch_direct.rows(), albedo.cols());
+  Eigen::MatrixXf patch_exitance(patch_direct.rows(), albedo.cols());
   for (Eigen::Index c = 0; c < albedo.cols(); ++c)
-    lit.patch_exitance.col(c) = Transport(room.transport, albedo.col(c)).Exitance(patch_direct);
+    patch_exitance.col(c) = Transport(room.transport, albedo.col(c)).Exitance(patch_direct);
+  const Eigen::MatrixXf indirect_lx = Product(room.form_factors.element_to_patch, patch_exitance);
+  lit.element_exitance.resize(elements, albedo.cols());
+  for (Eigen::Index c = 0; c < albedo.cols(); ++c)
+    lit.element_exitance.col(c) =
+        ElementAlbedo(room.patches, albedo.col(c)).cwiseProduct(lit.element_direct_lx + indirect_lx.col(c));
   lit.interpolation = MakeVertexInterpolation(room.scene, room.patches);
-  lit.vertex_indirect_lx =
-      AtVertices(lit.interpolation, Product(room.form_factors.element_to_patch, lit.patch_exitance));
+  lit.vertex_indirect_lx = AtVertices(lit.interpolation, indirect_lx);
   return lit;
 }
 
-Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& patch_exitance, const Sensor& sensor,
+Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& element_exitance, const Sensor& sensor,
                            const SensorRays& sensor_rays) {
   const Eigen::Vector3d start = RayOrigin(sensor);
   Gathered gathered;
-  gathered.illuminance_lx = Eigen::RowVectorXd::Zero(patch_exitance.cols());
+  gathered.illuminance_lx = Eigen::RowVectorXd::Zero(element_exitance.cols());
   const Eigen::Index count = sensor_rays.directions.cols();
   for (Eigen::Index k = 0; k < count; ++k) {
     const RayHit hit = room.rays.Trace(start, sensor_rays.directions.col(k));
@@ -129,9 +134,7 @@ Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& patch_exitan
     if (!hit.front) {
       gathered.back_share += 1 / static_cast<double>(count);
     } else if (const int element = room.patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0) {
-      const int patch = room.patches.elements[static_cast<size_t>(element)].patch;
-      for (Eigen::Index c = 0; c < patch_exitance.cols(); ++c)
-        gathered.illuminance_lx[c] += patch_exitance(patch, c);
+      gathered.illuminance_lx += element_exitance.row(element).cast<double>();
     }
   }
   gathered.illuminance_lx *= sensor_rays.total / static_cast<double>(count);

@@ -29,7 +29,7 @@ struct LitRoom {
   std::vector<Luminaire> luminaires;
   Eigen::MatrixXd albedo;              // materials x channels
   Eigen::MatrixXf element_direct_lx;   // elements x 1
-  Eigen::MatrixXf patch_exitance;      // patches x channels, lm/m2
+  Eigen::MatrixXf element_exitance;    // elements x channels, lm/m2
   Eigen::MatrixXf vertex_indirect_lx;  // vertices x channels
   VertexInterpolation interpolation;
 };
@@ -47,13 +47,13 @@ Eigen::RowVectorXd SurfaceIlluminance(const Room& room, const LitRoom& lit, int 
 Eigen::MatrixXd RenderView(const Room& room, const LitRoom& lit, const Eigen::Vector3d& origin,
                            const Eigen::Matrix3Xd& directions, const ViewOptions& options = {});
 
-// Illuminance (lx, one a channel) that the exitance (patches x channels) gives a sensor, by its rays
+// Illuminance (lx, one a channel) that the exitance (elements x channels) gives a sensor, by its rays
 // (SampleResponse). `back_share`: of them, met the back of a facet, as all do inside a solid.
 struct Gathered {
   Eigen::RowVectorXd illuminance_lx;
   double back_share = 0;
 };
-Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& patch_exitance, const Sensor& sensor,
+Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& element_exitance, const Sensor& sensor,
                            const SensorRays& sensor_rays);
 
 }  // namespace luxfit

@@ -101,7 +101,7 @@ TEST_F(ChartCommandTest, WritesTableChartAndArtifact) {
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(
       folder_.Read("out/chart.csv"),
-      testing::StartsWith("factor,method,rays,patch_size_m,bounces,solver,patches,time_s,error_percent,"
+      testing::StartsWith("factor,method,rays,patch_size_m,element_size_m,adaptive,bounces,solver,patches,time_s,error_percent,"
                           "estimated_error_percent,on_front,automatic\n"));
   const std::vector<Row> rows = Rows();
   std::map<std::string, int> by_factor;

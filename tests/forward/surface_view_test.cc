@@ -115,7 +115,7 @@ TEST(SurfaceIlluminance, InterpolatedGatheredAndSensorsAgree) {
 TEST(GatherIlluminance, OfAFurnaceIsItsExitance) {
   const Room room = BoxRoom();
   const Eigen::MatrixXf exitance =
-      Eigen::MatrixXf::Constant(static_cast<Eigen::Index>(room.patches.patches.size()), 2, 5);
+      Eigen::MatrixXf::Constant(static_cast<Eigen::Index>(room.patches.elements.size()), 2, 5);
   const Sensor sensor{{1, 1.2, 0.7}, {0, 0, 1}, {}};
   const Gathered gathered = GatherIlluminance(room, exitance, sensor, SampleResponse(sensor, 500));
   EXPECT_NEAR(gathered.illuminance_lx[0], 5, 1e-9);

@@ -150,10 +150,10 @@ TEST(Cie171, Case53AreaLightSource) {
                            TotalLx(support::ClosedRoom({kRoomM, kRoomM, kHeightM}), sensors, luminaire));
 }
 
-// Rows of form factors of every sensor (sensors x patches).
+// Rows of form factors of every sensor (sensors x elements).
 FormFactorMatrix RowsOf(const Room& room, const Sensors& sensors, int ray_count) {
   FormFactorMatrix rows(static_cast<Eigen::Index>(sensors.size()),
-                        static_cast<Eigen::Index>(room.patches.patches.size()));
+                        static_cast<Eigen::Index>(room.patches.elements.size()));
   Eigen::Index row = 0;
   for (const auto& [name, sensor] : sensors)
     rows.row(row++) = SensorFormFactors(room.rays, room.patches, sensor, ray_count);
@@ -179,15 +179,23 @@ void ExpectFromLitSurface(const std::string& test, const Scene& scene, const std
   for (Eigen::Index p = 0; p < lit.rows(); ++p)
     lit(p, 0) = room.patches.patches[static_cast<size_t>(p)].material == material ? 1 : 0;
   const FormFactorMatrix rows = RowsOf(room, sensors, kManyRays);
-  const Values by_rows = Named(sensors, 100 * (rows * lit).cast<double>());
+  const auto at_elements = [&](const Eigen::MatrixXf& of_patches) {
+    Eigen::VectorXf values(static_cast<Eigen::Index>(room.patches.elements.size()));
+    for (Eigen::Index e = 0; e < values.size(); ++e)
+      values[e] = of_patches(room.patches.elements[static_cast<size_t>(e)].patch, 0);
+    return values;
+  };
+  const Values by_rows = Named(sensors, 100 * (rows * at_elements(lit)).cast<double>());
   ExpectWithinHalfAPercent(test, "the sensors' rows of form factors", by_rows);
   Eigen::VectorXd albedo = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(room.scene.materials.size()));
   albedo[material] = kReflectance;
   const Eigen::MatrixXf exitance = Transport(room.transport, albedo).Exitance(lit);
-  ExpectWithinHalfAPercent(test, "the solved room",
-                           Named(sensors, 100 / kReflectance * (rows * exitance).cast<double>()));
+  ExpectWithinHalfAPercent(
+      test, "the solved room",
+      Named(sensors, 100 / kReflectance * (rows * at_elements(exitance)).cast<double>()));
   const Receivers receivers = MakeReceivers(room, {}, ListOf(sensors));
-  for (const auto& [point, percent] : Named(sensors, 100 * (receivers.gather * lit).cast<double>()))
+  for (const auto& [point, percent] :
+       Named(sensors, 100 * (receivers.sensor_to_element * at_elements(lit)).cast<double>()))
     EXPECT_NEAR(percent, by_rows.at(point), kDefaultRaysPercent) << test << " " << point << ", default rays";
 }
 
