@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "forward/direct_light.h"
+#include "forward/internal/expect_valid.h"
 
 namespace luxfit {
 namespace {
@@ -24,6 +25,7 @@ PatchesOptions AdaptivePatches(const Scene& scene, const RayScene& rays,
                                const std::vector<Luminaire>& luminaires, double error_percent,
                                const PatchesOptions& sizes) {
   if (!(error_percent > 0)) throw std::invalid_argument("AdaptivePatches: expected error_percent > 0");
+  ExpectValid(luminaires);
   double area_m2 = 0, flux_lm = 0;
   for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
   for (const Luminaire& luminaire : luminaires) flux_lm += luminaire.flux_lm;
