@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "forward/direct_light.h"
+#include "forward/internal/expect_valid.h"
 
 namespace luxfit {
 namespace {
@@ -48,6 +49,7 @@ PatchesOptions AdaptivePatches(Room coarse, Eigen::VectorXf indirect_lx, std::ve
     throw std::invalid_argument("AdaptivePatches: expected one illuminance an element");
   coarse.form_factors = {};
   coarse.transport = {};
+  ExpectValid(luminaires);
   double area_m2 = 0, flux_lm = 0;
   for (const Facet& facet : coarse.scene.facets) area_m2 += facet.AreaM2();
   for (const Luminaire& luminaire : luminaires) flux_lm += luminaire.flux_lm;

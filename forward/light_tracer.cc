@@ -32,21 +32,19 @@ class ShiftedSequence {
   Eigen::Vector2d shift_;
 };
 
-// A luminaire with what does not change from sample to sample.
 struct Source {
-  const Luminaire* luminaire;
-  LuminaireAxes axes;
+  LuminousSurface surface;
 
   // From one point of the luminaire's surface, that of all its flux.
   double DirectLx(const RayScene& rays, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                   const Eigen::Vector2d& unit) const {
-    const Eigen::Vector3d point = SurfacePointAt(*luminaire, axes, unit), to_lamp = point - p;
+    const Eigen::Vector3d point = surface.PointAt(unit), to_lamp = point - p;
     const double height = normal.dot(to_lamp);
     if (height <= 0) return 0;
     const double r = to_lamp.norm();
-    const double cd_per_lm = IntensityPerLumen(*luminaire, axes, -to_lamp / r).cd_per_lm;
+    const double cd_per_lm = IntensityPerLumen(surface.luminaire(), surface.axes(), -to_lamp / r).cd_per_lm;
     if (cd_per_lm == 0 || rays.Occluded(LiftedOff(p, normal), point)) return 0;
-    return luminaire->flux_lm * cd_per_lm * height / (r * r * r);
+    return surface.luminaire().flux_lm * cd_per_lm * height / (r * r * r);
   }
 };
 
@@ -104,7 +102,7 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
   ExpectValid(luminaires);
   ExpectValid(sensors);
   Tracer tracer{scene, rays, albedo, {}};
-  for (const Luminaire& luminaire : luminaires) tracer.sources.push_back({&luminaire, AxesOf(luminaire)});
+  for (const Luminaire& luminaire : luminaires) tracer.sources.push_back({LuminousSurface(luminaire)});
 
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const size_t replicates = static_cast<size_t>(options.replicates);

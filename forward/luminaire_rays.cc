@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/expect_valid.h"
 #include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
@@ -34,6 +35,7 @@ double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, doub
 
 LuminaireRays SampleDistribution(const Luminaire& luminaire, int ray_count) {
   if (ray_count < 1) throw std::invalid_argument("SampleDistribution: expected ray_count >= 1");
+  ExpectValid(luminaire);
   const LuminaireAxes axes = AxesOf(luminaire);
   const Tabulated polar(
       0, kPi, [&](double gamma) { return MeanIntensity(luminaire, axes, gamma) * std::sin(gamma); });
@@ -56,13 +58,13 @@ LuminaireRays SampleDistribution(const Luminaire& luminaire, int ray_count) {
 Eigen::VectorXf LuminaireFormFactors(const RayScene& rays, const Patches& patches, const Luminaire& luminaire,
                                      int ray_count) {
   const LuminaireRays sample = SampleDistribution(luminaire, ray_count);
-  const LuminaireAxes axes = AxesOf(luminaire);
+  const LuminousSurface surface(luminaire);
   Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.patches.size()));
   for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
     // The plastic number's recurrence spreads the starts over the surface.
     const double n = static_cast<double>(k + 1);
-    const Eigen::Vector3d start = SurfacePointAt(
-        luminaire, axes, {Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n)});
+    const Eigen::Vector3d start =
+        surface.PointAt({Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n)});
     const RayHit hit = rays.Trace(start, sample.directions.col(k));
     if (hit.facet < 0 || !hit.front) continue;
     if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)

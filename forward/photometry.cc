@@ -100,6 +100,7 @@ IntensityTable ExpandPlanes(const std::vector<double>& c_rad, const std::vector<
     table.cd_per_lm.insert(table.cd_per_lm.end(), first,
                            first + static_cast<std::ptrdiff_t>(gamma_rad.size()));
   }
+  table.peak_cd_per_lm = *std::max_element(table.cd_per_lm.begin(), table.cd_per_lm.end());
   return table;
 }
 
@@ -128,6 +129,7 @@ IntensityTable Normalized(const IntensityTable& table) {
     throw std::invalid_argument("IntensityTable: expected a flux above 0");
   IntensityTable one = table;
   for (double& i : one.cd_per_lm) i /= flux;
+  one.peak_cd_per_lm /= flux;
   return one;
 }
 

@@ -28,6 +28,7 @@ struct IntensityTable {
   std::vector<double> c_rad;  // rising; a whole circle ends 2 pi after its first angle, with the same values
   std::vector<double> gamma_rad;  // rising, in [0, pi]
   std::vector<double> cd_per_lm;  // c_rad x gamma_rad, gamma running fastest
+  double peak_cd_per_lm = 0;      // the largest of them: the higher, the narrower the lobe
   // Turns the luminaire's frame into the table's: the identity but for photometry about a horizontal axis
   // (IES type B).
   Eigen::Matrix3d table_from_luminaire = Eigen::Matrix3d::Identity();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/luminous_surface.h"
 
 namespace luxfit {
 namespace {
@@ -27,14 +28,10 @@ bool IsInRoom(const RayScene& rays, const Eigen::Vector3d& p) {
 
 double ShareOutsideRoom(const RayScene& rays, const Luminaire& luminaire) {
   ExpectValid(luminaire);
-  const bool disc = luminaire.shape == LuminaireShape::kDisc;
-  const LuminaireAxes axes = AxesOf(luminaire);
+  const LuminousSurface surface(luminaire);
   double share = 0;
   for (const SurfaceSample& s : SampleSurface(luminaire.shape, 2)) {
-    const double across_m = luminaire.size_m[disc ? 0 : 1];
-    const Eigen::Vector3d p =
-        luminaire.position + s.a * luminaire.size_m[0] * axes.along + s.b * across_m * axes.across;
-    if (!IsInRoom(rays, p)) share += s.weight;
+    if (!IsInRoom(rays, surface.PointOf({s.a, s.b}))) share += s.weight;
   }
   return share;
 }

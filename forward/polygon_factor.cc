@@ -60,6 +60,20 @@ double PlaneDistance(const Eigen::Vector3d& v, const Eigen::Vector3d& p, const E
   return normal.dot(v - p);
 }
 
+// Calls use(i, t) for every corner of the part of a polygon in front of the plane through p: the point t of
+// the way from its corner i to the next, t = 0 being that corner itself. NaN counts as in front, so that it
+// is not lost. Sutherland and Hodgman (1974).
+template <typename Use>
+void ForEachCornerInFront(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
+                          const Eigen::Vector3d& normal, const Use& use) {
+  for (int i = 0; i < polygon.count; ++i) {
+    const double ha = PlaneDistance(polygon[i], p, normal);
+    const double hb = PlaneDistance(polygon[(i + 1) % polygon.count], p, normal);
+    if (!(ha < -kPlaneTolerance)) use(i, 0.0);
+    if (std::min(ha, hb) < -kPlaneTolerance && std::max(ha, hb) > kPlaneTolerance) use(i, ha / (ha - hb));
+  }
+}
+
 Eigen::Vector3d AreaVector(const ConvexPolygon& polygon) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (int i = 2; i < polygon.count; ++i)
@@ -107,15 +121,10 @@ ConvexPolygon MakePolygon(const Eigen::Vector3d& origin, const Eigen::Vector3d& 
 
 ConvexPolygon InFrontOf(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
                         const Eigen::Vector3d& normal) {
-  // Sutherland and Hodgman (1974).
   ConvexPolygon front;
-  for (int i = 0; i < polygon.count; ++i) {
-    const Eigen::Vector3d &a = polygon[i], &b = polygon[(i + 1) % polygon.count];
-    const double ha = PlaneDistance(a, p, normal), hb = PlaneDistance(b, p, normal);
-    if (ha >= -kPlaneTolerance) front.Add(a);
-    if (std::min(ha, hb) < -kPlaneTolerance && std::max(ha, hb) > kPlaneTolerance)
-      front.Add(a + ha / (ha - hb) * (b - a));
-  }
+  ForEachCornerInFront(polygon, p, normal, [&](int i, double t) {
+    front.Add(polygon[i] + t * (polygon[(i + 1) % polygon.count] - polygon[i]));
+  });
   return front;
 }
 
@@ -130,35 +139,53 @@ double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, c
     const double sine = cross.norm();
     // In line with an edge: it adds nothing, beyond it or within it (where the angle is pi, the normal gives
     // 0).
-    if (sine > 1e-300) sum += std::atan2(sine, a.dot(b)) * normal.dot(cross) / sine;
+    if (!(sine <= 1e-300)) sum += std::atan2(sine, a.dot(b)) * normal.dot(cross) / sine;
     a = b;
   }
   // Counter-clockwise from its front means clockwise for the point that it faces.
-  return std::max(0.0, -sum / (2 * kPi));
+  return std::max(-sum / (2 * kPi), 0.0);
 }
 
 PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        const ConvexPolygon& polygon) {
+  struct Corner {
+    int edge;
+    double t;
+    Eigen::Vector3d at, gradient;
+  };
+  std::array<Corner, 9> front;
+  size_t count = 0;
+  ForEachCornerInFront(polygon, p, normal, [&](int i, double t) {
+    const Eigen::Vector3d at = polygon[i] + t * (polygon[(i + 1) % polygon.count] - polygon[i]);
+    front[count++] = {i, t, at - p, Eigen::Vector3d::Zero()};
+  });
   PolygonGradient result;
   result.d_vertex.fill(Eigen::Vector3d::Zero());
-  for (int i = 0; i < polygon.count; ++i) {
-    const int next = (i + 1) % polygon.count;
+  if (count < 3) return result;
+  for (size_t i = 0; i < count; ++i) {
     // One edge adds f = angle (n . w) / |w|, w = a x b.
-    const Eigen::Vector3d a = polygon[i] - p, b = polygon[next] - p, w = a.cross(b);
+    Corner &from = front[i], &to = front[i + 1 == count ? 0 : i + 1];
+    const Eigen::Vector3d &a = from.at, &b = to.at, w = a.cross(b);
     const double s = w.norm(), q = a.dot(b), r4 = a.squaredNorm() * b.squaredNorm();
-    if (s < 1e-300) continue;
+    if (s < 1e-100) continue;  // in line with the edge; s^3 is still a number
     const double angle = std::atan2(s, q), height = normal.dot(w);
     result.factor += angle * height / s;
     const double bend = (q / r4 - angle / s) / (s * s);  // of angle / s with s, over s
-    result.d_vertex[static_cast<size_t>(i)] +=
-        height * (bend * b.cross(w) - b / r4) + angle / s * b.cross(normal);
-    result.d_vertex[static_cast<size_t>(next)] +=
-        height * (bend * w.cross(a) - a / r4) + angle / s * normal.cross(a);
+    from.gradient += height * (bend * b.cross(w) - b / r4) + angle / s * b.cross(normal);
+    to.gradient += height * (bend * w.cross(a) - a / r4) + angle / s * normal.cross(a);
   }
   // The sign as in PointToPolygon; a point behind the polygon sees nothing of it.
-  const double scale = result.factor < 0 ? -1 / (2 * kPi) : 0;
+  const double scale = result.factor > 0 ? 0 : -1 / (2 * kPi);
   result.factor *= scale;
-  for (Eigen::Vector3d& d : result.d_vertex) d *= scale;
+  // A corner cut off by the receiver's plane stays t of the way along its edge: sliding along it, it sweeps
+  // what lies in that plane, which brings nothing.
+  for (size_t i = 0; i < count; ++i) {
+    const Corner& corner = front[i];
+    const size_t edge = static_cast<size_t>(corner.edge),
+                 next = (edge + 1) % static_cast<size_t>(polygon.count);
+    result.d_vertex[edge] += scale * (1 - corner.t) * corner.gradient;
+    result.d_vertex[next] += scale * corner.t * corner.gradient;
+  }
   return result;
 }
 

@@ -9,10 +9,10 @@
 // adaptive Gauss-Kronrod quadrature to 1e-9, so that polygons with a common edge or corner (where 1 / r^2 has
 // no bound) are as exact as distant ones.
 //
-// Undefined for a point in the plane of the polygon and inside it. Sources: Lambert (1760), "Photometria";
-// Baum, Rushmeier, Winget (1989), "Improving radiosity solutions through the use of analytically determined
-// form-factors", eq. 3; Schroeder and Hanrahan (1993), "On the form factor between two polygons"; Shapiro
-// (1985), J. Heat Transfer 107, 730 (contour integrals of touching surfaces).
+// Undefined for a point in the plane of the polygon and inside it. NaN in is NaN out. Sources: Lambert
+// (1760), "Photometria"; Baum, Rushmeier, Winget (1989), "Improving radiosity solutions through the use of
+// analytically determined form-factors", eq. 3; Schroeder and Hanrahan (1993), "On the form factor between
+// two polygons"; Shapiro (1985), J. Heat Transfer 107, 730 (contour integrals of touching surfaces).
 #ifndef LUXFIT_FORWARD_POLYGON_FACTOR_H_
 #define LUXFIT_FORWARD_POLYGON_FACTOR_H_
 
@@ -44,8 +44,8 @@ ConvexPolygon InFrontOf(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
 // Share of the cosine-weighted hemisphere over a point that a polygon covers.
 double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const ConvexPolygon& polygon);
 
-// The same for a polygon that lies wholly in front of the point's plane, with its gradient with respect to
-// each corner (1/m).
+// The same with its gradient with respect to each corner of the polygon (1/m), whether or not the point's
+// plane cuts it.
 struct PolygonGradient {
   double factor = 0;
   std::array<Eigen::Vector3d, 8> d_vertex;

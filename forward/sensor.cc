@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
 #include "forward/shadowed_light.h"
@@ -20,6 +21,7 @@ struct PolarWeight {
   double value = 0, d_theta = 0;
 };
 PolarWeight TableWeight(const SensorResponse& response, double theta) {
+  if (std::isnan(theta)) return {theta, theta};
   const std::vector<double>&angles = response.angle_rad, &values = response.relative;
   const double cosine = std::max(0.0, std::cos(theta)), d_cosine = cosine > 0 ? -std::sin(theta) : 0;
   if (theta >= angles.back()) {
@@ -131,57 +133,34 @@ DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction)
   return weight;
 }
 
-namespace {
-
-// Calls use(sample, sides, point) for every point of the luminous surface.
-template <typename Use>
-void ForEachSurfacePoint(const Luminaire& luminaire, int order, const Use& use) {
-  const LuminaireAxes axes = AxesOf(luminaire);
-  const Eigen::Vector2d sides = luminaire.shape == LuminaireShape::kDisc
-                                    ? Eigen::Vector2d::Constant(luminaire.size_m[0])
-                                    : luminaire.size_m;
-  for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
-    const Eigen::Vector2d offset(sample.a * sides[0], sample.b * sides[1]);
-    use(sample, offset, luminaire.position + offset[0] * axes.along + offset[1] * axes.across);
-  }
-}
-
-}  // namespace
-
 DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Sensor& sensor) {
   if (sensor.response.kind == ResponseKind::kCosine)
     return DirectIlluminancePerLumen(luminaire, sensor.position, sensor.normal);
   constexpr int kOrder = 8;
   DirectIlluminance sum;
-  const LuminaireAxes axes = AxesOf(luminaire);
+  const LuminousSurface surface(luminaire);
   Luminaire point = luminaire;
   point.shape = LuminaireShape::kPoint;
-  ForEachSurfacePoint(
-      luminaire, kOrder,
-      [&](const SurfaceSample& sample, const Eigen::Vector2d& offset, const Eigen::Vector3d& at) {
-        const Eigen::Vector3d to_lamp = at - sensor.position;
-        const double r = to_lamp.norm();
-        if (r < 1e-6) return;
-        const Eigen::Vector3d direction = to_lamp / r;
-        const DirectionWeight weight = WeightOf(sensor, direction);
-        point.position = at;
-        // I / r^2 is the illuminance of a receiver that faces the point; a turn of its normal changes it in
-        // second order only, so that the gradient is that of I / r^2 too.
-        const DirectIlluminance beam = DirectIlluminancePerLumen(point, sensor.position, direction);
-        const Eigen::Vector3d gradient =
-            sample.weight * (weight.value * beam.d_position + beam.lx_per_lm / r * weight.d_direction);
-        const double share = sample.weight * weight.value;
-        sum.lx_per_lm += share * beam.lx_per_lm;
-        sum.d_position += gradient;
-        sum.d_exponent += share * beam.d_exponent;
-        // Tilting turns the lobe, and the surface with it: along -> along - t aim.
-        sum.d_tilt += share * beam.d_tilt - gradient.dot(luminaire.aim) * offset;
-        sum.d_heading += share * beam.d_heading + offset[0] * gradient.dot(axes.across) -
-                         offset[1] * gradient.dot(axes.along);
-        const Eigen::Vector2d d_size(sample.a * gradient.dot(axes.along),
-                                     sample.b * gradient.dot(axes.across));
-        sum.d_size += luminaire.shape == LuminaireShape::kDisc ? Eigen::Vector2d(d_size.sum(), 0) : d_size;
-      });
+  for (const SurfaceSample& sample : SampleSurface(luminaire.shape, kOrder)) {
+    const Eigen::Vector2d place(sample.a, sample.b);
+    point.position = surface.PointOf(place);
+    const Eigen::Vector3d to_lamp = point.position - sensor.position;
+    const double r = to_lamp.norm();
+    if (r < 1e-6) continue;
+    const Eigen::Vector3d direction = to_lamp / r;
+    const DirectionWeight weight = WeightOf(sensor, direction);
+    // I / r^2 is the illuminance of a receiver that faces the point; a turn of its normal changes it in
+    // second order only, so that the gradient is that of I / r^2 too.
+    const DirectIlluminance beam = DirectIlluminancePerLumen(point, sensor.position, direction);
+    const double share = sample.weight * weight.value;
+    sum.lx_per_lm += share * beam.lx_per_lm;
+    sum.d_exponent += share * beam.d_exponent;
+    sum.d_tilt += share * beam.d_tilt;
+    sum.d_heading += share * beam.d_heading;
+    surface.AddMotion(
+        place, sample.weight * (weight.value * beam.d_position + beam.lx_per_lm / r * weight.d_direction),
+        sum);
+  }
   return sum;
 }
 
@@ -190,14 +169,15 @@ double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, c
   if (sensor.response.kind == ResponseKind::kCosine)
     return VisibleShare(rays, luminaire, sensor.position, sensor.normal);
   const Eigen::Vector3d start = RayOrigin(sensor);
+  const LuminousSurface surface(luminaire);
   double seen = 0, all = 0;
-  ForEachSurfacePoint(
-      luminaire, order, [&](const SurfaceSample& sample, const Eigen::Vector2d&, const Eigen::Vector3d& at) {
-        const double weight = sample.weight * WeightOf(sensor, (at - sensor.position).normalized()).value;
-        all += weight;
-        if (weight > 0 && !rays.Occluded(start, at)) seen += weight;
-      });
-  return all > 0 ? seen / all : 0;
+  for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
+    const Eigen::Vector3d point = surface.PointOf({sample.a, sample.b});
+    const double weight = sample.weight * WeightOf(sensor, (point - sensor.position).normalized()).value;
+    all += weight;
+    if (weight > 0 && !rays.Occluded(start, point)) seen += weight;
+  }
+  return all == 0 ? 0 : seen / all;
 }
 
 SensorRays SampleResponse(const Sensor& sensor, int ray_count) {

@@ -5,65 +5,20 @@
 #include <unordered_map>
 #include <vector>
 
+#include "forward/internal/luminous_surface.h"
+
 namespace luxfit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-// A luminous surface over the unit square (s, t), of even density: place in units of its sides, point in
-// world.
-class Surface {
- public:
-  explicit Surface(const Luminaire& luminaire) : luminaire_(luminaire), axes_(AxesOf(luminaire)) {
-    is_disc_ = luminaire.shape == LuminaireShape::kDisc;
-    sides_ = is_disc_ ? Eigen::Vector2d::Constant(luminaire.size_m[0]) : luminaire.size_m;
-    area_m2_ = is_disc_ ? kPi / 4 * sides_[0] * sides_[0] : sides_.prod();
-  }
-  Eigen::Vector2d PlaceAt(double s, double t) const {
-    if (!is_disc_) return {s - 0.5, t - 0.5};
-    const double radius = 0.5 * std::sqrt(s);
-    return {radius * std::cos(2 * kPi * t), radius * std::sin(2 * kPi * t)};
-  }
-  Eigen::Vector3d OffsetOf(const Eigen::Vector2d& place) const {
-    return place[0] * sides_[0] * axes_.along + place[1] * sides_[1] * axes_.across;
-  }
-  Eigen::Vector3d PointAt(double s, double t) const { return luminaire_.position + OffsetOf(PlaceAt(s, t)); }
-  // Corners of the outline as a polygon, in units of the sides, counter-clockwise about the aim.
-  std::vector<Eigen::Vector2d> Outline(int pieces_a_side) const {
-    std::vector<Eigen::Vector2d> outline;
-    const int n = pieces_a_side;
-    for (int k = 0; is_disc_ && k < 8 * n; ++k)
-      outline.emplace_back(0.5 * std::cos(2 * kPi * k / (8 * n)), 0.5 * std::sin(2 * kPi * k / (8 * n)));
-    const Eigen::Vector2d corners[5] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}};
-    for (int side = 0; !is_disc_ && side < 4; ++side) {
-      for (int k = 0; k < n; ++k)
-        outline.push_back(corners[side] + static_cast<double>(k) / n * (corners[side + 1] - corners[side]));
-    }
-    return outline;
-  }
-
-  const Luminaire& luminaire() const { return luminaire_; }
-  const LuminaireAxes& axes() const { return axes_; }
-  const Eigen::Vector2d& sides() const { return sides_; }
-  double area_m2() const { return area_m2_; }
-  bool is_disc() const { return is_disc_; }
-
- private:
-  const Luminaire& luminaire_;
-  LuminaireAxes axes_;
-  Eigen::Vector2d sides_;
-  double area_m2_;
-  bool is_disc_;
-};
 
 // Visible shares of the cells of a grid over the surface, refined where the corners disagree.
 class VisibleCells {
  public:
   struct Cell {
-    double s, t, weight, share;  // centre, part of the surface, part of it that is seen
+    Eigen::Vector2d at;    // centre, on the unit square
+    double weight, share;  // part of the surface, part of it that is seen
   };
 
-  VisibleCells(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& start,
+  VisibleCells(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& start,
                const ShadowOptions& options)
       : rays_(rays), surface_(surface), start_(start), finest_(options.grid << options.refinements) {
     const int size = 1 << options.refinements;
@@ -86,7 +41,7 @@ class VisibleCells {
       return;
     }
     const double n = finest_, width = size / n;
-    cells_.push_back({(i + 0.5 * size) / n, (j + 0.5 * size) / n, width * width, 0.25 * seen});
+    cells_.push_back({{(i + 0.5 * size) / n, (j + 0.5 * size) / n}, width * width, 0.25 * seen});
   }
   int Sees(int i, int j) {
     const int key = i * (finest_ + 1) + j;
@@ -94,20 +49,16 @@ class VisibleCells {
     if (known != seen_.end()) return known->second;
     // Never at the very rim, which may touch what the luminaire hangs on.
     const auto inside = [&](int k) { return 1e-6 + (1 - 2e-6) * k / finest_; };
-    return seen_[key] = rays_.Occluded(start_, surface_.PointAt(inside(i), inside(j))) ? 0 : 1;
+    return seen_[key] = rays_.Occluded(start_, surface_.PointAt({inside(i), inside(j)})) ? 0 : 1;
   }
 
   const RayScene& rays_;
-  const Surface& surface_;
+  const LuminousSurface& surface_;
   Eigen::Vector3d start_;
   int finest_;
   std::unordered_map<int, int> seen_;
   std::vector<Cell> cells_;
 };
-
-bool HasExtent(const Luminaire& luminaire) {
-  return luminaire.shape == LuminaireShape::kRectangle || luminaire.shape == LuminaireShape::kDisc;
-}
 
 // The integrand at one point of the surface: E per lm of the whole surface if all of it were here.
 struct Sample {
@@ -115,7 +66,7 @@ struct Sample {
   double r = 0, geometry = 0;  // m, cos(theta) / r^2
   DirectedIntensity intensity;
 };
-Sample SampleAt(const Surface& surface, const Eigen::Vector3d& point, const Eigen::Vector3d& p,
+Sample SampleAt(const LuminousSurface& surface, const Eigen::Vector3d& point, const Eigen::Vector3d& p,
                 const Eigen::Vector3d& normal) {
   Sample sample;
   const Eigen::Vector3d to_lamp = point - p;
@@ -128,26 +79,26 @@ Sample SampleAt(const Surface& surface, const Eigen::Vector3d& point, const Eige
   return sample;
 }
 
-double ShareOf(const VisibleCells& visible, const Surface& surface, const Eigen::Vector3d& p,
+double ShareOf(const VisibleCells& visible, const LuminousSurface& surface, const Eigen::Vector3d& p,
                const Eigen::Vector3d& normal) {
   double seen = 0, all = 0;
   for (const VisibleCells::Cell& cell : visible.cells()) {
-    const Sample sample = SampleAt(surface, surface.PointAt(cell.s, cell.t), p, normal);
+    const Sample sample = SampleAt(surface, surface.PointAt(cell.at), p, normal);
     const double light = cell.weight * sample.intensity.cd_per_lm * sample.geometry;
     all += light;
     seen += cell.share * light;
   }
-  return all > 0 ? seen / all : 0;
+  return all == 0 ? 0 : seen / all;
 }
 
 // What the luminance of fixed directions changes, over the visible part of the surface.
-void AddLobeDerivatives(const VisibleCells& visible, const Surface& surface, const Eigen::Vector3d& p,
+void AddLobeDerivatives(const VisibleCells& visible, const LuminousSurface& surface, const Eigen::Vector3d& p,
                         const Eigen::Vector3d& normal, DirectIlluminance& sum) {
   const Eigen::Vector3d& aim = surface.luminaire().aim;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // dE per rad about each axis of world
   for (const VisibleCells::Cell& cell : visible.cells()) {
     if (cell.share == 0) continue;
-    const Sample sample = SampleAt(surface, surface.PointAt(cell.s, cell.t), p, normal);
+    const Sample sample = SampleAt(surface, surface.PointAt(cell.at), p, normal);
     const double weight = cell.weight * cell.share * sample.geometry;
     if (weight == 0) continue;
     sum.d_exponent += weight * sample.intensity.d_exponent;
@@ -164,7 +115,7 @@ void AddLobeDerivatives(const VisibleCells& visible, const Surface& surface, con
 // them is found by halving.
 class VisibleOutline {
  public:
-  VisibleOutline(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& start,
+  VisibleOutline(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& start,
                  const std::vector<Eigen::Vector2d>& outline)
       : rays_(rays), surface_(surface), start_(start) {
     std::vector<bool> seen;
@@ -195,23 +146,21 @@ class VisibleOutline {
   }
 
   const RayScene& rays_;
-  const Surface& surface_;
+  const LuminousSurface& surface_;
   Eigen::Vector3d start_;
   std::vector<double> shares_;
 };
 
 // What the visible part of the outline sweeps.
-void AddOutlineDerivatives(const RayScene& rays, const Surface& surface, const Eigen::Vector3d& p,
+void AddOutlineDerivatives(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& p,
                            const Eigen::Vector3d& normal, int pieces, DirectIlluminance& sum) {
-  const LuminaireAxes& axes = surface.axes();
   const Eigen::Vector3d& aim = surface.luminaire().aim;
   const std::vector<Eigen::Vector2d> outline = surface.Outline(pieces);
   const VisibleOutline visible(rays, surface, LiftedOff(p, normal), outline);
   for (size_t k = 0; k < outline.size(); ++k) {
     const Eigen::Vector2d &from = outline[k], &to = outline[(k + 1) % outline.size()];
     const Eigen::Vector2d place = 0.5 * (from + to);
-    const Eigen::Vector3d offset = surface.OffsetOf(place), point = surface.luminaire().position + offset;
-    const Sample sample = SampleAt(surface, point, p, normal);
+    const Sample sample = SampleAt(surface, surface.PointOf(place), p, normal);
     const double cosine = aim.dot(sample.direction);
     if (visible.share(k) == 0 || sample.geometry == 0 || std::abs(cosine) < 1e-6) continue;
     // Counter-clockwise about the aim is clockwise for the receiver in front of it: d, from the luminaire,
@@ -221,11 +170,7 @@ void AddOutlineDerivatives(const RayScene& rays, const Surface& surface, const E
     const Eigen::Vector3d step = surface.OffsetOf(to - from);
     const Eigen::Vector3d swept =
         (cosine > 0 ? 1 : -1) * luminance * sample.geometry * step.cross(sample.direction);  // . velocity
-    sum.d_position += swept;
-    const Eigen::Vector2d along(place[0] * swept.dot(axes.along), place[1] * swept.dot(axes.across));
-    sum.d_size += surface.is_disc() ? Eigen::Vector2d(along.sum(), 0) : along;
-    sum.d_tilt += Eigen::Vector2d(swept.dot(axes.across.cross(offset)), -swept.dot(axes.along.cross(offset)));
-    sum.d_heading += swept.dot(aim.cross(offset));
+    surface.AddMotion(place, swept, sum);
   }
 }
 
@@ -234,10 +179,10 @@ void AddOutlineDerivatives(const RayScene& rays, const Surface& surface, const E
 double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                     const Eigen::Vector3d& normal, const ShadowOptions& options) {
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
-  if (!HasExtent(luminaire))
-    return normal.dot(luminaire.position - p_in_world) > 0 && !rays.Occluded(start, luminaire.position) ? 1
-                                                                                                        : 0;
-  const Surface surface(luminaire);
+  const double height = normal.dot(luminaire.position - p_in_world);
+  if (std::isnan(height)) return height;
+  const LuminousSurface surface(luminaire);
+  if (!surface.has_extent()) return height > 0 && !rays.Occluded(start, luminaire.position) ? 1 : 0;
   return ShareOf(VisibleCells(rays, surface, start, options), surface, p_in_world, normal);
 }
 
@@ -245,19 +190,21 @@ double VisibleIlluminancePerLumen(const RayScene& rays, const Luminaire& luminai
                                   const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
                                   const ShadowOptions& options) {
   const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
-  return unoccluded == 0 ? 0 : unoccluded * VisibleShare(rays, luminaire, p_in_world, normal, options);
+  if (unoccluded == 0 || std::isnan(unoccluded)) return unoccluded;
+  return unoccluded * VisibleShare(rays, luminaire, p_in_world, normal, options);
 }
 
 DirectIlluminance ShadowedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
                                               const Eigen::Vector3d& p_in_world,
                                               const Eigen::Vector3d& normal, const ShadowOptions& options) {
-  const DirectIlluminance whole = DirectIlluminancePerLumen(luminaire, p_in_world, normal);
+  DirectIlluminance whole = DirectIlluminancePerLumen(luminaire, p_in_world, normal);
+  if (whole.lx_per_lm == 0 || std::isnan(whole.lx_per_lm)) return whole;
   DirectIlluminance sum;
-  if (!HasExtent(luminaire)) {
+  const LuminousSurface surface(luminaire);
+  if (!surface.has_extent()) {
     sum.AddScaled(VisibleShare(rays, luminaire, p_in_world, normal), whole);
     return sum;
   }
-  const Surface surface(luminaire);
   const VisibleCells visible(rays, surface, LiftedOff(p_in_world, normal), options);
   const double share = ShareOf(visible, surface, p_in_world, normal);
   if (share == 0 || share == 1) {

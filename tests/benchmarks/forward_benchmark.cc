@@ -1,10 +1,13 @@
 // What the forward model costs on the office: form factors, one factorisation with its solves, one prediction
-// with and without derivatives. Argument: patch size in mm.
+// with and without derivatives. Argument: patch size in mm. And direct light alone, values and derivatives of
+// one luminaire at places all over a room of 4 m.
 //   build/release/tests/benchmarks/forward_benchmark
 #include <benchmark/benchmark.h>
 
 #include <numeric>
+#include <random>
 
+#include "forward/direct_light.h"
 #include "forward/illuminance.h"
 #include "forward/mesh_file.h"
 #include "forward/room.h"
@@ -84,6 +87,36 @@ BENCHMARK_CAPTURE(Predict, with_derivatives, true)
     ->Arg(200)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+
+// On the floor and on a wall.
+void Direct(benchmark::State& state, LuminaireShape shape, Distribution distribution) {
+  Luminaire luminaire;
+  luminaire.position = {0.3, -0.2, 2.5};
+  luminaire.aim = Eigen::Vector3d(0.1, 0.05, -1).normalized();
+  luminaire.shape = shape;
+  luminaire.distribution = distribution;
+  luminaire.size_m = {0.6, 0.6};
+  std::mt19937_64 rng(1);
+  std::uniform_real_distribution<double> across(-2, 2), height(0, 2.8);
+  const Eigen::Vector3d up(0, 0, 1), inwards(-1, 0, 0);
+  std::vector<Sensor> places;
+  for (int k = 0; k < 1000; ++k) {
+    places.push_back({{across(rng), across(rng), 0}, up, {}});
+    places.push_back({{2, across(rng), height(rng)}, inwards, {}});
+  }
+  for (auto _ : state) {
+    DirectIlluminance sum;
+    for (const Sensor& place : places)
+      sum.AddScaled(1, DirectIlluminancePerLumen(luminaire, place.position, place.normal));
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(places.size()));
+}
+BENCHMARK_CAPTURE(Direct, point, LuminaireShape::kPoint, Distribution::kLambertian);
+BENCHMARK_CAPTURE(Direct, rectangle, LuminaireShape::kRectangle, Distribution::kLambertian);
+BENCHMARK_CAPTURE(Direct, disc, LuminaireShape::kDisc, Distribution::kLambertian);
+BENCHMARK_CAPTURE(Direct, rectangle_by_sum, LuminaireShape::kRectangle, Distribution::kCosinePower);
+BENCHMARK_CAPTURE(Direct, disc_by_sum, LuminaireShape::kDisc, Distribution::kCosinePower);
 
 }  // namespace
 }  // namespace luxfit

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "forward/adaptive_patches.h"
 #include "forward/illuminance.h"
 #include "forward/light_tracer.h"
 #include "forward/luminaire_body.h"
+#include "forward/luminaire_rays.h"
 #include "forward/placement.h"
 #include "forward/room.h"
 #include "forward/surface_view.h"
@@ -101,7 +103,10 @@ TEST_F(BadLight, LuminairesAreRefusedByEveryPath) {
     expect_refused([&] { LightRoom(room_, luminaires, albedo_); });
     expect_refused([&] { TraceIlluminance(room_.scene, room_.rays, luminaires, albedo_, {sensor_}); });
     expect_refused([&] { WithLuminaireBodies(room_.scene, luminaires); });
+    expect_refused([&] { AdaptivePatches(MakeRoom({}), {}, luminaires, 10); });
     EXPECT_THAT(RefusalOf([&] { ShareOutsideRoom(room_.rays, bad); }), HasSubstr("luminaire \"\": expected"));
+    EXPECT_THAT(RefusalOf([&] { LuminaireFormFactors(room_.rays, room_.patches, bad); }),
+                HasSubstr("luminaire \"\": expected"));
   }
 }
 

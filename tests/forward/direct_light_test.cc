@@ -4,11 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <random>
 
 #include "forward/photometry.h"
 #include "forward/shadowed_light.h"
+#include "tests/support/adaptive_integral.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
@@ -167,9 +170,9 @@ class DirectLightDerivatives : public testing::TestWithParam<std::tuple<Distribu
   // Central difference of the illuminance while `change(lamp, step)` moves the lamp.
   template <typename Change>
   void ExpectDerivative(double analytic, const Change& change, const char* what) {
-    // Small, so that the quadrature's order does not switch in between: truncation 1e-12, rounding 1e-10 of
-    // E.
-    constexpr double kStep = 1e-6;
+    // Small, so that neither the quadrature's order switches in between nor one of its points crosses an
+    // angle of the table: truncation 1e-14, rounding 1e-9 of E.
+    constexpr double kStep = 1e-7;
     Luminaire up = lamp_, down = lamp_;
     change(up, kStep);
     change(down, -kStep);
@@ -177,18 +180,7 @@ class DirectLightDerivatives : public testing::TestWithParam<std::tuple<Distribu
     EXPECT_NEAR(analytic, numeric, 1e-7 * (1 + std::abs(numeric))) << what;
   }
 
-  std::mt19937_64 rng_ = support::TestRng();
-  std::shared_ptr<const IntensityTable> table_ = LopsidedTable();
-  Luminaire lamp_;
-  Eigen::Vector3d p_, normal_;
-  DirectIlluminance direct_;
-};
-
-TEST_P(DirectLightDerivatives, AreCentralDifferences) {
-  int lit = 0;
-  for (int i = 0; i < 50; ++i) {
-    Draw();
-    lit += direct_.lx_per_lm > 1e-3;
+  void ExpectAllDerivatives() {
     for (int axis = 0; axis < 3; ++axis) {
       const auto move = [&](Luminaire& lamp, double step) { lamp.position[axis] += step; };
       ExpectDerivative(direct_.d_position[axis], move, "position");
@@ -210,6 +202,21 @@ TEST_P(DirectLightDerivatives, AreCentralDifferences) {
     const auto narrow = [&](Luminaire& lamp, double step) { lamp.cosine_exponent += step; };
     ExpectDerivative(direct_.d_exponent, narrow, "exponent");
   }
+
+  std::mt19937_64 rng_ = support::TestRng();
+  std::shared_ptr<const IntensityTable> table_ = LopsidedTable();
+  Luminaire lamp_;
+  Eigen::Vector3d p_, normal_;
+  DirectIlluminance direct_;
+};
+
+TEST_P(DirectLightDerivatives, AreCentralDifferences) {
+  int lit = 0;
+  for (int i = 0; i < 50; ++i) {
+    Draw();
+    lit += direct_.lx_per_lm > 1e-3;
+    ExpectAllDerivatives();
+  }
   EXPECT_GT(lit, 25);  // else the test looked at darkness
 }
 
@@ -219,6 +226,204 @@ INSTANTIATE_TEST_SUITE_P(AllLamps, DirectLightDerivatives,
                                                           Distribution::kMeasured),
                                           testing::Values(LuminaireShape::kPoint, LuminaireShape::kDisc,
                                                           LuminaireShape::kRectangle)));
+
+// A receiver at the origin, turned so that its plane passes the lamp's centre at `depth` of what would just
+// leave the lamp whole (1) or hide it (-1).
+Eigen::Vector3d NormalAtDepth(const Luminaire& lamp, const Eigen::Vector3d& away, double depth) {
+  const LuminaireAxes axes = AxesOf(lamp);
+  const Eigen::Vector3d towards = lamp.position.normalized();
+  const Eigen::Vector3d side = (away - away.dot(towards) * towards).normalized();
+  const auto past = [&](double angle) {
+    const Eigen::Vector3d n = std::sin(angle) * towards + std::cos(angle) * side;
+    const double a = n.dot(axes.along), b = n.dot(axes.across);
+    const double reach = lamp.shape == LuminaireShape::kDisc
+                             ? lamp.size_m[0] / 2 * std::hypot(a, b)
+                             : (lamp.size_m[0] * std::abs(a) + lamp.size_m[1] * std::abs(b)) / 2;
+    return n.dot(lamp.position) - depth * reach;
+  };
+  double low = -kPi / 2, high = kPi / 2;
+  for (int k = 0; k < 60; ++k) (past(0.5 * (low + high)) > 0 ? high : low) = 0.5 * (low + high);
+  return std::sin(low) * towards + std::cos(low) * side;
+}
+
+class CutByTheReceiversPlane : public DirectLightDerivatives {
+ protected:
+  void DrawCut(double depth) {
+    Draw();
+    // In front of the lamp, whose light is that of a closed form.
+    lamp_.position = -(1.2 * lamp_.aim + 0.4 * AxesOf(lamp_).along - 0.2 * AxesOf(lamp_).across);
+    p_ = Eigen::Vector3d::Zero();
+    std::normal_distribution<double> normal;
+    normal_ = NormalAtDepth(lamp_, {normal(rng_), normal(rng_), normal(rng_)}, depth);
+    direct_ = DirectIlluminancePerLumen(lamp_, p_, normal_);
+  }
+};
+
+TEST_P(CutByTheReceiversPlane, DerivativesAreCentralDifferences) {
+  for (const double depth : {1.01, 0.99, 0.7, 0.1, 0.0, -0.3, -0.9, -0.99}) {
+    for (int i = 0; i < 10; ++i) {
+      DrawCut(depth);
+      EXPECT_GT(direct_.lx_per_lm, 0) << depth;
+      ExpectAllDerivatives();
+    }
+  }
+}
+
+TEST_P(CutByTheReceiversPlane, NothingJumpsWhereTheCutBegins) {
+  for (int i = 0; i < 20; ++i) {
+    DrawCut(1);
+    const Luminaire lamp = lamp_;
+    const Eigen::Vector3d away = normal_;
+    const DirectIlluminance whole = DirectIlluminancePerLumen(lamp, p_, NormalAtDepth(lamp, away, 1 + 1e-9));
+    const DirectIlluminance cut = DirectIlluminancePerLumen(lamp, p_, NormalAtDepth(lamp, away, 1 - 1e-9));
+    EXPECT_NEAR(cut.lx_per_lm / whole.lx_per_lm, 1, 1e-8);
+    EXPECT_LT((cut.d_position - whole.d_position).norm(), 1e-7 * whole.d_position.norm());
+    EXPECT_LT((cut.d_tilt - whole.d_tilt).norm(), 1e-7 * whole.d_position.norm());
+    EXPECT_LT((cut.d_size - whole.d_size).norm(), 1e-7 * whole.d_position.norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ClosedForms, CutByTheReceiversPlane,
+                         testing::Combine(testing::Values(Distribution::kLambertian),
+                                          testing::Values(LuminaireShape::kDisc,
+                                                          LuminaireShape::kRectangle)));
+
+// The defining integral, by adaptive quadrature to `tolerance` of 1 lx per lm.
+double IntegralLxPerLm(const Luminaire& lamp, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                       double tolerance) {
+  const LuminaireAxes axes = AxesOf(lamp);
+  const bool disc = lamp.shape == LuminaireShape::kDisc;
+  const auto integrand = [&](double a, double b) {
+    const Eigen::Vector3d d =
+        lamp.position + a * lamp.size_m[0] * axes.along + b * lamp.size_m[disc ? 0 : 1] * axes.across - p;
+    const double height = normal.dot(d), r = d.norm();
+    return height <= 0 ? 0 : IntensityPerLumen(lamp, axes, -d / r).cd_per_lm * height / (r * r * r);
+  };
+  return disc ? support::MeanOverDisc(integrand, tolerance) : support::MeanOverSquare(integrand, tolerance);
+}
+
+TEST(DirectLight, LambertianSurfacesAreTheirDefiningIntegralWholeAndCut) {
+  std::mt19937_64 rng = support::TestRng();
+  std::normal_distribution<double> normal;
+  const auto random = [&] { return Eigen::Vector3d(normal(rng), normal(rng), normal(rng)); };
+  for (const LuminaireShape shape : {LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+    for (const double depth : {3.0, 1.001, 0.9, 0.3, 0.0, -0.5, -0.95}) {
+      Luminaire lamp = Lamp(Distribution::kLambertian, shape, 0.9, 0.5);
+      lamp.aim = random().normalized();
+      lamp.heading = random().normalized();
+      lamp.position = -lamp.aim - 0.3 * AxesOf(lamp).along + 0.4 * AxesOf(lamp).across;
+      const Eigen::Vector3d n = NormalAtDepth(lamp, random(), depth);
+      EXPECT_NEAR(LxPerLm(lamp, {0, 0, 0}, n), IntegralLxPerLm(lamp, {0, 0, 0}, n, 1e-8), 1e-7)
+          << ToString(shape) << " " << depth;
+    }
+  }
+}
+
+// Where a closed form would be rounding, a sum takes over; a lamp without extent is a point.
+TEST(DirectLight, ATinyLampIsAPoint) {
+  for (const LuminaireShape shape : {LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+    const Eigen::Vector3d p(0.7, -0.4, 0.3), n = Eigen::Vector3d(-0.2, 0.1, 1).normalized();
+    const Luminaire point = Lamp(Distribution::kLambertian, LuminaireShape::kPoint);
+    const DirectIlluminance expected = DirectIlluminancePerLumen(point, p, n);
+    for (const double size : {0.0, 1e-9, 1.6e-4, 1.8e-4, 2.0e-4, 2.2e-4, 2.4e-4}) {
+      const DirectIlluminance light =
+          DirectIlluminancePerLumen(Lamp(Distribution::kLambertian, shape, size, size), p, n);
+      // The size counts by its square, 2e-8; both sides of the switch at 1e-8 r^2 of area.
+      EXPECT_NEAR(light.lx_per_lm / expected.lx_per_lm, 1, 1e-7) << ToString(shape) << " " << size;
+      // Derivatives are differences of angles once more.
+      EXPECT_LT((light.d_position - expected.d_position).norm(), 1e-5 * expected.d_position.norm())
+          << ToString(shape) << " " << size;
+      EXPECT_TRUE(light.d_tilt.allFinite() && light.d_size.allFinite()) << size;
+    }
+    EXPECT_GT(LxPerLm(Lamp(Distribution::kLambertian, shape, 1, 0), p, n), 0);  // a line
+  }
+}
+
+// A beam of some 12 degrees to its half value, in steps of 2.5 degrees.
+std::shared_ptr<const IntensityTable> BeamTable() {
+  std::vector<double> gamma_rad, intensity;
+  for (int i = 0; i <= 72; ++i) {
+    gamma_rad.push_back(i * kPi / 72);
+    intensity.push_back(std::exp(-15 * gamma_rad.back() * gamma_rad.back()) + 0.01);
+  }
+  return std::make_shared<IntensityTable>(
+      Normalized(ExpandPlanes({0}, gamma_rad, intensity, PlaneSymmetry::kRotational)));
+}
+
+// What the header promises of sums: from the distance of the longer side on, whole and cut.
+void ExpectSumsHold(Luminaire lamp, double whole_error, double cut_error, const std::string& what) {
+  lamp.position.setZero();
+  for (const double distance : {1.0, 1.6, 3.0, 7.0}) {
+    const double beam_lx = IntegralLxPerLm(lamp, {0, 0, -distance}, kUp, 1e-6);
+    for (const double degrees : {0.0, 15.0, 50.0, 75.0}) {
+      const double angle = degrees * kPi / 180;
+      const Eigen::Vector3d p =
+          distance * Eigen::Vector3d(std::sin(angle) * 0.8, std::sin(angle) * 0.6, -std::cos(angle));
+      const double facing_lx = IntegralLxPerLm(lamp, p, -p / distance, 1e-5 * beam_lx);
+      Luminaire from_p = lamp;
+      from_p.position = -p;
+      for (const double depth : {9.0, 1.01, 0.5, -0.2}) {
+        const Eigen::Vector3d n = NormalAtDepth(from_p, Eigen::Vector3d(0.3, -0.7, 0.5), depth);
+        const double expected = IntegralLxPerLm(lamp, p, n, 1e-7 * beam_lx);
+        const double bound = depth > 1 ? whole_error * std::max(expected, 1e-3 * beam_lx)
+                                       : cut_error * std::max(facing_lx, 1e-3 * beam_lx);
+        EXPECT_NEAR(LxPerLm(lamp, p, n), expected, bound)
+            << what << ", " << ToString(lamp.shape) << ", " << distance << " m, " << degrees << " deg, depth "
+            << depth;
+      }
+    }
+  }
+}
+
+TEST(DirectLight, SumsHoldWhatTheHeaderPromises) {
+  for (const LuminaireShape shape : {LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+    ExpectSumsHold(Lamp(Distribution::kIsotropic, shape, 1, 0.7), 1e-3, 2e-3, "isotropic");
+    Luminaire lamp = Lamp(Distribution::kCosinePower, shape, 1, 0.7);
+    for (const double exponent : {2.0, 5.0, 12.0, 40.0, 100.0}) {
+      lamp.cosine_exponent = exponent;
+      ExpectSumsHold(lamp, 1e-3, 2e-3, "cos^" + std::to_string(exponent));
+    }
+    lamp.distribution = Distribution::kMeasured;
+    lamp.table = LopsidedTable();
+    ExpectSumsHold(lamp, 2e-3, 2e-3, "lopsided table");
+    lamp.table = BeamTable();
+    ExpectSumsHold(lamp, 2e-3, 2e-3, "beam");
+  }
+}
+
+TEST(DirectLight, NaNInIsNaNOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const RayScene open{Scene{}};
+  const std::vector<std::function<void(Luminaire&, Eigen::Vector3d&, Eigen::Vector3d&)>> spoilers = {
+      [&](Luminaire& lamp, Eigen::Vector3d&, Eigen::Vector3d&) { lamp.position.x() = nan; },
+      [&](Luminaire& lamp, Eigen::Vector3d&, Eigen::Vector3d&) { lamp.aim.y() = nan; },
+      [&](Luminaire&, Eigen::Vector3d& p, Eigen::Vector3d&) { p.y() = nan; },
+      [&](Luminaire&, Eigen::Vector3d&, Eigen::Vector3d& n) { n.x() = nan; }};
+  for (const Distribution distribution : {Distribution::kIsotropic, Distribution::kLambertian,
+                                          Distribution::kCosinePower, Distribution::kMeasured}) {
+    for (const LuminaireShape shape :
+         {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+      for (size_t k = 0; k < spoilers.size(); ++k) {
+        const std::string which = ToString(distribution) + " " + ToString(shape) + " " + std::to_string(k);
+        Luminaire lamp = Lamp(distribution, shape, 0.6, 0.4);
+        lamp.table = LopsidedTable();
+        Eigen::Vector3d p(0.3, 0.2, 0), n = kUp;
+        spoilers[k](lamp, p, n);
+        // The light of an isotropic point, and which point it is that is seen, do not depend on its aim.
+        const bool matters = k != 1 || shape != LuminaireShape::kPoint;
+        if (matters || distribution != Distribution::kIsotropic) {
+          EXPECT_TRUE(std::isnan(LxPerLm(lamp, p, n))) << which;
+          EXPECT_TRUE(std::isnan(VisibleIlluminancePerLumen(open, lamp, p, n))) << which;
+          EXPECT_TRUE(std::isnan(ShadowedIlluminancePerLumen(open, lamp, p, n).lx_per_lm)) << which;
+        }
+        if (matters) {
+          EXPECT_TRUE(std::isnan(VisibleFraction(open, lamp, p, n, 3))) << which;
+          EXPECT_TRUE(std::isnan(VisibleShare(open, lamp, p, n))) << which;
+        }
+      }
+    }
+  }
+}
 
 // C0 along the heading, C90 counter-clockwise from above, on whatever side the luminaire is turned.
 TEST(DirectLight, AMeasuredLobeIsTurnedWithItsLamp) {
