@@ -6,10 +6,11 @@
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 seconds=${1:-20}
-"$root/.ci/setup.sh" clang libclang-rt-14-dev libeigen3-dev libembree-dev libassimp-dev libtbb-dev cmake ninja-build
+"$root/.ci/setup.sh" clang libclang-rt-14-dev libeigen3-dev libembree-dev libtbb-dev \
+  nlohmann-json3-dev cmake ninja-build
 work=$(mktemp -d)
 cmake -S "$root/tests/fuzz" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER=clang++ >"$work/log"
-cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
+cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
 
 mkdir "$work/ies" "$work/ldt" "$work/mesh"
 name_of() { cksum <"$1" | cut -d ' ' -f 1; }
@@ -40,15 +41,19 @@ end_header
 PLY
 { printf '\001'; cat "$work/quad.ply"; } >"$work/mesh/quad.ply"
 
-# fuzz KIND MAX_BYTES MAX_MB
+cp -r "$root/tests/fuzz/seeds" "$work/gltf"
+
+# fuzz KIND MAX_BYTES MAX_MB [OPTION ...]
 fuzz() {
-  if ! (cd "$work" && "build/$1_fuzz" -max_total_time="$seconds" -max_len="$2" -rss_limit_mb="$3" -timeout=10 \
-    -print_final_stats=1 "$1" >"$1.log" 2>&1); then
-    tail -n 60 "$work/$1.log"
-    echo "$1: broken; the input is in $work" >&2
+  kind=$1 max_bytes=$2 max_mb=$3
+  shift 3
+  if ! (cd "$work" && "build/${kind}_fuzz" -max_total_time="$seconds" -max_len="$max_bytes" -rss_limit_mb="$max_mb" \
+    -timeout=10 -print_final_stats=1 "$@" "$kind" >"$kind.log" 2>&1); then
+    tail -n 60 "$work/$kind.log"
+    echo "$kind: broken; the input is in $work" >&2
     exit 1
   fi
-  grep -E 'number_of_executed_units|peak_rss_mb' "$work/$1.log" | sed "s/^stat::/$1: /"
+  grep -E 'number_of_executed_units|peak_rss_mb' "$work/$kind.log" | sed "s/^stat::/$kind: /"
 }
 fuzz ies 65536 512
 fuzz ldt 65536 512
@@ -56,4 +61,5 @@ fuzz ldt 65536 512
 ASAN_OPTIONS=detect_leaks=0
 export ASAN_OPTIONS
 fuzz mesh 8192 2048
+fuzz gltf 4096 2048 -dict="$root/tests/fuzz/gltf.dict"
 rm -r "$work"

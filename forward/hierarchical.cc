@@ -9,6 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/inside_solid.h"
 #include "forward/internal/light_exchange.h"
 #include "forward/internal/light_links.h"
 #include "forward/internal/light_tree.h"
@@ -42,7 +43,8 @@ class Refinement {
  public:
   Refinement(const Scene& scene, const RayScene& rays, const Eigen::VectorXd& albedo,
              const DirectLight& direct_lx, const HierarchicalOptions& options)
-      : rays_(rays),
+      : scene_(scene),
+        rays_(rays),
         direct_at_(direct_lx),
         options_(options),
         tree_(scene),
@@ -84,6 +86,7 @@ class Refinement {
   double EstimateError() const;
   HierarchicalSolution Result() const;
 
+  const Scene& scene_;
   const RayScene& rays_;
   const DirectLight& direct_at_;
   const HierarchicalOptions& options_;
@@ -144,11 +147,8 @@ LeafLight Refinement::EvaluateLeaf(int leaf) const {
   int free = 0;
   for (int k = 0; k < probes.count; ++k) {
     const Eigen::Vector3d& p = probes.points[static_cast<size_t>(k)];
-    // A solid's inside shows backs in every direction; slanted so as not to run along edges.
-    const Eigen::Vector3d slanted =
-        node.normal + 0.31 * node.edge_u.normalized() + 0.17 * node.edge_v.normalized();
-    const RayHit hit = rays_.Trace(LiftedOff(p, node.normal), slanted);
-    if (hit.facet < 0 || hit.front) lx[static_cast<size_t>(free++)] = direct_at_(p, node.normal);
+    if (!IsInsideSolid(scene_, rays_, p, node.normal))
+      lx[static_cast<size_t>(free++)] = direct_at_(p, node.normal);
   }
   if (free == 0) return {};
   const MeanAndDeviation direct = OfProbes(lx, free);

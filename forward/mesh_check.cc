@@ -50,6 +50,14 @@ void Add(MeshFinding& finding, int facet, const Eigen::Vector3d& place, double e
   finding.places.push_back(place);
 }
 
+// "3 facets (0.2 m2) WHAT, the first at (0, 1, 2)"; nothing where none was found.
+void Describe(MeshFinding& finding, const std::string& things, const std::string& unit,
+              const std::string& what) {
+  if (finding.count == 0) return;
+  finding.message = std::to_string(finding.count) + " " + things + " (" + Text("%.3g", finding.extent) + " " +
+                    unit + ") " + what + ", the first at " + At(finding.places[0]);
+}
+
 double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d ab = b - a;
   return (p - a - std::clamp(ab.dot(p - a) / ab.squaredNorm(), 0.0, 1.0) * ab).norm();
@@ -100,9 +108,7 @@ MeshFinding OpenEdges(const Scene& scene, const MeshTopology& mesh, const BoxTre
     if (share[i] > 0)
       Add(finding, single[i]->facet, 0.5 * (from(i) + to(i)), share[i] * (to(i) - from(i)).norm());
   }
-  if (finding.count > 0)
-    finding.message = std::to_string(finding.count) + " edges (" + Text("%.3g", finding.extent) +
-                      " m) end in the open, the first at " + At(finding.places[0]);
+  Describe(finding, "edges", "m", "end in the open");
   finding.effect = "light leaves the room there and does not come back";
   finding.remedy = "close the mesh, or expect less interreflection than the real room has";
   return finding;
@@ -122,9 +128,7 @@ MeshFinding FlippedFacets(const Scene& scene, const Shells& shells) {
     if (shells.orientable[shell] && area[shell][1] > 0 && shells.turned[f] == lesser_is_turned)
       Add(finding, static_cast<int>(f), CenterOf(scene.facets[f]), scene.facets[f].AreaM2());
   }
-  if (finding.count > 0)
-    finding.message = std::to_string(finding.count) + " facets (" + Text("%.3g", finding.extent) +
-                      " m2) are wound against their neighbours, the first at " + At(finding.places[0]);
+  Describe(finding, "facets", "m2", "are wound against their neighbours");
   finding.affects_light = finding.count > 0;
   finding.effect = "a back reflects nothing: these facets are black to the room";
   finding.remedy = "turn the facets so that their corners run counter-clockwise seen from inside the room";
@@ -137,9 +141,7 @@ MeshFinding InsideOut(const Scene& scene, const Shells& shells) {
   for (const int f : FacetsOfShellsInsideOut(scene, shells))
     Add(finding, f, CenterOf(scene.facets[static_cast<size_t>(f)]),
         scene.facets[static_cast<size_t>(f)].AreaM2());
-  if (finding.count > 0)
-    finding.message = std::to_string(finding.count) + " facets (" + Text("%.3g", finding.extent) +
-                      " m2) form shells that are inside out, the first at " + At(finding.places[0]);
+  Describe(finding, "facets", "m2", "form shells that are inside out");
   finding.affects_light = finding.count > 0;
   finding.effect = "a room that faces outwards, or a solid that faces inwards, is black";
   finding.remedy = "flip the normals of the whole object: rooms face inwards, solids outwards";
@@ -163,9 +165,7 @@ MeshFinding Duplicates(const Scene& scene, const std::vector<FacetOverlap>& over
     if (IsCopy(scene, overlap) && seen.insert(overlap.below).second)
       Add(finding, overlap.below, CenterOf(below), below.AreaM2());
   }
-  if (finding.count > 0)
-    finding.message = std::to_string(finding.count) + " facets (" + Text("%.3g", finding.extent) +
-                      " m2) are drawn twice, the first at " + At(finding.places[0]);
+  Describe(finding, "facets", "m2", "are drawn twice");
   finding.affects_light = finding.count > 0;
   finding.effect = "none: each counts once";
   finding.remedy = "none needed; remove the copies to silence this";
@@ -225,9 +225,7 @@ MeshFinding NonManifoldEdges(const MeshTopology& mesh) {
                           &b = mesh.vertices[static_cast<size_t>(mesh.edges[first].b)];
     Add(finding, mesh.edges[first].facet, 0.5 * (a + b), (b - a).norm());
   });
-  if (finding.count > 0)
-    finding.message = std::to_string(finding.count) + " edges (" + Text("%.3g", finding.extent) +
-                      " m) join three or more facets, the first at " + At(finding.places[0]);
+  Describe(finding, "edges", "m", "join three or more facets");
   finding.effect = "none: solids may touch along an edge";
   finding.remedy = "none needed";
   return finding;

@@ -63,11 +63,22 @@ std::string BytesOf(const std::string& path) {
   return bytes;
 }
 
+PolygonMesh MeshOf(std::string_view bytes, MeshFormat format, const std::string& name) {
+  switch (format) {
+    case MeshFormat::kObj:
+      return ParseObj(bytes, name);
+    case MeshFormat::kPly:
+      return ParsePly(bytes, name);
+    case MeshFormat::kGltf:
+      return ParseGltf(bytes, name, "");
+  }
+  return {};
+}
+
 }  // namespace
 
 Scene ParseScene(std::string_view bytes, MeshFormat format, const std::string& name, double metres_per_unit) {
-  return SceneOf(format == MeshFormat::kObj ? ParseObj(bytes, name) : ParsePly(bytes, name), name,
-                 metres_per_unit);
+  return SceneOf(MeshOf(bytes, format, name), name, metres_per_unit);
 }
 
 Scene ReadScene(const std::string& path, double metres_per_unit) {
@@ -77,7 +88,10 @@ Scene ReadScene(const std::string& path, double metres_per_unit) {
   const std::string extension = ExtensionOf(path);
   if (extension == ".obj") return ParseScene(BytesOf(path), MeshFormat::kObj, path, metres_per_unit);
   if (extension == ".ply") return ParseScene(BytesOf(path), MeshFormat::kPly, path, metres_per_unit);
-  if (extension == ".gltf" || extension == ".glb") return SceneOf(ReadGltf(path), path, metres_per_unit);
+  if (extension == ".gltf" || extension == ".glb") {
+    const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+    return SceneOf(ParseGltf(BytesOf(path), path, folder.string()), path, metres_per_unit);
+  }
   throw std::runtime_error(path + ": expected a mesh file .obj, .ply, .gltf or .glb, got \"" + extension +
                            "\"; export it as OBJ");
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/inside_solid.h"
 
 namespace luxfit {
 namespace {
@@ -43,9 +44,8 @@ Element MakeElement(const Facet& facet, const Place& place) {
   return element;
 }
 
-// Share of an element that is not inside a solid: of rays from points spread over it, those that do not meet
-// a back.
-double FreeShare(const RayScene& rays, const Element& element, bool triangle) {
+// Share of an element that is not inside a solid, by points spread over it.
+double FreeShare(const Scene& scene, const RayScene& rays, const Element& element, bool triangle) {
   constexpr int kSide = 4;
   int free = 0, total = 0;
   for (int i = 0; i < kSide; ++i) {
@@ -53,13 +53,8 @@ double FreeShare(const RayScene& rays, const Element& element, bool triangle) {
       double u = (i + 0.41) / kSide, v = (j + 0.57) / kSide;
       if (triangle && u + v > 1) continue;
       const Eigen::Vector3d origin = element.origin + u * element.edge_u + v * element.edge_v;
-      // A solid's inside shows backs in every direction; slanted so as not to run along edges.
-      const Eigen::Vector3d direction = element.normal +
-                                        0.31 * element.edge_u.normalized() * (i % 2 == 0 ? 1 : -1) +
-                                        0.17 * element.edge_v.normalized() * (j % 2 == 0 ? 1 : -1);
-      const RayHit hit = rays.Trace(LiftedOff(origin, element.normal), direction);
       ++total;
-      if (hit.facet < 0 || hit.front) ++free;
+      if (!IsInsideSolid(scene, rays, origin, element.normal)) ++free;
     }
   }
   return static_cast<double>(free) / total;
@@ -183,7 +178,7 @@ class Subdivision {
       FreeCell& free = At(cell);
       if (free.element.area_m2 > 0) continue;  // found on an earlier level
       free.element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v));
-      free.share = FreeShare(rays_, free.element, facet.kind == FacetKind::kTriangle);
+      free.share = FreeShare(scene_, rays_, free.element, facet.kind == FacetKind::kTriangle);
       free.element.is_whole = free.share == 1;
     }
   }

@@ -1,6 +1,7 @@
 luxfit_test(forward bad_input_test LINK luxfit::forward)
 luxfit_test(forward scene_test LINK luxfit::forward)
 luxfit_test(forward mesh_file_test LINK luxfit::forward)
+luxfit_test(forward gltf_mesh_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 luxfit_test(forward mesh_check_test LINK luxfit::forward)
 luxfit_test(forward overlaps_test LINK luxfit::forward)
 luxfit_test(forward patches_test LINK luxfit::forward)

@@ -70,7 +70,7 @@ class ObjParser {
       AddFace(rest);
     } else if (keyword == "usemtl") {
       while (!rest.empty() && IsBlank(rest.front())) rest.remove_prefix(1);
-      SetMaterial(std::string(rest.empty() ? kDefaultMaterial : rest));
+      material_ = mesh.MaterialIndex(std::string(rest.empty() ? kDefaultMaterial : rest));
     }
   }
 
@@ -105,7 +105,7 @@ class ObjParser {
     if (corners > static_cast<size_t>(kMaxPolygonCorners))
       Fail(line_, "f: expected at most " + std::to_string(kMaxPolygonCorners) + " corners, got " +
                       std::to_string(corners) + "; triangulate the mesh");
-    if (mesh.materials.empty()) SetMaterial(kDefaultMaterial);
+    if (mesh.materials.empty()) material_ = mesh.MaterialIndex(kDefaultMaterial);
     mesh.first_corner.push_back(first);
     mesh.material.push_back(material_);
     line_of_face_.push_back(line_);
@@ -117,12 +117,6 @@ class ObjParser {
       Fail(line, "f: expected one of " + std::to_string(mesh.vertices.size()) + " vertices, got number " +
                      std::to_string(static_cast<long long>(index) + 1) +
                      "; is the file truncated? export it again");
-  }
-
-  void SetMaterial(const std::string& material) {
-    const auto known = std::find(mesh.materials.begin(), mesh.materials.end(), material);
-    material_ = static_cast<int>(known - mesh.materials.begin());
-    if (known == mesh.materials.end()) mesh.materials.push_back(material);
   }
 
   std::string_view text_;

@@ -8,85 +8,84 @@
 namespace luxfit {
 namespace {
 
-using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 using SessionErrorsTest = TinySessionTest;
 
+// Of a message that holds every one of these parts.
+template <typename... Parts>
+auto Holds(const Parts&... parts) {
+  return testing::AllOf(HasSubstr(parts)...);
+}
+
 TEST_F(SessionErrorsTest, AMissingSessionOrAFolderIsReported) {
   EXPECT_THAT(ErrorOf(folder_.Path("sesion.toml")),
-              AllOf(HasSubstr("sesion.toml: session: expected an existing file"),
-                    HasSubstr("mean \"session.toml\"?")));
-  EXPECT_THAT(ErrorOf(folder_.Path("")),
-              AllOf(HasSubstr("session: expected a session file (TOML), got a folder"),
-                    HasSubstr("did you mean "), HasSubstr("session.toml\"?")));
+              Holds("sesion.toml: session: expected an existing file", "mean \"session.toml\"?"));
+  EXPECT_THAT(ErrorOf(folder_.Path("")), Holds("session: expected a session file (TOML), got a folder",
+                                               "did you mean ", "session.toml\"?"));
   EXPECT_THAT(ErrorOf(folder_.Path("photos")), HasSubstr("got a folder; name the session file in it"));
 }
 
 TEST_F(SessionErrorsTest, BrokenTomlNamesTheLine) {
   EXPECT_THAT(ErrorAfter("unit = \"cm\"", "unit = cm"),
-              AllOf(HasSubstr(At("unit")), HasSubstr("expected valid TOML"), HasSubstr("mend this line")));
+              Holds(At("unit"), "expected valid TOML", "mend this line"));
 }
 
 TEST_F(SessionErrorsTest, MisspeltKeysSuggestTheNearest) {
   EXPECT_THAT(ErrorAfter("black_level", "blacklevel"),
-              AllOf(HasSubstr(At("black_level") + "camera[0].blacklevel: expected a known key"),
-                    HasSubstr("did you mean \"black_level\"?")));
+              Holds(At("black_level") + "camera[0].blacklevel: expected a known key",
+                    "did you mean \"black_level\"?"));
   EXPECT_THAT(ErrorAfter("[luxmeter]", "[luxmetre]"),
-              AllOf(HasSubstr(At("[luxmeter]") + "luxmetre: "), HasSubstr("did you mean \"luxmeter\"?")));
+              Holds(At("[luxmeter]") + "luxmetre: ", "did you mean \"luxmeter\"?"));
   EXPECT_THAT(ErrorAfter("flux_lm", "flux_lumen"),
-              AllOf(HasSubstr("luminaire[0].flux_lumen: expected a known key"),
-                    HasSubstr("did you mean \"flux_lm\"?")));
+              Holds("luminaire[0].flux_lumen: expected a known key", "did you mean \"flux_lm\"?"));
   EXPECT_THAT(ErrorAfter("unit =", "zzzz ="), HasSubstr("remove it or correct its spelling"));
   EXPECT_THAT(ErrorAfter("table =", "tabel ="), HasSubstr("photos.tabel: expected a known key (table), got"));
 }
 
 TEST_F(SessionErrorsTest, MissingFilesAreNamedWithTheNearest) {
   EXPECT_THAT(ErrorAfter("room.obj", "rom.obj"),
-              AllOf(HasSubstr(At("mesh") + "scene.mesh: expected an existing file, got \"rom.obj\""),
-                    HasSubstr("did you mean \"room.obj\"?")));
-  EXPECT_THAT(
-      ErrorAfter("cam0.yaml", "intrinsics.yaml"),
-      AllOf(HasSubstr("camera[0].intrinsics: expected an existing file"), HasSubstr("correct the name")));
+              Holds(At("mesh") + "scene.mesh: expected an existing file, got \"rom.obj\"",
+                    "did you mean \"room.obj\"?"));
+  EXPECT_THAT(ErrorAfter("cam0.yaml", "intrinsics.yaml"),
+              Holds("camera[0].intrinsics: expected an existing file", "correct the name"));
   EXPECT_THAT(ErrorAfter("\"photos.csv\"", "\"photos\""),
               HasSubstr("photos.table: expected an existing file, got "
                         "\"photos\", a folder; name a file in it"));
   EXPECT_THAT(ErrorAfter("photos.csv", "v0_all.png", "v0_al.png"),
-              AllOf(HasSubstr("photos.csv:3: file: expected an existing file, got \"photos/v0_al.png\""),
-                    HasSubstr("did you mean \"v0_all.png\"?")));
+              Holds("photos.csv:3: file: expected an existing file, got \"photos/v0_al.png\"",
+                    "did you mean \"v0_all.png\"?"));
 }
 
 TEST_F(SessionErrorsTest, UnknownCamerasAndStatesListTheKnown) {
-  EXPECT_THAT(ErrorAfter("photos.csv", "all.png,cam0", "all.png,cam1"),
-              AllOf(HasSubstr("photos.csv:3: camera: expected a known camera (cam0), got \"cam1\""),
-                    HasSubstr("did you mean \"cam0\"?")));
+  EXPECT_THAT(
+      ErrorAfter("photos.csv", "all.png,cam0", "all.png,cam1"),
+      Holds("photos.csv:3: camera: expected a known camera (cam0), got \"cam1\"", "did you mean \"cam0\"?"));
   EXPECT_THAT(ErrorAfter("photos.csv", "all.png,cam0", "all.png,phone"),
               HasSubstr("add [[camera]] with this id"));
-  EXPECT_THAT(ErrorAfter("photos.csv", "v0,all", "v0,al"),
-              AllOf(HasSubstr("photos.csv:3: state: expected a known state (Z or all), got \"al\""),
-                    HasSubstr("did you mean \"all\"?")));
+  EXPECT_THAT(
+      ErrorAfter("photos.csv", "v0,all", "v0,al"),
+      Holds("photos.csv:3: state: expected a known state (Z or all), got \"al\"", "did you mean \"all\"?"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "1,Z,120", "1,evening,120"),
-              AllOf(HasSubstr("luxmeter.csv:3: state: expected a known state (Z or all), got \"evening\""),
-                    HasSubstr("add it to [states]")));
+              Holds("luxmeter.csv:3: state: expected a known state (Z or all), got \"evening\"",
+                    "add it to [states]"));
   Reset();
   folder_.Write("session.toml", "[photos]\ntable = \"photos.csv\"\n[states]\nZ = {}\nall = {}\n");
-  EXPECT_THAT(Error(),
-              AllOf(HasSubstr("photos.csv:2: camera: "), HasSubstr("the session has none; add [[camera]]")));
+  EXPECT_THAT(Error(), Holds("photos.csv:2: camera: ", "the session has none; add [[camera]]"));
 }
 
 TEST_F(SessionErrorsTest, PhotoRowsAreChecked) {
   EXPECT_THAT(ErrorAfter("photos.csv", ",0.05", ",0"),
-              AllOf(HasSubstr("photos.csv:3: exposure_s: expected > 0, got \"0\""), HasSubstr("in seconds")));
+              Holds("photos.csv:3: exposure_s: expected > 0, got \"0\"", "in seconds"));
   EXPECT_THAT(ErrorAfter("photos.csv", ",0.05", ",-1"), HasSubstr("photos.csv:3: exposure_s: expected > 0"));
   EXPECT_THAT(ErrorAfter("photos.csv", ",0.05", ",1/20"),
               HasSubstr("exposure_s: expected a finite number, got \"1/20\""));
   EXPECT_THAT(ErrorAfter("photos.csv", ",v0,all", ",,all"),
               HasSubstr("photos.csv:3: view: expected a name, got nothing"));
   EXPECT_THAT(ErrorAfter("photos.csv", "v0_all.png", "v0_Z.png"),
-              AllOf(HasSubstr("photos.csv:3: file: expected every photo once"), HasSubstr("line 2")));
+              Holds("photos.csv:3: file: expected every photo once", "line 2"));
   EXPECT_THAT(ErrorAfter("photos.csv", "v0,all,0.05", "v0,Z,0.1"),
-              AllOf(HasSubstr("photos.csv:3: exposure_s: "), HasSubstr("to differ in exposure"),
-                    HasSubstr("line 2 too")));
+              Holds("photos.csv:3: exposure_s: ", "to differ in exposure", "line 2 too"));
   EXPECT_EQ(ErrorAfter("photos.csv", "v0,all,0.05", "v0,Z,0.2"), "") << "a bracket";
 }
 
@@ -94,58 +93,53 @@ TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
   folder_.Replace("session.toml", "[photos]",
                   "[[camera]]\nid = \"cam1\"\nintrinsics = \"cam0.yaml\"\n[photos]");
   folder_.Replace("photos.csv", "all.png,cam0", "all.png,cam1");
-  EXPECT_THAT(Error(), AllOf(HasSubstr("photos.csv:3: view: expected one camera per view"),
-                             HasSubstr("line 2"), HasSubstr("a name of its own")));
+  EXPECT_THAT(Error(),
+              Holds("photos.csv:3: view: expected one camera per view", "line 2", "a name of its own"));
   Reset();
   folder_.Write("photos.csv",
                 "file,camera,view,state,exposure_s,iso\n"
                 "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all,0.05,200\n");
-  EXPECT_THAT(Error(), AllOf(HasSubstr("photos.csv:3: iso: "), HasSubstr("not available in this version"),
-                             HasSubstr("expected \"100\" as in line 2, got \"200\"")));
+  EXPECT_THAT(Error(), Holds("photos.csv:3: iso: ", "not available in this version",
+                             "expected \"100\" as in line 2, got \"200\""));
   folder_.Replace("photos.csv", "0.05,200", "0.05,100");
   EXPECT_EQ(Error(), "");
 }
 
 TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
-  EXPECT_THAT(
-      ErrorAfter("luxmeter.csv", "0,0,2,all", "0,0,0,all"),
-      AllOf(HasSubstr("luxmeter.csv:2: nx,ny,nz: expected the direction"), HasSubstr("got 0,0,0; 0,0,1 is")));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "0,0,2,all", "0,0,0,all"),
+              Holds("luxmeter.csv:2: nx,ny,nz: expected the direction", "got 0,0,0; 0,0,1 is"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "-3"),
               HasSubstr("luxmeter.csv:2: lux: expected >= 0, got \"-3\"; correct"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "nan"),
               HasSubstr("luxmeter.csv:2: lux: expected a finite number"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "320,5"),
-              AllOf(HasSubstr("luxmeter.csv:2: expected 9 fields"), HasSubstr("decimal comma")));
-  EXPECT_THAT(
-      ErrorAfter("luxmeter.csv", "P1", "F1"),
-      AllOf(
-          HasSubstr("luxmeter.csv:4: id: expected one reading per id and state, got \"F1@Z\" in line 3 too"),
-          HasSubstr("another id")));
+              Holds("luxmeter.csv:2: expected 9 fields", "decimal comma"));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "P1", "F1"),
+              Holds("luxmeter.csv:4: id: expected one reading per id and state, got \"F1@Z\" in line 3 too",
+                    "another id"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "z_m", "height"),
-              AllOf(HasSubstr("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux\", got "
-                              "\"id,x_m,y_m,height,nx,ny,nz,state,lux\""),
-                    HasSubstr("column 4 must be \"z_m\"")));
+              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux\", got "
+                    "\"id,x_m,y_m,height,nx,ny,nz,state,lux\"",
+                    "column 4 must be \"z_m\""));
 }
 
 TEST_F(SessionErrorsTest, RolesAreChecked) {
   EXPECT_THAT(ErrorAfter("L1@all", "L9@all"),
-              AllOf(HasSubstr(At("scale =") + "luxmeter.scale[0]: expected a pattern that matches a reading"),
-                    HasSubstr("got \"L9@all\", which matches none"), HasSubstr("did you mean \"L1@all\"?")));
+              Holds(At("scale =") + "luxmeter.scale[0]: expected a pattern that matches a reading",
+                    "got \"L9@all\", which matches none", "did you mean \"L1@all\"?"));
   EXPECT_THAT(ErrorAfter("F*@Z", "*@all"),
-              AllOf(HasSubstr(At("fit =") + "luxmeter.fit: expected one role for each reading"),
-                    HasSubstr("\"L1@all\""), HasSubstr("matched by fit \"*@all\" and by scale \"L1@all\""),
-                    HasSubstr("narrow one")));
+              Holds(At("fit =") + "luxmeter.fit: expected one role for each reading", "\"L1@all\"",
+                    "matched by fit \"*@all\" and by scale \"L1@all\"", "narrow one"));
   EXPECT_THAT(ErrorAfter("F*@Z", "P1"),
-              AllOf(HasSubstr("luxmeter.fit[0]: expected readings that were measured, got \"P1@Z\" (line 4)"),
-                    HasSubstr("fill it in or narrow")));
+              Holds("luxmeter.fit[0]: expected readings that were measured, got \"P1@Z\" (line 4)",
+                    "fill it in or narrow"));
   EXPECT_THAT(ErrorAfter("class = \"B\"", "class = \"D\""),
               HasSubstr("luxmeter.class: expected L, A, B or C, got \"D\""));
 }
 
 TEST_F(SessionErrorsTest, StatesAreChecked) {
-  EXPECT_THAT(
-      ErrorAfter("A = 0.5", "A = 50"),
-      AllOf(HasSubstr(At("all = {") + "states.all.A: expected a dimming in 0..1, got 50"), HasSubstr("0.3")));
+  EXPECT_THAT(ErrorAfter("A = 0.5", "A = 50"),
+              Holds(At("all = {") + "states.all.A: expected a dimming in 0..1, got 50", "0.3"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = -0.1"), HasSubstr("states.all.A: expected a dimming in 0..1"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = nan"),
               HasSubstr("states.all.A: expected a dimming in 0..1, got nan; write"));
@@ -174,9 +168,8 @@ TEST_F(SessionErrorsTest, LuminairesAreChecked) {
               HasSubstr("luminaires.count: expected 3, the number of luminaires"));
   EXPECT_THAT(ErrorAfter("max = 12", "max = 2"),
               HasSubstr("luminaires.max: expected at least the 3 luminaires"));
-  EXPECT_THAT(
-      ErrorAfter("[luxmeter]", "[[luminaire]]\nid = \"B\"\n[luxmeter]"),
-      AllOf(HasSubstr("luminaire[1].id: expected a name of its own, got \"B\""), HasSubstr("rename one")));
+  EXPECT_THAT(ErrorAfter("[luxmeter]", "[[luminaire]]\nid = \"B\"\n[luxmeter]"),
+              Holds("luminaire[1].id: expected a name of its own, got \"B\"", "rename one"));
 }
 
 TEST_F(SessionErrorsTest, SceneTagsAndCamerasAreChecked) {
@@ -224,7 +217,7 @@ TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
   EXPECT_THAT(ErrorAfter("method = \"tags\"", "colmap = \"sparse/0\""),
               HasSubstr("registration.colmap: \"sparse/0\" is"));
   EXPECT_THAT(ErrorAfter("map = \"tags.json\"", "size_m = 0.2"),
-              AllOf(HasSubstr("tags.map: expected a tag map"), HasSubstr("not available in this version")));
+              Holds("tags.map: expected a tag map", "not available in this version"));
   EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
               HasSubstr("luminaires.count: \"estimate\" is not available"));
 }

@@ -214,35 +214,9 @@ TEST(ReadScene, OtherAndBrokenFormatsAreNamed) {
   folder.Write("room.dxf", "0\nSECTION\n");
   folder.Write("room.glb", "glTF");
   folder.Write("long.glb", std::string("glTF\x02\0\0\0\xff\0\0\0", 12));
-  folder.Write("room.gltf", "{\"asset\": ");
-  for (const char* name : {"room.dxf", "room.glb", "long.glb", "room.gltf"}) {
+  for (const char* name : {"room.dxf", "room.glb", "long.glb"}) {
     EXPECT_THAT(ErrorOf(folder.Path(name)), StartsWith(folder.Path(name) + ": expected")) << name;
   }
-}
-
-// A triangle with the buffer in the file: (0 0 0), (2 0 0), (0 2 0).
-std::string Gltf(int last_index) {
-  const char* base64[] = {"AAABAAIA", "AAABAAMA"};
-  return std::string(
-             R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-"materials": [{"name": "floor"}], "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0, "material": 0}]}],
-"buffers": [{"byteLength": 6, "uri": "data:application/octet-stream;base64,)") +
-         base64[last_index - 2] +
-         R"("}, {"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEAAAAAA"}],
-"bufferViews": [{"buffer": 0, "byteLength": 6}, {"buffer": 1, "byteLength": 36}],
-"accessors": [{"bufferView": 0, "componentType": 5123, "count": 3, "type": "SCALAR"},
-{"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [2, 2, 0]}]})";
-}
-
-TEST(ReadScene, GltfHasItsMaterialAndChecksItsIndices) {
-  const TempFolder folder;
-  folder.Write("good.gltf", Gltf(2));
-  folder.Write("bad.gltf", Gltf(3));
-  const Scene scene = ReadScene(folder.Path("good.gltf"));
-  ASSERT_EQ(scene.facets.size(), 1u);
-  EXPECT_NEAR(scene.facets[0].AreaM2(), 2, 1e-6);  // floats
-  EXPECT_EQ(scene.materials, std::vector<std::string>{"floor"});
-  EXPECT_THAT(ErrorOf(folder.Path("bad.gltf")), StartsWith(folder.Path("bad.gltf") + ": expected"));
 }
 
 }  // namespace

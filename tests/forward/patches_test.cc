@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -143,6 +144,34 @@ TEST(Subdivide, ElementsPartlyUnderABoxKeepTheirFreeShare) {
   // Each element is probed on 4 x 4 points, so an edge of the box is misplaced by at most a probe's distance.
   const double tolerance = 2 * footprint.sum() * options.element_size_m / 4;
   EXPECT_NEAR(FloorAreaRoundBox(box, options), 16 - footprint.prod(), tolerance);
+}
+
+// Areas by facet of the room's scene.
+Eigen::VectorXd FreeAreas(const Scene& scene, const PatchesOptions& options) {
+  const Patches patches = SubdivisionOf(scene, options);
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(scene.facets.size()));
+  for (const Patch& patch : patches.patches) areas[patch.facet] += patch.area_m2;
+  return areas;
+}
+
+TEST(Subdivide, NothingLiesInsideASingleSheet) {
+  Scene scene = support::ClosedRoom({4, 3, 2.5});
+  // A partition that faces +x, a shelf that faces up 0.3 m above the floor, and a table top.
+  support::AddParallelogram(scene, {2, 0, 0}, {0, 2, 0}, {0, 0, 2.2}, "sheet");
+  support::AddParallelogram(scene, {3, 2.7, 0.3}, {0.9, 0, 0}, {0, 0.3, 0}, "sheet");
+  support::AddParallelogram(scene, {2.4, 0.5, 0.74}, {1.4, 0, 0}, {0, 0.8, 0}, "sheet");
+  const Eigen::VectorXd areas = FreeAreas(scene, {0.5, 0.1});
+  for (size_t f = 0; f < scene.facets.size(); ++f)
+    EXPECT_NEAR(areas[static_cast<Eigen::Index>(f)], scene.facets[f].AreaM2(), kRounding) << f;
+}
+
+TEST(Subdivide, WhatStandsInASolidDoesNotOpenIt) {
+  Scene scene = support::ClosedRoom({4, 3, 2.5});
+  support::AddBox(scene, {Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(2, 2, 2)}, support::Facing::kOutward,
+                  {"cabinet"});
+  support::AddBox(scene, {Eigen::Vector3d(1.4, 1.4, 0), Eigen::Vector3d(1.6, 1.6, 0.3)},
+                  support::Facing::kOutward, {"pipe"});
+  EXPECT_NEAR(FreeAreas(scene, {0.5, 0.1})[4], 12 - 1, kRounding);  // of the floor
 }
 
 TEST(Subdivide, RefusesSizesThatMakeNoSense) {

@@ -1,12 +1,12 @@
 // libFuzzer on the IES reader: any bytes are read or refused, and what was read is written and read back
 // equal.
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
 #include "forward/ies_file.h"
+#include "tests/fuzz/use_photometry.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace luxfit;
@@ -17,16 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         again.horizontal_deg != file.horizontal_deg || again.multiplier != file.multiplier ||
         again.keywords.size() != file.keywords.size() || IesText(again) != IesText(file))
       std::abort();
-    const PhotometryFile photometry = PhotometryOf(file);
-    if (!std::isfinite(photometry.luminaire_flux_lm)) std::abort();
-    for (const double cd_per_lm : photometry.table.cd_per_lm) {
-      if (!std::isfinite(cd_per_lm)) std::abort();
-    }
-    for (const Eigen::Vector3d& d :
-         {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(0.6, 0, 0.8), Eigen::Vector3d(0, -1, 0)}) {
-      const TableIntensity towards = IntensityTowards(photometry.table, d);
-      if (!std::isfinite(towards.cd_per_lm) || !towards.d_direction.allFinite()) std::abort();
-    }
+    UsePhotometry(PhotometryOf(file));
   } catch (const std::runtime_error&) {
     return 0;  // refused with a message; anything else is a defect
   }

@@ -31,16 +31,7 @@ LightData ReadingsOf(const Lux& lux, double nearest_m, double width_m) {
 // What the stages do: a converged fit with a cosine-power point, then the choice.
 std::string ChosenName(const LightData& data, ModelChoice* result = nullptr) {
   const Room room = MakeRoom(Scene{});
-  LightState start;
-  start.luminaires.resize(1);
-  start.luminaires[0].id = "A";
-  start.luminaires[0].position = kLamp + Eigen::Vector3d(0.1, 0.1, -0.1);
-  start.luminaires[0].distribution = Distribution::kCosinePower;
-  start.luminaires[0].cosine_exponent = 2;
-  start.luminaires[0].flux_lm = 500;
-  start.free.resize(1);
-  start.free[0].exponent = true;
-  start.camera_scale_free = false;
+  const LightState start = support::CosinePowerStart(kLamp + Eigen::Vector3d(0.1, 0.1, -0.1), 2);
   const LuminaireFit fit = FitLuminaires(room, data, start);
   const ModelChoice choice = ChooseLuminaireModels(room, data, fit.state, {OpenChoice{}});
   if (result != nullptr) *result = choice;

@@ -40,17 +40,7 @@ class OnePoint : public testing::Test {
 
   // Some way off, as a first guess is.
   LightState Start() const {
-    LightState start;
-    start.luminaires.resize(1);
-    start.luminaires[0].id = "A";
-    start.luminaires[0].position = lamp_ + Eigen::Vector3d(0.2, 0.15, -0.2);
-    start.luminaires[0].distribution = Distribution::kCosinePower;
-    start.luminaires[0].cosine_exponent = 1.5;
-    start.luminaires[0].flux_lm = 500;
-    start.free.resize(1);
-    start.free[0].exponent = true;
-    start.camera_scale_free = false;
-    return start;
+    return support::CosinePowerStart(lamp_ + Eigen::Vector3d(0.2, 0.15, -0.2), 1.5);
   }
 
   // Position, log exponent, log flux: the order of FreeParameters.

@@ -37,6 +37,21 @@ inline std::vector<Reading> ReadAt(const std::vector<Eigen::Vector3d>& points,
   return readings;
 }
 
+// A cosine-power point with a free exponent, without photos: where a fit to readings starts.
+inline LightState CosinePowerStart(const Eigen::Vector3d& position, double exponent) {
+  LightState start;
+  start.luminaires.resize(1);
+  start.luminaires[0].id = "A";
+  start.luminaires[0].position = position;
+  start.luminaires[0].distribution = Distribution::kCosinePower;
+  start.luminaires[0].cosine_exponent = exponent;
+  start.luminaires[0].flux_lm = 500;
+  start.free.resize(1);
+  start.free[0].exponent = true;
+  start.camera_scale_free = false;
+  return start;
+}
+
 }  // namespace luxfit::support
 
 #endif  // LUXFIT_TESTS_SUPPORT_PLANE_READINGS_H_
