@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
 #include "forward/internal/gather.h"
 
@@ -78,7 +77,7 @@ AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers,
     const Eigen::VectorXf total = lit + transport.Irradiance(exitance).col(0);
     result.d_patch_albedo = importance.exitance.cwiseProduct(total).cast<double>();
     const Eigen::VectorXf element_total =
-        element_lit + Product(room.form_factors.element_to_patch, exitance).col(0);
+        element_lit + IndirectAtElements(room, exitance).col(0);
     for (Eigen::Index e = 0; e < element_total.size(); ++e) {
       result.d_patch_albedo[room.patches.elements[static_cast<size_t>(e)].patch] +=
           static_cast<double>(at.exitance[e] * element_total[e]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -48,8 +49,10 @@ class Chooser {
           "no surface reflects: all light is direct";
       return {choice_, std::move(last)};
     }
+    // Many facets: only rays can find the pairs that see one another.
+    choice_.options.room.form_factors.method = last.room.form_factors.method;
     last = ChooseSensorRays(std::move(last));
-    last = ChooseRays(std::move(last));
+    last = last.room.sparse ? DoubleRays(std::move(last), "") : ChooseRays(std::move(last));
     ChooseBounces(last);
     last = ChoosePatches(std::move(last));
     choice_.bounces_error_percent = last.light.error_percent;
@@ -114,16 +117,21 @@ class Chooser {
     }
     const std::string sampled_because = "twice the difference of sampling from closed forms is " +
                                         Percent(change) + ", more than " + Percent(allowed) + where;
-    SceneLight last = std::move(closed_form);
     form_factors = {kHybridRays, FormFactorMethod::kHybrid};
+    return DoubleRays(std::move(closed_form), sampled_because + "; ");
+  }
+
+  SceneLight DoubleRays(SceneLight last, const std::string& because) {
+    const double allowed = kRaysShare * options_.error_percent;
+    FormFactorOptions& form_factors = choice_.options.room.form_factors;
+    double change = 0;
     do {
       form_factors.rays_per_element *= 2;
       last = Try(&last.light);
       change = choice_.tried.back().change_percent;
     } while (change > allowed && form_factors.rays_per_element < options_.max_rays);
     choice_.rays_error_percent = change;
-    choice_.rays_because =
-        sampled_because + "; half as many rays for shadows change it by " + Percent(change);
+    choice_.rays_because = because + "half as many rays change it by " + Percent(change);
     return last;
   }
 
@@ -148,19 +156,22 @@ class Chooser {
                               "bounces that would leave out " + Percent(series.tolerance_percent);
   }
 
-  bool Fits(const TriedAccuracy& tried) const {
-    // Elements of half the size are four times as many; patches grow by less, as most are split no further.
-    constexpr double kPatchesGrow = 2;
-    const double patches = kPatchesGrow * tried.patches;
-    return patches <= options_.max_patches &&
-           patches * 4.0 * tried.elements * sizeof(float) <= options_.max_matrix_bytes;
+  // Whether elements of half the size do.
+  bool FinerFit(const Room& room) const {
+    // They are four times as many; patches grow by less, as most are split no further.
+    constexpr double kPatchesGrow = 2, kElementsGrow = 4, kBytesPerPair = 24;
+    const double patches = kPatchesGrow * static_cast<double>(room.patches.patches.size());
+    const double elements = kElementsGrow * static_cast<double>(room.patches.elements.size());
+    const int rays = choice_.options.room.form_factors.rays_per_element;
+    if (room.sparse) return 2 * elements * rays * kBytesPerPair <= options_.max_matrix_bytes;
+    return patches <= options_.max_patches && patches * elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 
   SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
     PatchesOptions sizes = PatchesOfSize(coarsest_m_);
     double bound_percent = kFirstBoundPercent, before = 0, error = 0;
-    while (Fits(choice_.tried.back())) {
+    while (FinerFit(last.room)) {
       sizes.element_size_m /= 2;
       choice_.options.room.patches = AdaptivePatches(std::move(last.room), IndirectLx(last.light),
                                                      lit_.luminaires, bound_percent, sizes);
@@ -171,13 +182,17 @@ class Chooser {
       bound_percent /= 2;
       if (error <= allowed) break;
     }
+    if (choice_.options.room.patches.must_split == nullptr) {
+      choice_.patches_error_percent = std::numeric_limits<double>::infinity();
+      choice_.patches_because = "no finer ones fit into memory to compare them with";
+      return last;
+    }
     choice_.patches_error_percent = error;
-    const bool reached = before > 0 && error <= allowed;
     choice_.patches_because =
         "elements of twice the size, patches split at twice the variation, change the illuminance by " +
         Percent(before) + ": estimated error " + Percent(error) +
-        (reached ? ", below " + Percent(allowed)
-                 : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
+        (error <= allowed ? ", below " + Percent(allowed)
+                          : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
     return last;
   }
 

@@ -21,10 +21,12 @@
 // more, so all coarser ones together stay below the last. Changes are root mean squares over all sensors and
 // luminaires (RelativeRmsPercent). Deterministic: no clock is asked.
 //
-// Limits of memory end the halving: `reached` false, the estimate says how far it came.
-// Throws std::invalid_argument for an error that is not > 0, and as ComputeSceneLight does.
-// Source: Richardson (1911), "The approximate arithmetical solution by finite differences"; Roache (1994),
-// "Perspective: a method for uniform reporting of grid refinement studies" (error from successive grids).
+// Limits of memory end the halving: `reached` false, the estimate says how far it came (infinity: there was
+// nothing to compare with). Scenes of so many facets that even the coarsest patches have no dense form
+// factors (RoomOptions::max_matrix_bytes) are solved on the pairs that rays find. Throws
+// std::invalid_argument for an error that is not > 0, and as ComputeSceneLight does. Source: Richardson
+// (1911), "The approximate arithmetical solution by finite differences"; Roache (1994), "Perspective: a
+// method for uniform reporting of grid refinement studies" (error from successive grids).
 #ifndef LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
 #define LUXFIT_FORWARD_CHOOSE_ACCURACY_H_
 
@@ -39,7 +41,7 @@ struct AccuracyOptions {
   double error_percent = 1;       // rms over sensors and luminaires, of the illuminance
   double coarsest_patch_m = 0.8;  // a dozen patches a wall: seen in no time; also the largest
   int max_patches = 20000;        // 1.6 GB of coupling
-  double max_matrix_bytes = 2e9;  // of the form factors, elements x patches
+  double max_matrix_bytes = 2e9;  // of the form factors: elements x patches, or the pairs that rays find
   int max_rays = 1024;
   int max_rays_per_sensor = 1 << 20;
 };

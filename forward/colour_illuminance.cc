@@ -3,11 +3,22 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
 #include "forward/internal/gather.h"
 
 namespace luxfit {
+namespace {
+
+RadiositySolution Solve(const Room& room, const Eigen::VectorXd& albedo, const Eigen::MatrixXf& patch_direct,
+                        RadiositySolverOptions solver) {
+  if (!room.sparse) return SolveRadiosity(room.transport, albedo, patch_direct, solver);
+  if (solver.solver == RadiositySolver::kLu || solver.solver == RadiositySolver::kCholesky)
+    solver.solver = RadiositySolver::kAuto;  // these need all pairs
+  return SolveRadiosity(*room.sparse, room.transport.patch_area_m2, room.transport.patch_material, albedo,
+                        patch_direct, solver);
+}
+
+}  // namespace
 
 ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& receivers,
                                            const LuminaireVisibility& visibility,
@@ -36,8 +47,8 @@ ColourIlluminance ComputeColourIlluminance(const Room& room, const Receivers& re
       share[other] = 0;  // solved with this one
     }
     if (reflects) {
-      const RadiositySolution solution = SolveRadiosity(room.transport, albedo, patch_direct, solver);
-      const Eigen::MatrixXf indirect = Product(room.form_factors.element_to_patch, solution.exitance);
+      const RadiositySolution solution = Solve(room, albedo, patch_direct, solver);
+      const Eigen::MatrixXf indirect = IndirectAtElements(room, solution.exitance);
       const Eigen::MatrixXf exitance =
           ElementAlbedo(room.patches, albedo).asDiagonal() * (direct.elements + indirect);
       result.total += static_cast<float>(weight) * GatherAtReceivers(receivers, indirect, exitance);

@@ -1,6 +1,5 @@
 #include "forward/illuminance.h"
 
-#include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
 #include "forward/internal/gather.h"
 
@@ -37,7 +36,7 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
           exitance.col(lamps + parameters + k * materials + m) = d.col(k);
       }
     }
-    const Eigen::MatrixXf indirect = Product(room.form_factors.element_to_patch, exitance);
+    const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
     Eigen::MatrixXf reflected = indirect;  // exitance of elements
     reflected.leftCols(lamps + parameters) += at_elements;
     const Eigen::MatrixXf lit = reflected.leftCols(lamps);

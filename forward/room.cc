@@ -20,6 +20,25 @@ float ElementVisibility(const RayScene& rays, const Element& element, bool trian
   return sum / static_cast<float>(probes.size());
 }
 
+// Elements x patches of form factors, patches x patches of coupling.
+double MatrixBytes(const Patches& patches) {
+  const double n = static_cast<double>(patches.patches.size());
+  return n * (n + static_cast<double>(patches.elements.size())) * sizeof(float);
+}
+
+Room SparseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOptions& options) {
+  auto sparse = std::make_shared<const SparseTransport>(rays, patches, options);
+  FormFactors form_factors;
+  form_factors.method = FormFactorMethod::kMalley;
+  form_factors.because = "dense form factors would not fit into memory";
+  form_factors.escaped_fraction = sparse->escaped_fraction();
+  form_factors.back_fraction = sparse->back_fraction();
+  form_factors.rays = sparse->rays();
+  TransportGeometry transport{PatchAreas(patches), PatchMaterials(patches), {}};
+  return {std::move(scene),        std::move(rays),      std::move(patches),
+          std::move(form_factors), std::move(transport), std::move(sparse)};
+}
+
 }  // namespace
 
 Room MakeRoom(const Scene& given, const RoomOptions& options) {
@@ -27,10 +46,12 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
   Scene scene = WithoutOverlaps(given);
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);
+  if (MatrixBytes(patches) > options.max_matrix_bytes)
+    return SparseRoom(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
   FormFactors form_factors = ComputeFormFactors(rays, patches, options.form_factors);
   TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
-  return {std::move(scene), std::move(rays), std::move(patches), std::move(form_factors),
-          std::move(transport)};
+  return {std::move(scene),        std::move(rays),      std::move(patches),
+          std::move(form_factors), std::move(transport), nullptr};
 }
 
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,

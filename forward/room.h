@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <memory>
 #include <vector>
 
 #include "forward/form_factors.h"
@@ -20,6 +21,7 @@
 #include "forward/patches.h"
 #include "forward/scene.h"
 #include "forward/sensor.h"
+#include "forward/sparse_transport.h"
 #include "forward/transport.h"
 #include "forward/visibility.h"
 
@@ -28,6 +30,8 @@ namespace luxfit {
 struct RoomOptions {
   PatchesOptions patches;
   FormFactorOptions form_factors;
+  double max_matrix_bytes =
+      4e9;  // of form factors and coupling; beyond it, only pairs that rays find are kept
 };
 
 struct Room {
@@ -36,6 +40,9 @@ struct Room {
   Patches patches;
   FormFactors form_factors;
   TransportGeometry transport;
+  // Of rooms of many patches; then form_factors and transport have no matrices, rays_per_element are those of
+  // kMalley, and indirect light is the same all over a patch.
+  std::shared_ptr<const SparseTransport> sparse;
 };
 // Facets drawn on one another are cut first (WithoutOverlaps), so `scene` may differ from the given one.
 Room MakeRoom(const Scene& given, const RoomOptions& options = {});

@@ -32,8 +32,9 @@ Iterator SortAndMerge(Iterator begin, Iterator end) {
   return begin == end ? begin : last + 1;
 }
 
-// Row `patch` of F.
-std::vector<Entry> CastRow(const RayRows& rays, const Patches& patches, size_t patch_index) {
+// Row `patch` of F; tallies by element.
+std::vector<Entry> CastRow(const RayRows& rays, const Patches& patches, size_t patch_index,
+                           std::vector<RayTally>& tallies) {
   const Patch& patch = patches.patches[patch_index];
   std::vector<Entry> row;
   for (int e = patch.first_element; e < patch.first_element + patch.element_count; ++e) {
@@ -42,6 +43,7 @@ std::vector<Entry> CastRow(const RayRows& rays, const Patches& patches, size_t p
     const RayTally tally = rays.Cast(element, static_cast<uint64_t>(e), [&row](int hit, float weight) {
       row.push_back({hit, weight});
     });
+    tallies[static_cast<size_t>(e)] = tally;
     const float share = static_cast<float>(element.area_m2 / patch.area_m2 * tally.scale);
     for (size_t k = before; k < row.size(); ++k) row[k].value *= share;
   }
@@ -59,11 +61,16 @@ SparseTransport::SparseTransport(const RayScene& rays, const Patches& patches,
   const size_t n = patches.patches.size();
   const RayRows caster(rays, patches, FormFactorMethod::kMalley, options.rays_per_element);
   std::vector<std::vector<Entry>> rows(n);
+  std::vector<RayTally> tallies(patches.elements.size());
   tbb::parallel_for(tbb::blocked_range<size_t>(0, n, kRowsPerTask),
                     [&](const tbb::blocked_range<size_t>& range) {
                       for (size_t i = range.begin(); i < range.end(); ++i)
-                        rows[i] = CastRow(caster, patches, i);
+                        rows[i] = CastRow(caster, patches, i, tallies);
                     });
+  const RayTally all = Summarise(tallies);
+  escaped_fraction_ = all.escaped;
+  back_fraction_ = all.back;
+  rays_ = all.rays;
   // Each entry goes into its row and, transposed, into its column's.
   row_start_.assign(n + 1, 0);
   for (size_t i = 0; i < n; ++i) {

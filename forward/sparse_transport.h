@@ -34,10 +34,16 @@ class SparseTransport : public LinearTransport {
   Eigen::MatrixXf DiagonalBlock(Eigen::Index first, Eigen::Index count) const override;
   void AddColumn(Eigen::Index i, float factor, Eigen::Ref<Eigen::VectorXf> y) const override;
   int64_t pair_count() const { return row_start_.back(); }
+  // Of the rays, as FormFactors has them.
+  double escaped_fraction() const { return escaped_fraction_; }
+  double back_fraction() const { return back_fraction_; }
+  int64_t rays() const { return rays_; }
 
  private:
   std::vector<int64_t> row_start_;  // patches + 1
   std::vector<Pair> pairs_;         // by row, then column
+  double escaped_fraction_ = 0, back_fraction_ = 0;
+  int64_t rays_ = 0;
 };
 
 // Areas and materials by patch, as SolveRadiosity takes them.

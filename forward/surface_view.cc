@@ -8,7 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "forward/dense_product.h"
 #include "forward/internal/gather.h"
 #include "forward/shadowed_light.h"
 
@@ -112,7 +111,7 @@ LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, co
   Eigen::MatrixXf patch_exitance(patch_direct.rows(), albedo.cols());
   for (Eigen::Index c = 0; c < albedo.cols(); ++c)
     patch_exitance.col(c) = Transport(room.transport, albedo.col(c)).Exitance(patch_direct);
-  const Eigen::MatrixXf indirect_lx = Product(room.form_factors.element_to_patch, patch_exitance);
+  const Eigen::MatrixXf indirect_lx = IndirectAtElements(room, patch_exitance);
   lit.element_exitance.resize(elements, albedo.cols());
   for (Eigen::Index c = 0; c < albedo.cols(); ++c)
     lit.element_exitance.col(c) =

@@ -35,6 +35,8 @@ Transport::Transport(const TransportGeometry& geometry, const Eigen::VectorXd& a
     throw std::invalid_argument("Transport: expected reflectances in [0, 1)");
   }
   const Eigen::Index n = geometry.patch_area_m2.size();
+  if (geometry.coupling.rows() != n)
+    throw std::invalid_argument("Transport: expected a dense coupling, got a sparse one; use SolveRadiosity");
   root_area_ = geometry.patch_area_m2.cwiseSqrt();
   root_albedo_.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -159,6 +159,25 @@ TEST(ChooseAccuracy, SaysWhenMemoryEndsIt) {
   EXPECT_NE(choice.patches_because.find("memory"), std::string::npos);
 }
 
+// As if the mesh had a hundred thousand facets: no dense matrix, the same light.
+TEST(SceneLight, IsTheSameFromThePairsThatRaysFind) {
+  const LitScene lit = Furnished();
+  SceneLightOptions options;
+  options.room.patches = PatchesOfSize(0.4);
+  options.room.form_factors = {256, FormFactorMethod::kMalley};
+  const SceneLight dense = ComputeSceneLight(lit, options);
+  options.room.max_matrix_bytes = 0;
+  const SceneLight sparse = ComputeSceneLight(lit, options);
+  ASSERT_FALSE(dense.room.sparse);
+  ASSERT_TRUE(sparse.room.sparse);
+  EXPECT_EQ(sparse.room.form_factors.element_to_patch.size(), 0);
+  EXPECT_EQ(sparse.light.solver, RadiositySolver::kConjugateGradient);
+  // Indirect light is constant over patches there, not over elements.
+  EXPECT_LT(RelativeRmsPercent(sparse.light.total.cast<double>(), dense.light.total.cast<double>()), 0.3);
+  EXPECT_NEAR(sparse.room.form_factors.escaped_fraction, dense.room.form_factors.escaped_fraction, 1e-6);
+  EXPECT_THROW(Transport(sparse.room.transport, Eigen::Vector2d(0.5, 0.5)), std::invalid_argument);
+}
+
 TEST(ChooseAccuracy, WithoutSurfacesLightIsDirect) {
   const AccuracyChoice choice =
       ChooseAccuracy(Lit({}, {}, {Panel({0, 0, 2})}, {{{0, 0, 0}, {0, 0, 1}, {}}})).choice;
