@@ -5,11 +5,10 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/internal/inside_solid.h"
+#include "forward/internal/leaf_light.h"
 #include "forward/internal/light_exchange.h"
 #include "forward/internal/light_links.h"
 #include "forward/internal/light_tree.h"
@@ -33,11 +32,6 @@ struct Uncertainty {
 // Parts of an uneven source mostly exist already, and to take it as even errs the same way for many
 // receivers: cutting it costs less and mends more than cutting receivers.
 constexpr double kSourceUrgency = 4;
-
-// Mean and rms deviation over the share of a leaf that lies in no solid, and that share.
-struct LeafLight {
-  float direct_lx = 0, direct_error_lx = 0, free = 0;
-};
 
 class Refinement {
  public:
@@ -77,7 +71,6 @@ class Refinement {
 
   void CutLeaf(int node);
   void RefineDirect();
-  LeafLight EvaluateLeaf(int leaf) const;
   void EvaluateFresh();
   void RefineLinks();
   std::vector<Candidate> TakeIntolerable();
@@ -115,7 +108,7 @@ Uncertainty Refinement::UncertaintyOf(const LightLink& link) const {
   // A source that is not evenly bright: its parts are seen under angles that differ by its size over the
   // distance.
   const double nearness = std::min(1.0, q.radius_m / std::max((q.center - p.center).norm(), 1e-9));
-  const double from_source = exchange_.spread(link.source) * link.factor * nearness;
+  const double from_source = exchange_.spread(link.source) * std::hypot(link.factor * nearness, link.shadow);
   Uncertainty uncertainty{std::hypot(from_receiver, from_source),
                           std::hypot(from_receiver, kSourceUrgency * from_source), -1};
   const bool uneven = kSourceUrgency * from_source > from_receiver;
@@ -140,31 +133,16 @@ void Refinement::CutLeaf(int node) {
   ++cuts_;
 }
 
-LeafLight Refinement::EvaluateLeaf(int leaf) const {
-  const LightNode& node = tree_[leaf];
-  const Probes probes = ProbesOf(node);
-  std::array<double, 4> lx{};
-  int free = 0;
-  for (int k = 0; k < probes.count; ++k) {
-    const Eigen::Vector3d& p = probes.points[static_cast<size_t>(k)];
-    if (!IsInsideSolid(scene_, rays_, p, node.normal))
-      lx[static_cast<size_t>(free++)] = direct_at_(p, node.normal);
-  }
-  if (free == 0) return {};
-  const MeanAndDeviation direct = OfProbes(lx, free);
-  const float share = static_cast<float>(free) / static_cast<float>(probes.count);
-  return {static_cast<float>(direct.mean), static_cast<float>(direct.deviation), share};
-}
-
 void Refinement::EvaluateFresh() {
   direct_error_.resize(static_cast<size_t>(tree_.size()), 0);
   std::vector<LeafLight> light(fresh_.size());
   tbb::parallel_for(tbb::blocked_range<size_t>(0, fresh_.size(), 64),
                     [&](const tbb::blocked_range<size_t>& range) {
-                      for (size_t i = range.begin(); i < range.end(); ++i) light[i] = EvaluateLeaf(fresh_[i]);
+                      for (size_t i = range.begin(); i < range.end(); ++i)
+                        light[i] = EvaluateLeaf(tree_, scene_, rays_, direct_at_, fresh_[i]);
                     });
   for (size_t i = 0; i < fresh_.size(); ++i) {
-    exchange_.SetDirect(fresh_[i], light[i].direct_lx, light[i].free);
+    exchange_.SetDirect(fresh_[i], light[i].direct_lx, light[i].free, light[i].landing);
     direct_error_[static_cast<size_t>(fresh_[i])] = light[i].direct_error_lx;
   }
   fresh_.clear();
@@ -187,7 +165,10 @@ std::vector<Candidate> Refinement::TakeIntolerable() {
   size_t kept = 0;
   for (const LightLink& link : links_) {
     const Uncertainty uncertainty = UncertaintyOf(link);
-    if (uncertainty.cut < 0 || IsTolerable(uncertainty.urgency_lx, link.receiver)) {
+    const bool tolerable = IsTolerable(uncertainty.urgency_lx, link.receiver);
+    if (tolerable && !IsTolerable(link.doubt * exchange_.exitance(link.source), link.receiver)) {
+      next.push_back({link.receiver, link.source});
+    } else if (tolerable || uncertainty.cut < 0) {
       links_[kept++] = link;
     } else {
       Expand({link.receiver, link.source}, uncertainty.cut, next);
@@ -224,12 +205,8 @@ void Refinement::RefineLinks() {
         tbb::blocked_range<size_t>(0, active.size(), 256), [&](const tbb::blocked_range<size_t>& range) {
           for (size_t i = range.begin(); i < range.end(); ++i) {
             const Candidate& candidate = active[i];
-            if (candidate.receiver != candidate.source) {
-              evaluated[i] =
-                  EvaluateLink(tree_, rays_, candidate.receiver, candidate.source, ToleranceOf(candidate));
-            } else if (tree_[candidate.receiver].IsCluster()) {
-              evaluated[i].verdict = Verdict::kTooNear;
-            }
+            evaluated[i] =
+                EvaluateLink(tree_, rays_, candidate.receiver, candidate.source, ToleranceOf(candidate));
           }
         });
     out_of_links_ = static_cast<int64_t>(links_.size() + active.size()) > options_.max_links;
@@ -262,9 +239,9 @@ void Refinement::RefineLinks() {
 }
 
 void Refinement::GatherToConvergence() {
-  // What is still to come is at most the last change over 1 - rho; a fiftieth of the error is nothing beside
+  // What is still to come is at most the last change over 1 - rho; a 500th of the error is nothing beside
   // it.
-  const double enough = 0.02 * 0.01 * options_.error_percent * (1 - mean_albedo_);
+  const double enough = 0.002 * 0.01 * options_.error_percent * (1 - mean_albedo_);
   constexpr int kMaxIterations = 500;
   for (int i = 0; i < kMaxIterations; ++i) {
     ++iterations_;
@@ -275,15 +252,28 @@ void Refinement::GatherToConvergence() {
 }
 
 double Refinement::EstimateError() const {
-  std::vector<double> bound_lx(static_cast<size_t>(tree_.size()), 0);
-  for (const LightLink& link : links_) bound_lx[static_cast<size_t>(link.receiver)] += UncertaintyOf(link).lx;
+  // Light of neighbouring elements falls off the same way over a receiver: their errors add. What is unknown
+  // of a cluster, who stands where and hides whom, differs from link to link: their squares add.
+  std::vector<double> bound_lx(static_cast<size_t>(tree_.size()), 0), variance = bound_lx;
+  for (const LightLink& link : links_) {
+    const size_t receiver = static_cast<size_t>(link.receiver);
+    const double lx = UncertaintyOf(link).lx;
+    if (tree_[link.receiver].IsCluster() || tree_[link.source].IsCluster()) {
+      variance[receiver] += lx * lx;
+    } else {
+      bound_lx[receiver] += lx;
+    }
+  }
   double square = 0;
   for (int i = 0; i < tree_.size(); ++i) {
     const LightNode& node = tree_[i];
-    const double here_lx = bound_lx[static_cast<size_t>(i)];
-    for (int k = 0; k < node.child_count; ++k)
-      bound_lx[static_cast<size_t>(node.child[static_cast<size_t>(k)])] += here_lx;
-    if (node.IsLeaf()) square += node.area_m2 * std::pow(here_lx + direct_error_[static_cast<size_t>(i)], 2);
+    const size_t n = static_cast<size_t>(i);
+    for (int k = 0; k < node.child_count; ++k) {
+      bound_lx[static_cast<size_t>(node.child[static_cast<size_t>(k)])] += bound_lx[n];
+      variance[static_cast<size_t>(node.child[static_cast<size_t>(k)])] += variance[n];
+    }
+    if (node.IsLeaf())
+      square += node.area_m2 * (bound_lx[n] * bound_lx[n] + variance[n] + std::pow(direct_error_[n], 2));
   }
   return std::sqrt(square / area_m2_) / mean_lx_;
 }

@@ -6,15 +6,19 @@
 // triangles); facets are gathered in a binary tree of clusters, so that n facets need no n^2 links. A link
 // joins any two nodes; light gathered at a node is pushed down to its leaves, and the exitance of leaves
 // pulled up. A link is refined while the illuminance it leaves uncertain, weighted with the root of the
-// receiver's share of all area, exceeds a threshold; the threshold falls until the root of the summed squares
-// over all links and leaves is below error_percent. So errors are taken as independent, and the estimate is
-// one of the pointwise rms error (elements are constant).
+// receiver's share of all area, exceeds a threshold; the threshold falls until the estimate is below
+// error_percent. The estimate is one of the pointwise rms error (elements are constant): over a leaf, errors
+// of links between elements add, as light of neighbours falls off the same way; those of links with a cluster
+// and that of direct light add by squares, taken as independent.
 //   uncertain of a link:  variation of F V over the receiver (Lambert's formula at four points, rays from
-//   each to
-//                         points of the source), variation of M over the source, extent of clusters
+//   each
+//                         to points of the source), of M over the source and over what is seen of it, extent
+//                         of clusters
 //   uncertain of a leaf:  variation of direct light over it: shadow edges, near luminaires
-// Light from and to a cluster goes by second-order spherical harmonics of the clamped cosine. Rays a link: 4
-// to 64, by how much light it carries.
+// Light from and to a cluster goes by second-order spherical harmonics of the clamped cosine, light within
+// one evenly to all members. Some rays of a link decide whether it is cut, others measure. After every pass
+// what was received is scaled to the flux that left and landed, which rays from every leaf count: the mean
+// keeps the energy, in open rooms too.
 //
 // lx, metres, world; albedo by material of the scene in [0, 1). direct_lx must be callable from several
 // threads. Leaves that lie inside a solid see nothing and stay dark. Throws std::invalid_argument for options
@@ -45,7 +49,7 @@ struct HierarchicalOptions {
   double error_percent = 5;         // estimated pointwise rms error, in percent of the mean illuminance
   double max_element_m = 0.5;       // start: no narrower feature of direct light is looked for
   double min_element_m = 0.02;      // no edge is cut below it
-  int64_t max_links = 200'000'000;  // 16 bytes each
+  int64_t max_links = 200'000'000;  // 24 bytes each
 };
 
 struct HierarchicalElement {

@@ -10,6 +10,8 @@ namespace luxfit {
 namespace {
 
 constexpr float kPi = 3.14159265f;
+// Illuminance anywhere in a field whose one coefficient is the zeroth, 1.
+constexpr float kUniform = kPi * 0.282095f;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ LightExchange::LightExchange(const LightTree& tree, const std::vector<float>& al
 }
 
 void LightExchange::Grow() {
-  for (std::vector<float>* values : {&direct_lx_, &received_lx_, &exitance_, &spread_, &free_})
+  for (std::vector<float>* values : {&direct_lx_, &received_lx_, &exitance_, &spread_, &free_, &landing_})
     values->resize(static_cast<size_t>(tree_.size()), 0);
 }
 
@@ -32,7 +34,7 @@ void LightExchange::Inherit(int parent) {
   const LightNode& node = tree_[parent];
   for (int k = 0; k < node.child_count; ++k) {
     const size_t c = static_cast<size_t>(node.child[static_cast<size_t>(k)]);
-    for (std::vector<float>* values : {&direct_lx_, &received_lx_, &exitance_, &free_})
+    for (std::vector<float>* values : {&direct_lx_, &received_lx_, &exitance_, &free_, &landing_})
       (*values)[c] = (*values)[static_cast<size_t>(parent)];
   }
 }
@@ -42,7 +44,28 @@ void LightExchange::Start(float ambient_lx) {
   Reflect();
 }
 
+double LightExchange::LandingFlux() const {
+  double flux_lm = 0;
+  for (int i = tree_.cluster_count(); i < tree_.size(); ++i) {
+    const size_t n = static_cast<size_t>(i);
+    if (tree_[i].IsLeaf()) flux_lm += tree_[i].area_m2 * free_[n] * landing_[n] * exitance_[n];
+  }
+  return flux_lm;
+}
+
+void LightExchange::Balance(double landing_lm) {
+  double received_lm = 0;
+  for (int i = tree_.cluster_count(); i < tree_.size(); ++i) {
+    const size_t n = static_cast<size_t>(i);
+    if (tree_[i].IsLeaf()) received_lm += tree_[i].area_m2 * free_[n] * received_lx_[n];
+  }
+  if (received_lm == 0) return;
+  const float scale = static_cast<float>(landing_lm / received_lm);
+  for (float& lx : received_lx_) lx *= scale;
+}
+
 double LightExchange::Gather(const std::vector<LightLink>& links) {
+  const double landing_lm = LandingFlux();
   std::fill(received_lx_.begin(), received_lx_.end(), 0.0f);
   std::fill(field_.begin(), field_.end(), DirectionalLight::Zero());
   tbb::parallel_for(
@@ -63,6 +86,10 @@ double LightExchange::Gather(const std::vector<LightLink>& links) {
               sum_lx += link.factor * exitance_[q];
               continue;
             }
+            if (AreNear(tree_[receiver], tree_[link.source])) {
+              sum_lx += link.factor * exitance_[q];
+              continue;
+            }
             const Eigen::Vector3d d = (tree_[link.source].center - tree_[receiver].center).normalized();
             const float light =
                 from_cluster ? std::max(0.0f, intensity_[q].dot(Harmonics(-d))) : exitance_[q];
@@ -73,11 +100,15 @@ double LightExchange::Gather(const std::vector<LightLink>& links) {
             }
           }
           const float free = free_[static_cast<size_t>(receiver)];
-          if (free > 0) received_lx_[static_cast<size_t>(receiver)] = sum_lx / (cluster ? 1 : free);
-          if (cluster) field_[static_cast<size_t>(receiver)] = field;
+          if (free > 0 && !cluster) received_lx_[static_cast<size_t>(receiver)] = sum_lx / free;
+          if (cluster) {
+            field[0] += sum_lx / kUniform;
+            field_[static_cast<size_t>(receiver)] = field;
+          }
         }
       });
   Push();
+  Balance(landing_lm);
   return Reflect();
 }
 

@@ -5,7 +5,9 @@
 //   element <- element   F V          times M                                   = illuminance
 //   element <- cluster   V cos / r^2  times intensity I(-d)                     = illuminance
 //   cluster <- element   V A cos / (pi r^2)  times M          } illuminance perpendicular to d, which the
-//   cluster's cluster <- cluster   V / r^2      times intensity I(-d)   } members turn into theirs
+//   cluster <- cluster     V / r^2      times intensity I(-d)   } members turn into theirs
+// Ends too near each other to be seen as points (AreNear; a cluster and itself too):
+//   cluster and any      share of a member's rays that meet the source, times M = illuminance of any member
 #ifndef LUXFIT_FORWARD_INTERNAL_LIGHT_LINKS_H_
 #define LUXFIT_FORWARD_INTERNAL_LIGHT_LINKS_H_
 
@@ -23,10 +25,19 @@ struct LightLink {
   // Of the receiver's illuminance over the source's mean exitance, rms over the receiver; negative where
   // cutting the source mends more.
   float error = 0;
+  // Rms over the source of what of each of its points is seen, times the factor that nothing would hide: an
+  // uneven source may show the receiver its bright part only.
+  float shadow = 0;
+  // What one more ray might change: the factor that nothing would hide over the rays that were cast, where
+  // they agreed and more would help; else 0. A smaller tolerance asks for more rays before it trusts them.
+  float doubt = 0;
 };
 
+// At least one a cluster, so near that light between them has no one direction or distance.
+bool AreNear(const LightNode& p, const LightNode& q);
+
 struct LinkEvaluation {
-  enum class Verdict { kNone, kLink, kTooNear };  // no light passes; link; clusters overlap: cut first
+  enum class Verdict { kNone, kLink, kTooNear };  // no light passes; link; cut first
   Verdict verdict = Verdict::kNone;
   LightLink link;
 };

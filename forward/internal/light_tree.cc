@@ -39,7 +39,9 @@ LightTree::LightTree(const Scene& scene) {
   std::iota(facets.begin(), facets.end(), 0);
   // Facets get their numbers once it is known how many clusters precede them: a binary tree has one fewer.
   cluster_count_ = std::max(0, static_cast<int>(facets.size()) - 1);
-  if (cluster_count_ > 0) AddCluster(scene, facets.begin(), facets.end());
+  if (cluster_count_ > 0) AddCluster(scene, facets, 0, cluster_count_ + 1);
+  member_of_.resize(facets.size());
+  for (size_t i = 0; i < facets.size(); ++i) member_of_[static_cast<size_t>(facets[i])] = static_cast<int>(i);
   for (size_t f = 0; f < scene.facets.size(); ++f) {
     const Facet& facet = scene.facets[f];
     nodes_.push_back(MakeElement(static_cast<int>(f), facet.kind, facet.origin, facet.edge_u, facet.edge_v));
@@ -50,8 +52,8 @@ LightTree::LightTree(const Scene& scene) {
   }
 }
 
-int LightTree::AddCluster(const Scene& scene, std::vector<int>::iterator begin,
-                          std::vector<int>::iterator end) {
+int LightTree::AddCluster(const Scene& scene, std::vector<int>& facets, int first_member, int end_member) {
+  const auto begin = facets.begin() + first_member, end = facets.begin() + end_member;
   if (end - begin == 1) return cluster_count_ + *begin;
   Eigen::AlignedBox3d bounds, centers;
   const auto center_of = [&](int f) -> Eigen::Vector3d {
@@ -72,15 +74,18 @@ int LightTree::AddCluster(const Scene& scene, std::vector<int>::iterator begin,
   cluster.center = bounds.center();
   cluster.radius_m = 0.5 * bounds.diagonal().norm();
   cluster.child_count = 2;
+  cluster.first_member = first_member;
+  cluster.end_member = end_member;
   nodes_.push_back(cluster);
   Eigen::Index axis = 0;
   centers.sizes().maxCoeff(&axis);
-  const auto middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end, [&](int a, int b) {
+  const int middle = first_member + (end_member - first_member) / 2;
+  std::nth_element(begin, facets.begin() + middle, end, [&](int a, int b) {
     const double xa = center_of(a)[axis], xb = center_of(b)[axis];
     return xa < xb || (xa == xb && a < b);
   });
-  const int first = AddCluster(scene, begin, middle), second = AddCluster(scene, middle, end);
+  const int first = AddCluster(scene, facets, first_member, middle);
+  const int second = AddCluster(scene, facets, middle, end_member);
   nodes_[static_cast<size_t>(index)].child[0] = first;
   nodes_[static_cast<size_t>(index)].child[1] = second;
   return index;

@@ -22,7 +22,8 @@ struct LightNode {
   double radius_m = 0;  // of the sphere around centre that holds it
   std::array<int, 4> child{{-1, -1, -1, -1}};
   int child_count = 0;
-  int facet = -1;  // -1: a cluster
+  int facet = -1;                        // -1: a cluster
+  int first_member = 0, end_member = 0;  // clusters only: LightTree::MemberOf of their facets
   FacetKind kind = FacetKind::kParallelogram;
 
   bool IsCluster() const { return facet < 0; }
@@ -36,6 +37,8 @@ class LightTree {
   const LightNode& operator[](int i) const { return nodes_[static_cast<size_t>(i)]; }
   int size() const { return static_cast<int>(nodes_.size()); }
   int cluster_count() const { return cluster_count_; }
+  // Facets numbered so that those of a cluster follow each other.
+  int MemberOf(int facet) const { return member_of_[static_cast<size_t>(facet)]; }
   // Cuts a leaf: a parallelogram across its longer edge where that is more than twice the other, else into
   // four.
   void Split(int node);
@@ -46,8 +49,9 @@ class LightTree {
   Place PlaceOn(int node, const Eigen::Vector3d& unit) const;
 
  private:
-  int AddCluster(const Scene& scene, std::vector<int>::iterator begin, std::vector<int>::iterator end);
+  int AddCluster(const Scene& scene, std::vector<int>& facets, int first_member, int end_member);
   std::vector<LightNode> nodes_;
+  std::vector<int> member_of_;
   int cluster_count_ = 0;
 };
 

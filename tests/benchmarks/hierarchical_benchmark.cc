@@ -1,19 +1,23 @@
-// Hierarchical radiosity: leaves, links, time, memory and error as the bound falls (FurnishedRoom) and as
-// facets are added (Clutter). FurnishedRoom: percent x 10 that is asked for; error_vs_dense is the
-// area-weighted rms difference from the dense solution (patches 0.2 m, elements 0.1 m, 1024 rays) at the
-// leaves' centres, in percent of the mean: it holds the dense solution's own error at shadow edges too.
-// Clutter: boxes in the room, 20 % asked for.
+// Hierarchical radiosity: leaves, links, time, memory and error.
+//
+//   AskedError/ROOM/ASKED   rooms empty, with a partition, furnished, with thin legs and small things; ASKED:
+//                           percent x 10
+//   Clutter/BOXES           boxes of 3 to 10 cm in the room, 20 % asked for: the more, the less light passes
+//   Detail/BOXES            as many boxes of the same total area: more facets, the same light
+// measured, bias, direct, direct_bias: of points spread by area, from the light tracer (its own noise taken
+// off), in percent of the mean; rms, mean, and both of direct light alone.
+// cpu_s: of all threads. Cases that a run has shown to last longer than about two minutes are left out.
 //   build/release/tests/benchmarks/hierarchical_benchmark
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numeric>
 #include <random>
+#include <vector>
 
 #include "forward/hierarchical.h"
-#include "forward/illuminance.h"
+#include "forward/light_tracer.h"
 #include "forward/room.h"
 #include "forward/shadowed_light.h"
 #include "tests/support/scenes.h"
@@ -30,15 +34,23 @@ Luminaire CeilingPanel() {
   return lamp;
 }
 
-// Boxes of 3 to 10 cm above the floor, turned about z, as many as asked for.
-Scene RoomWithBoxes(int64_t count) {
-  Scene scene = support::ClosedRoom({6, 4, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"});
+Scene EmptyRoom() {
+  return support::ClosedRoom({6, 4, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"});
+}
+
+void AddSolid(Scene& scene, const Eigen::Vector3d& min, const Eigen::Vector3d& max) {
+  support::AddBox(scene, {min, max}, support::Facing::kOutward, {"box"});
+}
+
+// Boxes of 3 to 10 cm times `scale` above the floor, turned about z.
+void AddBoxes(Scene& scene, int64_t count, double scale) {
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<double> unit(0, 1);
+  const int material = support::MaterialIndex(scene, "box");
   for (int64_t i = 0; i < count; ++i) {
     const Eigen::Vector3d center(0.1 + 5.8 * unit(rng), 0.1 + 3.8 * unit(rng), 0.1 + 1.4 * unit(rng));
     const Eigen::Vector3d half =
-        Eigen::Vector3d::Constant(0.015) + 0.035 * Eigen::Vector3d(unit(rng), unit(rng), unit(rng));
+        scale * (Eigen::Vector3d::Constant(0.015) + 0.035 * Eigen::Vector3d(unit(rng), unit(rng), unit(rng)));
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(unit(rng), Eigen::Vector3d::UnitZ()).toRotationMatrix();
     Scene box;
     support::AddBox(box, {-half, half}, support::Facing::kOutward, {"box"});
@@ -46,9 +58,38 @@ Scene RoomWithBoxes(int64_t count) {
       facet.origin = center + turn * facet.origin;
       facet.edge_u = turn * facet.edge_u;
       facet.edge_v = turn * facet.edge_v;
-      facet.material = support::MaterialIndex(scene, "box");
+      facet.material = material;
       scene.facets.push_back(facet);
     }
+  }
+}
+
+// A top of 3 cm on four legs of 3 cm.
+void AddTable(Scene& scene, const Eigen::Vector2d& corner, const Eigen::Vector2d& size) {
+  constexpr double kThick = 0.03, kHeight = 0.72;
+  const auto at = [&](double x, double y, double z) {
+    return Eigen::Vector3d(corner[0] + x, corner[1] + y, z);
+  };
+  AddSolid(scene, at(0, 0, kHeight), at(size[0], size[1], kHeight + kThick));
+  for (const double x : {0.02, size[0] - 0.02 - kThick}) {
+    for (const double y : {0.02, size[1] - 0.02 - kThick})
+      AddSolid(scene, at(x, y, 0), at(x + kThick, y + kThick, kHeight));
+  }
+}
+
+enum RoomKind { kEmpty, kPartition, kFurnished, kLegs };
+
+Scene MakeScene(int64_t kind) {
+  Scene scene = EmptyRoom();
+  if (kind == kPartition) AddSolid(scene, {3.4, 0, 0}, {3.5, 2.6, 2.8});
+  if (kind == kFurnished) {
+    AddSolid(scene, {0.6, 0.5, 0}, {1.4, 1.5, 1.1});
+    AddSolid(scene, {2.6, 1.0, 0.9}, {3.3, 2.2, 1.0});
+  }
+  if (kind == kLegs) {
+    AddTable(scene, {0.8, 0.6}, {1.4, 0.7});
+    AddTable(scene, {3.0, 2.2}, {1.6, 0.8});
+    AddBoxes(scene, 100, 1);
   }
   return scene;
 }
@@ -59,9 +100,13 @@ Eigen::VectorXd AlbedoOf(const Scene& scene) {
   return albedo;
 }
 
-DirectLight DirectLightOf(const RayScene& rays, const Luminaire& lamp) {
-  return [&rays, &lamp](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-    return lamp.flux_lm * VisibleIlluminancePerLumen(rays, lamp, p, normal);
+// Penumbras as fine as the error that is asked for needs them: the share of the panel in steps of 1 / 16 or
+// less.
+DirectLight DirectLightOf(const RayScene& rays, const Luminaire& lamp, double error_percent) {
+  ShadowOptions shadows;
+  shadows.refinements = error_percent >= 20 ? 0 : (error_percent >= 10 ? 1 : 2);
+  return [&rays, &lamp, shadows](const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
+    return lamp.flux_lm * VisibleIlluminancePerLumen(rays, lamp, p, normal, shadows);
   };
 }
 
@@ -76,77 +121,105 @@ void Report(benchmark::State& state, const HierarchicalSolution& solution) {
   state.counters["process_peak_MB"] = 1e-3 * static_cast<double>(usage.ru_maxrss);
 }
 
-// Total illuminance of the dense solution, by element.
-Eigen::VectorXd DenseLux(const Room& room, const Luminaire& lamp) {
-  std::vector<int> elements(room.patches.elements.size());
-  std::iota(elements.begin(), elements.end(), 0);
-  const Receivers receivers = MakeReceivers(room, elements, {});
-  const LuminaireVisibility visibility = ComputeVisibility(room, receivers, {lamp});
-  return lamp.flux_lm * ComputeIlluminance(room, receivers, visibility, {lamp}, AlbedoOf(room.scene))
-                            .total.col(0)
-                            .cast<double>();
-}
-
-double ErrorVersusDense(const Room& room, const HierarchicalSolution& solution, const Luminaire& lamp) {
-  const Eigen::VectorXd dense = DenseLux(room, lamp);
-  double square = 0, area = 0;
-  for (const HierarchicalElement& leaf : solution.elements) {
-    const Facet& facet = room.scene.facets[static_cast<size_t>(leaf.facet)];  // rectangles all
-    const Eigen::Vector3d d = leaf.center - facet.origin;
-    const int element = room.patches.ElementAt(leaf.facet, d.dot(facet.edge_u) / facet.edge_u.squaredNorm(),
-                                               d.dot(facet.edge_v) / facet.edge_v.squaredNorm());
-    if (element < 0) continue;
-    square += leaf.area_m2 * std::pow(leaf.illuminance_lx - dense[element], 2);
-    area += leaf.area_m2;
+// Points spread by area, each on the leaf that holds it, against the light tracer.
+void CompareWithTracer(benchmark::State& state, const Scene& scene, const RayScene& rays,
+                       const Luminaire& lamp, const HierarchicalSolution& solution) {
+  constexpr int kPoints = 3000;
+  std::mt19937_64 rng(2);
+  std::vector<double> area;
+  area.reserve(solution.elements.size());
+  for (const HierarchicalElement& element : solution.elements) area.push_back(element.area_m2);
+  std::discrete_distribution<size_t> leaf(area.begin(), area.end());
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Sensor> sensors;
+  std::vector<const HierarchicalElement*> elements;
+  for (int i = 0; i < kPoints; ++i) {
+    elements.push_back(&solution.elements[leaf(rng)]);
+    const HierarchicalElement& at = *elements.back();
+    const double u = unit(rng), v = unit(rng);  // parallelograms all
+    sensors.push_back(
+        {at.origin + u * at.edge_u + v * at.edge_v, scene.facets[static_cast<size_t>(at.facet)].Normal()});
   }
-  return 100 * std::sqrt(square / area) / solution.mean_illuminance_lx;
+  LightTracerOptions options;
+  options.paths_per_sensor = 2048;
+  const TracedIlluminance truth = TraceIlluminance(scene, rays, {lamp}, AlbedoOf(scene), sensors, options);
+  double square = 0, sum = 0, direct_square = 0, direct_sum = 0;
+  int free = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double direct_lx = truth.direct(i, 0), indirect_lx = truth.indirect(i, 0);
+    if (direct_lx + indirect_lx == 0) continue;  // inside a solid
+    ++free;
+    const HierarchicalElement& element = *elements[static_cast<size_t>(i)];
+    const double direct_difference = element.direct_lx - direct_lx;
+    const double difference = element.illuminance_lx - direct_lx - indirect_lx;
+    const double direct_noise = std::pow(truth.direct_sigma(i, 0), 2);
+    direct_square += direct_difference * direct_difference - direct_noise;
+    direct_sum += direct_difference;
+    square += difference * difference - direct_noise - std::pow(truth.indirect_sigma(i, 0), 2);
+    sum += difference;
+  }
+  const double percent = 100 / solution.mean_illuminance_lx;
+  state.counters["measured"] = percent * std::sqrt(std::max(0.0, square / free));
+  state.counters["bias"] = percent * sum / free;
+  state.counters["direct"] = percent * std::sqrt(std::max(0.0, direct_square / free));
+  state.counters["direct_bias"] = percent * direct_sum / free;
 }
 
-void FurnishedRoom(benchmark::State& state) {
-  Scene scene = RoomWithBoxes(0);
-  support::AddBox(scene, {Eigen::Vector3d(0.6, 0.5, 0), Eigen::Vector3d(1.4, 1.5, 1.1)},
-                  support::Facing::kOutward, {"box"});
-  support::AddBox(scene, {Eigen::Vector3d(2.6, 1.0, 0.9), Eigen::Vector3d(3.3, 2.2, 1.0)},
-                  support::Facing::kOutward, {"box"});
-  RoomOptions room_options;
-  room_options.patches.patch_size_m = 0.2;
-  room_options.form_factors.rays_per_element = 1024;
-  const Room room = MakeRoom(scene, room_options);
+// Of all threads: the machine may be shared.
+double CpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+void Solve(benchmark::State& state, const Scene& scene, double error_percent, bool compare) {
+  const RayScene rays(scene);
   const Luminaire lamp = CeilingPanel();
   HierarchicalOptions options;
-  options.error_percent = 0.1 * static_cast<double>(state.range(0));
+  options.error_percent = error_percent;
   options.min_element_m = 0.002;
   HierarchicalSolution solution;
+  const double before_s = CpuSeconds();
   for (auto _ : state) {
-    solution = SolveHierarchical(room.scene, room.rays, AlbedoOf(room.scene), DirectLightOf(room.rays, lamp),
-                                 options);
+    solution =
+        SolveHierarchical(scene, rays, AlbedoOf(scene), DirectLightOf(rays, lamp, error_percent), options);
   }
+  state.counters["cpu_s"] = CpuSeconds() - before_s;
   Report(state, solution);
-  state.counters["error_vs_dense"] = ErrorVersusDense(room, solution, lamp);
+  state.counters["facets"] = static_cast<double>(scene.facets.size());
+  if (compare) CompareWithTracer(state, scene, rays, lamp, solution);
 }
-BENCHMARK(FurnishedRoom)
-    ->Arg(200)
-    ->Arg(100)
-    ->Arg(50)
-    ->Arg(25)
-    ->Arg(15)
+
+void AskedError(benchmark::State& state) {
+  Solve(state, MakeScene(state.range(0)), 0.1 * static_cast<double>(state.range(1)), true);
+}
+BENCHMARK(AskedError)
+    ->ArgsProduct({{kEmpty, kPartition, kFurnished, kLegs}, {200, 100, 50}})
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
     ->Iterations(1);
 
 void Clutter(benchmark::State& state) {
-  const Scene scene = RoomWithBoxes(state.range(0));
-  const RayScene rays(scene);
-  const Luminaire lamp = CeilingPanel();
-  HierarchicalOptions options;
-  options.error_percent = 20;
-  HierarchicalSolution solution;
-  for (auto _ : state)
-    solution = SolveHierarchical(scene, rays, AlbedoOf(scene), DirectLightOf(rays, lamp), options);
-  Report(state, solution);
-  state.counters["facets"] = static_cast<double>(scene.facets.size());
+  Scene scene = EmptyRoom();
+  AddBoxes(scene, state.range(0), 1);
+  Solve(state, scene, 20, true);
 }
 BENCHMARK(Clutter)->Arg(100)->Arg(1000)->Arg(10000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+void Detail(benchmark::State& state) {
+  Scene scene = EmptyRoom();
+  AddBoxes(scene, state.range(0), std::sqrt(1000.0 / static_cast<double>(state.range(0))));
+  Solve(state, scene, 20, true);
+}
+BENCHMARK(Detail)
+    ->RangeMultiplier(10)
+    ->Range(160, 160000)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
 
 }  // namespace
 }  // namespace luxfit

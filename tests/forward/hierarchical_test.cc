@@ -125,6 +125,23 @@ TEST(Hierarchical, KeepsTheErrorThatIsAskedFor) {
   }
 }
 
+// A wall between bright and dark, floor and walls running on below it.
+TEST(Hierarchical, PartitionKeepsLightOnItsSide) {
+  std::mt19937_64 rng = support::TestRng();
+  Scene scene = support::ClosedRoom({6, 4, 2.8});
+  support::AddBox(scene, {Eigen::Vector3d(3.4, 0, 0), Eigen::Vector3d(3.5, 2.6, 2.8)},
+                  support::Facing::kOutward, {"wall"});
+  const LitScene lit(std::move(scene), CeilingPanel(), Eigen::VectorXd::Constant(1, 0.65));
+  const HierarchicalSolution solution = lit.Solve(Within(10));
+  EXPECT_TRUE(solution.converged) << solution.message;
+  const Comparison measured = WithLightTracer(lit, solution, 300, rng);
+  std::printf("estimated %.2f, measured %.2f %% rms, %.2f %% bias\n", solution.error_percent,
+              measured.rms_percent, measured.bias_percent);
+  EXPECT_LE(measured.rms_percent, 10);
+  // Six standard errors of a mean over 300 points whose rms is 5 %.
+  EXPECT_LE(std::abs(measured.bias_percent), 6 * 5 / std::sqrt(300.0));
+}
+
 // Elements of both on the same places: means of the dense solution over each material.
 TEST(Hierarchical, AgreesWithTheDenseSolution) {
   const LitScene lit = RoomWithOccluders();
