@@ -4,9 +4,9 @@
 // element_size_m. A patch lies in one facet, so it never straddles materials; its elements are numbered
 // consecutively. A patch that a solid stands on, or of which `must_split` says so, is halved until it is
 // clear of it or a single element. Models let solids stand on larger faces (a cabinet against its wall): what
-// lies inside a solid sees only the backs of facets (forward/internal/inside_solid.h; a single sheet encloses
-// nothing). Elements that are wholly inside are left out; of those partly inside only the free share counts as
-// area.
+// lies inside a solid sees only the backs of facets, while a single sheet encloses nothing
+// (forward/internal/inside_solid.h). Elements that are wholly inside are left out; of those partly inside
+// only the free share counts as area.
 //
 // Lengths m, areas m2, world frame.
 // Source: Cohen, Greenberg, Immel, Brock (1986), "An efficient radiosity approach for realistic image
