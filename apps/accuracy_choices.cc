@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace luxfit {
@@ -38,10 +39,12 @@ void RecordAccuracy(const AccuracyChoice& choice, int patches, double error_perc
   if (!choice.reached)
     context.warnings.push_back(
         {"accuracy_not_reached",
-         fmt::format(
-             "an error of {:g} % was asked for, {:.2g} % is the estimate of what was reached; patches: "
-             "{}; rays: {}",
-             error_percent, choice.estimated_error_percent, choice.patches_because, choice.rays_because),
+         fmt::format("an error of {:g} % was asked for, {} of what was reached; patches: {}; rays: {}",
+                     error_percent,
+                     std::isfinite(choice.estimated_error_percent)
+                         ? fmt::format("{:.2g} % is the estimate", choice.estimated_error_percent)
+                         : "there is no estimate",
+                     choice.patches_because, choice.rays_because),
          "ask for less with --error, or leave out details of the mesh"});
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,20 @@ struct Computed {
   double time_s = 0;
 };
 
+// The matrix has a row and a column a patch.
+void ExpectMatrixSize(const Scene& scene, const FormFactorsCommandOptions& options) {
+  constexpr double kMostPatches = 30000;  // 3.6 GB
+  double patches = 0;
+  for (const Facet& facet : scene.facets)
+    patches += std::max(1.0, facet.AreaM2() / (options.patch_size_m * options.patch_size_m));
+  if (patches <= kMostPatches) return;
+  throw std::runtime_error(
+      fmt::format("{}: expected at most {:.0f} patches, got {} facets that make some {:.0f} with "
+                  "--patch-size {:g}; raise it, or "
+                  "leave out details",
+                  options.mesh, kMostPatches, scene.facets.size(), patches, options.patch_size_m));
+}
+
 Computed Compute(const FormFactorsCommandOptions& options) {
   FormFactorOptions how;
   how.method = MethodFrom(options.method);
@@ -61,6 +76,7 @@ Computed Compute(const FormFactorsCommandOptions& options) {
   const Scene given = ReadScene(options.mesh, MetresPer(options.unit));
   // Facets drawn on one another would both send light: as MakeRoom does.
   computed.scene = WithoutOverlaps(given);
+  ExpectMatrixSize(computed.scene, options);
   const RayScene rays(computed.scene);
   computed.patches = Subdivide(computed.scene, rays, {options.patch_size_m, options.patch_size_m});
   const double start_s = NowS();

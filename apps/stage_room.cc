@@ -79,6 +79,14 @@ Room LoadRoom(const Session& session, RunContext& context) {
   const LoadedMesh mesh = LoadMesh(session);
   const RoomOptions options;
   Room room = MakeRoom(mesh.scene, options);
+  if (room.sparse) {
+    throw std::runtime_error(
+        fmt::format("{}: scene.mesh: expected patches whose form factors fit into {:.0f} GB, got {} patches "
+                    "of {} facets; leave "
+                    "out details, or merge them (luxfit simulate takes such meshes as they are)",
+                    session.path, 1e-9 * options.max_matrix_bytes, room.patches.patches.size(),
+                    room.scene.facets.size()));
+  }
   context.choices.push_back({"patches",
                              fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",
                                          room.patches.patches.size(), options.patches.patch_size_m,

@@ -57,7 +57,8 @@ class Chooser {
     last = ChoosePatches(std::move(last));
     choice_.bounces_error_percent = last.light.error_percent;
     choice_.estimated_error_percent =
-        std::hypot(choice_.patches_error_percent, choice_.rays_error_percent, choice_.sensors_error_percent) +
+        std::hypot(choice_.patches_error_percent,
+                   std::hypot(choice_.rays_error_percent, choice_.sensors_error_percent)) +
         choice_.bounces_error_percent;
     choice_.reached = choice_.estimated_error_percent <= options_.error_percent;
     return {choice_, std::move(last)};
@@ -158,10 +159,12 @@ class Chooser {
 
   // Whether elements of half the size do.
   bool FinerFit(const Room& room) const {
-    // They are four times as many; patches grow by less, as most are split no further.
-    constexpr double kPatchesGrow = 2, kElementsGrow = 4, kBytesPerPair = 24;
+    constexpr double kPatchesGrow = 2, kBytesPerPair = 24;  // most patches are split no further
     const double patches = kPatchesGrow * static_cast<double>(room.patches.patches.size());
-    const double elements = kElementsGrow * static_cast<double>(room.patches.elements.size());
+    const double size_m = choice_.options.room.patches.element_size_m;
+    double elements = 0;  // those of small facets stay as they are
+    for (const Element& element : room.patches.elements)
+      elements += std::clamp(4 * element.area_m2 / (size_m * size_m), 1.0, 4.0);
     const int rays = choice_.options.room.form_factors.rays_per_element;
     if (room.sparse) return 2 * elements * rays * kBytesPerPair <= options_.max_matrix_bytes;
     return patches <= options_.max_patches && patches * elements * sizeof(float) <= options_.max_matrix_bytes;

@@ -96,6 +96,8 @@ TEST_F(FormFactorsCommandTest, SaysWhatIsWrong) {
   EXPECT_THAT(Refusal("cube.obj", "f.csv", "--unit yard"), HasSubstr("--unit: expected"));
   EXPECT_THAT(Refusal("none.obj", "f.csv"), HasSubstr("none.obj"));
   EXPECT_THAT(Refusal("cube.obj", "f.csv", "--rays 0"), HasSubstr("--rays"));
+  EXPECT_THAT(Refusal("cube.obj", "f.csv", "--patch-size 0.001"),
+              HasSubstr("expected at most 30000 patches"));
 }
 
 }  // namespace

@@ -76,5 +76,24 @@ TEST_F(StageRoomTest, AMeshInMillimetresReadAsMetresIsRefused) {
   }
 }
 
+// A crowd of triangles in the air: more form factors than a laptop holds.
+TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
+  constexpr int kTriangles = 25000;
+  std::string crowd = kRoom;
+  for (int i = 0; i < kTriangles; ++i) {
+    const std::string x = std::to_string(0.1 + 0.01 * (i % 170)), y = std::to_string(0.1 + 0.01 * (i / 170)),
+                      near_x = std::to_string(0.105 + 0.01 * (i % 170)),
+                      near_y = std::to_string(0.105 + 0.01 * (i / 170));
+    crowd += "v " + x + " " + y + " 1\nv " + near_x + " " + y + " 1\nv " + x + " " + near_y +
+             " 1\nf -3 -2 -1\nf -3 -1 -2\n";
+  }
+  try {
+    WarningsOf(crowd);
+    FAIL() << "expected an error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.mesh: expected patches whose form factors fit"));
+  }
+}
+
 }  // namespace
 }  // namespace luxfit
