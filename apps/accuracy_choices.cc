@@ -25,8 +25,10 @@ void RecordAccuracy(const AccuracyChoice& choice, int patches, double error_perc
   }
   context.choices.push_back(
       {"patches",
-       fmt::format("{} patches of {:g} m and less, split where illuminance varies to elements of {:g} m",
-                   patches, options.room.patches.patch_size_m, options.room.patches.element_size_m),
+       fmt::format("{} patches of {:g} m and less{}, elements of {:g} m", patches,
+                   options.room.patches.patch_size_m,
+                   options.room.patches.must_split ? ", split where illuminance varies" : "",
+                   options.room.patches.element_size_m),
        sizes, choice.patches_because});
   context.choices.push_back({"form factors", named(form_factors.method, form_factors.rays_per_element),
                              methods, choice.rays_because});

@@ -295,10 +295,10 @@ class ChartMaker {
     return rays;
   }
 
-  // From the coarsest that the choice tried to a half of what it chose.
+  // From the coarsest that the choice tried to a quarter of what it chose.
   std::vector<double> Sizes() const {
     std::vector<double> sizes;
-    const double finest_m = ChosenSizeM() / 2;
+    const double finest_m = ChosenSizeM() / 4;
     for (double size_m = chart_.choice.tried.front().patch_size_m; size_m > 0.99 * finest_m; size_m /= 2)
       sizes.push_back(size_m);
     return sizes;

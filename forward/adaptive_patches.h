@@ -27,10 +27,11 @@
 namespace luxfit {
 
 // `sizes` with the criterion added: patch_size_m is the largest patch, element_size_m the smallest. For rooms
-// made of the same scene as `coarse`, which is kept, but for its form factors, as long as the options are;
-// `indirect_lx` by element of it, all luminaires on.
-PatchesOptions AdaptivePatches(Room coarse, Eigen::VectorXf indirect_lx, std::vector<Luminaire> luminaires,
-                               double error_percent, const PatchesOptions& sizes = {});
+// made of the same scene as `coarse`, of whose patches the options keep a copy; `indirect_lx` by element of
+// it, all luminaires on.
+PatchesOptions AdaptivePatches(const Room& coarse, Eigen::VectorXf indirect_lx,
+                               std::vector<Luminaire> luminaires, double error_percent,
+                               const PatchesOptions& sizes = {});
 
 }  // namespace luxfit
 

@@ -170,32 +170,40 @@ class Chooser {
     return patches <= options_.max_patches && patches * elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 
+  // The coarsest of which a halving shows that they do.
   SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
     PatchesOptions sizes = PatchesOfSize(coarsest_m_);
-    double bound_percent = kFirstBoundPercent, before = 0, error = 0;
-    while (FinerFit(last.room)) {
+    double bound_percent = kFirstBoundPercent, before = 0, error = std::numeric_limits<double>::infinity();
+    choice_.patches_because = "no finer ones fit into memory to compare them with";
+    while (error > allowed && FinerFit(last.room)) {
       sizes.element_size_m /= 2;
-      choice_.options.room.patches = AdaptivePatches(std::move(last.room), IndirectLx(last.light),
-                                                     lit_.luminaires, bound_percent, sizes);
-      last = Try(&last.light);
+      const PatchesOptions coarse_patches = std::exchange(
+          choice_.options.room.patches,
+          AdaptivePatches(last.room, IndirectLx(last.light), lit_.luminaires, bound_percent, sizes));
+      SceneLight finer = Try(&last.light);
       const double change = choice_.tried.back().change_percent;
       error = ErrorFrom(before, change);
+      if (error + change <= allowed) {
+        choice_.options.room.patches = coarse_patches;
+        choice_.patches_error_percent = error + change;
+        choice_.patches_because =
+            "elements of half the size, patches split at half the variation, change the "
+            "illuminance by " +
+            Percent(change) + ": estimated error " + Percent(choice_.patches_error_percent) + ", below " +
+            Percent(allowed);
+        return last;
+      }
+      last = std::move(finer);
+      choice_.patches_because =
+          "elements of twice the size, patches split at twice the variation, change the illuminance by " +
+          Percent(change) + ": estimated error " + Percent(error) +
+          (error <= allowed ? ", below " + Percent(allowed)
+                            : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
       before = change;
       bound_percent /= 2;
-      if (error <= allowed) break;
-    }
-    if (choice_.options.room.patches.must_split == nullptr) {
-      choice_.patches_error_percent = std::numeric_limits<double>::infinity();
-      choice_.patches_because = "no finer ones fit into memory to compare them with";
-      return last;
     }
     choice_.patches_error_percent = error;
-    choice_.patches_because =
-        "elements of twice the size, patches split at twice the variation, change the illuminance by " +
-        Percent(before) + ": estimated error " + Percent(error) +
-        (error <= allowed ? ", below " + Percent(allowed)
-                          : ", more than " + Percent(allowed) + ", but no finer ones fit into memory");
     return last;
   }
 

@@ -13,13 +13,14 @@
 //             With errors C h^p the error at h is  change(2 h -> h) / (2^p - 1).  p is taken from the ratio
 //             of the last two changes, but no more than 1 (shadow edges, solids; smooth light has 2, and the
 //             estimate is three times the error) and no less than 0.74, which also stands where there is one
-//             change only: in a furnished office 0.75 was measured.
+//             change only: in a furnished office 0.75 was measured. The coarser ones are chosen where the
+//             change and that error together are small enough for them.
 //   bounces   the fewest whose truncation bound (forward/solvers.h) is below a twentieth of the error, where
 //             they take fewer products than iterating to that bound; else all.
 //
-// What was tried last is the result: it is not computed again. A halving costs 4 times what went before and
-// more, so all coarser ones together stay below the last. Changes are root mean squares over all sensors and
-// luminaires (RelativeRmsPercent). Deterministic: no clock is asked.
+// The result has been computed on the way: it is not computed again. A halving costs 4 times what went before
+// and more, so all coarser ones together stay below the finest. Changes are root mean squares over all
+// sensors and luminaires (RelativeRmsPercent). Deterministic: no clock is asked.
 //
 // Limits of memory end the halving: `reached` false, the estimate says how far it came (infinity: there was
 // nothing to compare with). Scenes of so many facets that even the coarsest patches have no dense form

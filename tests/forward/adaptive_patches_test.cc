@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 #include "forward/colour_illuminance.h"
 #include "forward/illuminance.h"
@@ -37,13 +36,13 @@ const Eigen::Vector2d kAlbedo(0.6, 0.4);
 
 // From the light of patches of 0.8 m.
 PatchesOptions Adaptive(const Scene& scene, double error_percent) {
-  Room coarse = MakeRoom(scene, {{0.8, 0.2}, {64}});
+  const Room coarse = MakeRoom(scene, {{0.8, 0.2}, {64}});
   const Receivers receivers = MakeReceivers(coarse, {}, {});
   const ColourIlluminance light =
       ComputeColourIlluminance(coarse, receivers, ComputeVisibility(coarse, receivers, Panel()), Panel(),
                                kAlbedo.transpose().replicate(3, 1), Eigen::Vector3d::Ones());
   const Eigen::VectorXf indirect_lx = 3500 * light.element_indirect.col(0);
-  return AdaptivePatches(std::move(coarse), indirect_lx, Panel(), error_percent, {0.8, 0.1});
+  return AdaptivePatches(coarse, indirect_lx, Panel(), error_percent, {0.8, 0.1});
 }
 
 Patches Subdivided(const Scene& scene, double error_percent) {
