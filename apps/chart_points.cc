@@ -196,6 +196,9 @@ class ChartMaker {
       point.bounces.reset();
       if (light.solver == RadiositySolver::kNeumann) point.bounces = options.bounces;
       point.error_percent = ErrorOf(light);
+      // The same once more: no two times of it.
+      if (point.solver == automatic.solver && point.bounces == automatic.bounces)
+        point.time_s = automatic.time_s;
       chart_.points.push_back(point);
     };
     RadiositySolverOptions options = chosen;
@@ -327,11 +330,14 @@ class ChartMaker {
 }  // namespace
 
 void MarkFront(std::vector<ChartPoint>& points) {
+  constexpr double kSame = 0.01;
+  const auto beats = [](const ChartPoint& other, const ChartPoint& point) {
+    const double time = other.time_s / point.time_s, error = other.error_percent / point.error_percent;
+    return time <= 1 + kSame && error <= 1 + kSame && (time < 1 - kSame || error < 1 - kSame);
+  };
   for (ChartPoint& point : points) {
-    point.on_front = std::none_of(points.begin(), points.end(), [&](const ChartPoint& other) {
-      return other.time_s <= point.time_s && other.error_percent <= point.error_percent &&
-             (other.time_s < point.time_s || other.error_percent < point.error_percent);
-    });
+    point.on_front = std::none_of(points.begin(), points.end(),
+                                  [&](const ChartPoint& other) { return beats(other, point); });
   }
 }
 

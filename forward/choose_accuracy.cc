@@ -218,7 +218,7 @@ class Chooser {
   // Of the finest patches, from the last two changes; `before` 0: there was only one.
   static double ErrorFrom(double before, double change) {
     constexpr double kSlowest = 1.5;
-    if (before == 0) return kSlowest * change;
+    if (before == 0) return change;
     if (change == 0) return 0;
     const double ratio = before / change;
     return change * (ratio > 1 ? std::clamp(1 / (ratio - 1), 1.0, kSlowest) : kSlowest);

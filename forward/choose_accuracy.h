@@ -10,11 +10,10 @@
 //             not do it: hybrid, rays doubled until doubling changes less.
 //   patches   elements halved, and the bound above which patches are split (AdaptivePatches, from the light
 //             of the coarser ones) halved with them, until that changes it by less than a part of the error.
-//             With errors C h^p the error at h is  change(2 h -> h) / (2^p - 1).  p is taken from the ratio
-//             of the last two changes, but no more than 1 (shadow edges, solids; smooth light has 2, and the
-//             estimate is three times the error) and no less than 0.74, which also stands where there is one
-//             change only: in a furnished office 0.75 was measured. The coarser ones are chosen where the
-//             change and that error together are small enough for them.
+//             With errors C h^p the error at h is  change(2 h -> h) / (2^p - 1).  p is 1 (shadow edges,
+//             solids; smooth light has 2, and the estimate is three times the error; 1.3 was measured in a
+//             furnished office), less where the last two changes say so, but no less than 0.74. The coarser
+//             ones are chosen where the change and that error together are small enough for them.
 //   bounces   the fewest whose truncation bound (forward/solvers.h) is below a twentieth of the error, where
 //             they take fewer products than iterating to that bound; else all.
 //
