@@ -76,8 +76,7 @@ AdjointDerivatives ComputeAdjoint(const Room& room, const Receivers& receivers,
     const Eigen::VectorXf exitance = transport.Exitance(lit).col(0);
     const Eigen::VectorXf total = lit + transport.Irradiance(exitance).col(0);
     result.d_patch_albedo = importance.exitance.cwiseProduct(total).cast<double>();
-    const Eigen::VectorXf element_total =
-        element_lit + IndirectAtElements(room, exitance).col(0);
+    const Eigen::VectorXf element_total = element_lit + IndirectAtElements(room, exitance).col(0);
     for (Eigen::Index e = 0; e < element_total.size(); ++e) {
       result.d_patch_albedo[room.patches.elements[static_cast<size_t>(e)].patch] +=
           static_cast<double>(at.exitance[e] * element_total[e]);
