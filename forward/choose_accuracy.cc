@@ -159,14 +159,15 @@ class Chooser {
 
   // Whether elements of half the size do.
   bool FinerFit(const Room& room) const {
-    constexpr double kPatchesGrow = 2, kBytesPerPair = 24;  // most patches are split no further
+    constexpr double kPatchesGrow = 2;       // most patches are split no further
+    constexpr double kBytesPerRay = 2 * 24;  // of pairs both ways, while they are made
     const double patches = kPatchesGrow * static_cast<double>(room.patches.patches.size());
     const double size_m = choice_.options.room.patches.element_size_m;
     double elements = 0;  // those of small facets stay as they are
     for (const Element& element : room.patches.elements)
       elements += std::clamp(4 * element.area_m2 / (size_m * size_m), 1.0, 4.0);
     const int rays = choice_.options.room.form_factors.rays_per_element;
-    if (room.sparse) return 2 * elements * rays * kBytesPerPair <= options_.max_matrix_bytes;
+    if (room.sparse) return elements * rays * kBytesPerRay <= choice_.options.room.max_matrix_bytes;
     return patches <= options_.max_patches && patches * elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 

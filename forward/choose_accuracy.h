@@ -41,7 +41,7 @@ struct AccuracyOptions {
   double error_percent = 1;       // rms over sensors and luminaires, of the illuminance
   double coarsest_patch_m = 0.8;  // a dozen patches a wall: seen in no time; also the largest
   int max_patches = 20000;        // 1.6 GB of coupling
-  double max_matrix_bytes = 2e9;  // of the form factors: elements x patches, or the pairs that rays find
+  double max_matrix_bytes = 2e9;  // of the form factors: elements x patches
   int max_rays = 1024;
   int max_rays_per_sensor = 1 << 20;
 };

@@ -4,6 +4,9 @@
 //                           percent x 10
 //   Clutter/BOXES           boxes of 3 to 10 cm in the room, 20 % asked for: the more, the less light passes
 //   Detail/BOXES            as many boxes of the same total area: more facets, the same light
+//   Pairs/BOXES             the same rooms without hierarchy, as simulate does it: ChooseAccuracy, 20 meters,
+//   1 %
+//                           asked for; patches, estimated_percent, measured
 // measured, bias, direct, direct_bias: of points spread by area, from the light tracer (its own noise taken
 // off), in percent of the mean; rms, mean, and both of direct light alone.
 // cpu_s: of all threads. AskedError/3/50, Clutter/10000 and Detail from 1600 on may last longer than two
@@ -14,9 +17,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
 
+#include "forward/choose_accuracy.h"
 #include "forward/hierarchical.h"
 #include "forward/light_tracer.h"
 #include "forward/room.h"
@@ -218,6 +223,43 @@ void Detail(benchmark::State& state) {
 BENCHMARK(Detail)
     ->RangeMultiplier(10)
     ->Range(160, 160000)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->Iterations(1);
+
+void Pairs(benchmark::State& state) {
+  LitScene lit;
+  lit.scene = EmptyRoom();
+  AddBoxes(lit.scene, state.range(0), std::sqrt(1000.0 / static_cast<double>(state.range(0))));
+  lit.luminaires = {CeilingPanel()};
+  lit.luminaires[0].flux_lm = 1;
+  lit.albedo_rgb = AlbedoOf(lit.scene).transpose().replicate(3, 1);
+  for (int i = 0; i < 20; ++i)
+    lit.sensors.push_back({{0.6 + 1.2 * (i % 5), 0.5 + i / 5, 1.7}, Eigen::Vector3d::UnitZ(), {}});
+  std::optional<AccurateSceneLight> accurate;
+  const double before_s = CpuSeconds();
+  for (auto _ : state) accurate.emplace(ChooseAccuracy(lit));
+  state.counters["cpu_s"] = CpuSeconds() - before_s;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["process_peak_MB"] = 1e-3 * static_cast<double>(usage.ru_maxrss);
+  state.counters["facets"] = static_cast<double>(lit.scene.facets.size());
+  state.counters["patches"] = accurate->choice.tried.back().patches;
+  state.counters["estimated_percent"] = accurate->choice.estimated_error_percent;
+  LightTracerOptions options;
+  options.paths_per_sensor = 1 << 16;
+  const TracedIlluminance truth = TraceIlluminance(lit.scene, RayScene(lit.scene), lit.luminaires,
+                                                   AlbedoOf(lit.scene), lit.sensors, options);
+  const Eigen::MatrixXd lx = truth.direct + truth.indirect;
+  state.counters["measured"] = RelativeRmsPercent(accurate->light.light.total.cast<double>(), lx);
+  state.counters["tracer_sigma"] = RelativeRmsPercent(
+      lx + (truth.direct_sigma.array().square() + truth.indirect_sigma.array().square()).sqrt().matrix(), lx);
+}
+BENCHMARK(Pairs)
+    ->Arg(100)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
     ->Iterations(1);
