@@ -14,43 +14,20 @@
 #include "tests/support/adaptive_integral.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
+#include "tests/support/test_lamps.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
 
 using support::kPi;
+using support::kUp;
+using support::Lamp;
+using support::LopsidedTable;
+using support::LxPerLm;
+using support::NormalAtDepth;
 
 constexpr double kQuadrature = 1e-3;  // the header's promise, of the value
-const Eigen::Vector3d kUp(0, 0, 1);
-
-Luminaire Lamp(Distribution distribution, LuminaireShape shape, double size_along = 0,
-               double size_across = 0) {
-  Luminaire lamp;
-  lamp.position = Eigen::Vector3d(0, 0, 2);
-  lamp.distribution = distribution;
-  lamp.shape = shape;
-  lamp.size_m = {size_along, size_across};
-  return lamp;
-}
-
-// Different in every direction; steps of 30 degrees, so that a test's small step rarely meets a kink.
-std::shared_ptr<const IntensityTable> LopsidedTable() {
-  std::vector<double> c_rad, gamma_rad, intensity;
-  for (int i = 0; i < 12; ++i) c_rad.push_back(i * kPi / 6);
-  for (int i = 0; i <= 6; ++i) gamma_rad.push_back(i * kPi / 6);
-  for (const double c : c_rad) {
-    for (const double g : gamma_rad)
-      intensity.push_back(2 + std::sin(g) * (std::cos(c) + 0.5 * std::sin(c)) + 0.8 * std::cos(g));
-  }
-  return std::make_shared<IntensityTable>(
-      Normalized(ExpandPlanes(c_rad, gamma_rad, intensity, PlaneSymmetry::kNone)));
-}
-
-double LxPerLm(const Luminaire& lamp, const Eigen::Vector3d& p, const Eigen::Vector3d& normal = kUp) {
-  return DirectIlluminancePerLumen(lamp, p, normal).lx_per_lm;
-}
-
 TEST(DirectLight, APointObeysTheInverseSquareCosineLaw) {
   for (const Eigen::Vector3d& p :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1.5, -2, 0.3), Eigen::Vector3d(0, 0, 1.9)}) {
@@ -147,146 +124,6 @@ TEST(DirectLight, IsNoneBehindTheReceiverOrBehindTheLamp) {
               0);
   }
 }
-
-class DirectLightDerivatives : public testing::TestWithParam<std::tuple<Distribution, LuminaireShape>> {
- protected:
-  // A lamp above and a receiver below, both turned at random, so that they mostly see each other.
-  void Draw() {
-    std::normal_distribution<double> normal;
-    std::uniform_real_distribution<double> unit(0, 1);
-    const auto vector = [&] { return Eigen::Vector3d(normal(rng_), normal(rng_), normal(rng_)); };
-    lamp_ = Lamp(std::get<0>(GetParam()), std::get<1>(GetParam()), 0.1 + 0.8 * unit(rng_),
-                 0.1 + 0.8 * unit(rng_));
-    lamp_.position += 0.5 * vector();
-    lamp_.aim = (lamp_.aim + 0.3 * vector()).normalized();
-    lamp_.heading = vector().normalized();
-    lamp_.cosine_exponent = 1.5 + 5 * unit(rng_);
-    lamp_.table = table_;
-    p_ = 0.5 * vector();
-    normal_ = (kUp + 0.3 * vector()).normalized();
-    direct_ = DirectIlluminancePerLumen(lamp_, p_, normal_);
-  }
-
-  // Central difference of the illuminance while `change(lamp, step)` moves the lamp.
-  template <typename Change>
-  void ExpectDerivative(double analytic, const Change& change, const char* what) {
-    // Small, so that neither the quadrature's order switches in between nor one of its points crosses an
-    // angle of the table: truncation 1e-14, rounding 1e-9 of E.
-    constexpr double kStep = 1e-7;
-    Luminaire up = lamp_, down = lamp_;
-    change(up, kStep);
-    change(down, -kStep);
-    const double numeric = (LxPerLm(up, p_, normal_) - LxPerLm(down, p_, normal_)) / (2 * kStep);
-    EXPECT_NEAR(analytic, numeric, 1e-7 * (1 + std::abs(numeric))) << what;
-  }
-
-  void ExpectAllDerivatives() {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto move = [&](Luminaire& lamp, double step) { lamp.position[axis] += step; };
-      ExpectDerivative(direct_.d_position[axis], move, "position");
-    }
-    const LuminaireAxes axes = AxesOf(lamp_);
-    for (int axis = 0; axis < 2; ++axis) {
-      const auto tilt = [&](Luminaire& lamp, double step) {
-        lamp.aim = (lamp.aim + step * (axis == 0 ? axes.along : axes.across)).normalized();
-        lamp.heading = axes.along;
-      };
-      ExpectDerivative(direct_.d_tilt[axis], tilt, "tilt");
-      const auto grow = [&](Luminaire& lamp, double step) { lamp.size_m[axis] += step; };
-      ExpectDerivative(direct_.d_size[axis], grow, "size");
-    }
-    const auto turn = [&](Luminaire& lamp, double step) {
-      lamp.heading = (axes.along + step * axes.across).normalized();
-    };
-    ExpectDerivative(direct_.d_heading, turn, "heading");
-    const auto narrow = [&](Luminaire& lamp, double step) { lamp.cosine_exponent += step; };
-    ExpectDerivative(direct_.d_exponent, narrow, "exponent");
-  }
-
-  std::mt19937_64 rng_ = support::TestRng();
-  std::shared_ptr<const IntensityTable> table_ = LopsidedTable();
-  Luminaire lamp_;
-  Eigen::Vector3d p_, normal_;
-  DirectIlluminance direct_;
-};
-
-TEST_P(DirectLightDerivatives, AreCentralDifferences) {
-  int lit = 0;
-  for (int i = 0; i < 50; ++i) {
-    Draw();
-    lit += direct_.lx_per_lm > 1e-3;
-    ExpectAllDerivatives();
-  }
-  EXPECT_GT(lit, 25);  // else the test looked at darkness
-}
-
-INSTANTIATE_TEST_SUITE_P(AllLamps, DirectLightDerivatives,
-                         testing::Combine(testing::Values(Distribution::kIsotropic, Distribution::kLambertian,
-                                                          Distribution::kCosinePower,
-                                                          Distribution::kMeasured),
-                                          testing::Values(LuminaireShape::kPoint, LuminaireShape::kDisc,
-                                                          LuminaireShape::kRectangle)));
-
-// A receiver at the origin, turned so that its plane passes the lamp's centre at `depth` of what would just
-// leave the lamp whole (1) or hide it (-1).
-Eigen::Vector3d NormalAtDepth(const Luminaire& lamp, const Eigen::Vector3d& away, double depth) {
-  const LuminaireAxes axes = AxesOf(lamp);
-  const Eigen::Vector3d towards = lamp.position.normalized();
-  const Eigen::Vector3d side = (away - away.dot(towards) * towards).normalized();
-  const auto past = [&](double angle) {
-    const Eigen::Vector3d n = std::sin(angle) * towards + std::cos(angle) * side;
-    const double a = n.dot(axes.along), b = n.dot(axes.across);
-    const double reach = lamp.shape == LuminaireShape::kDisc
-                             ? lamp.size_m[0] / 2 * std::hypot(a, b)
-                             : (lamp.size_m[0] * std::abs(a) + lamp.size_m[1] * std::abs(b)) / 2;
-    return n.dot(lamp.position) - depth * reach;
-  };
-  double low = -kPi / 2, high = kPi / 2;
-  for (int k = 0; k < 60; ++k) (past(0.5 * (low + high)) > 0 ? high : low) = 0.5 * (low + high);
-  return std::sin(low) * towards + std::cos(low) * side;
-}
-
-class CutByTheReceiversPlane : public DirectLightDerivatives {
- protected:
-  void DrawCut(double depth) {
-    Draw();
-    // In front of the lamp, whose light is that of a closed form.
-    lamp_.position = -(1.2 * lamp_.aim + 0.4 * AxesOf(lamp_).along - 0.2 * AxesOf(lamp_).across);
-    p_ = Eigen::Vector3d::Zero();
-    std::normal_distribution<double> normal;
-    normal_ = NormalAtDepth(lamp_, {normal(rng_), normal(rng_), normal(rng_)}, depth);
-    direct_ = DirectIlluminancePerLumen(lamp_, p_, normal_);
-  }
-};
-
-TEST_P(CutByTheReceiversPlane, DerivativesAreCentralDifferences) {
-  for (const double depth : {1.01, 0.99, 0.7, 0.1, 0.0, -0.3, -0.9, -0.99}) {
-    for (int i = 0; i < 10; ++i) {
-      DrawCut(depth);
-      EXPECT_GT(direct_.lx_per_lm, 0) << depth;
-      ExpectAllDerivatives();
-    }
-  }
-}
-
-TEST_P(CutByTheReceiversPlane, NothingJumpsWhereTheCutBegins) {
-  for (int i = 0; i < 20; ++i) {
-    DrawCut(1);
-    const Luminaire lamp = lamp_;
-    const Eigen::Vector3d away = normal_;
-    const DirectIlluminance whole = DirectIlluminancePerLumen(lamp, p_, NormalAtDepth(lamp, away, 1 + 1e-9));
-    const DirectIlluminance cut = DirectIlluminancePerLumen(lamp, p_, NormalAtDepth(lamp, away, 1 - 1e-9));
-    EXPECT_NEAR(cut.lx_per_lm / whole.lx_per_lm, 1, 1e-8);
-    EXPECT_LT((cut.d_position - whole.d_position).norm(), 1e-7 * whole.d_position.norm());
-    EXPECT_LT((cut.d_tilt - whole.d_tilt).norm(), 1e-7 * whole.d_position.norm());
-    EXPECT_LT((cut.d_size - whole.d_size).norm(), 1e-7 * whole.d_position.norm());
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(ClosedForms, CutByTheReceiversPlane,
-                         testing::Combine(testing::Values(Distribution::kLambertian),
-                                          testing::Values(LuminaireShape::kDisc,
-                                                          LuminaireShape::kRectangle)));
 
 // The defining integral, by adaptive quadrature to `tolerance` of 1 lx per lm.
 double IntegralLxPerLm(const Luminaire& lamp, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
