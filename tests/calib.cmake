@@ -1,6 +1,7 @@
 luxfit_test(calib image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib luminance_test LINK luxfit::calib)
 luxfit_test(calib camera_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib camera_file_test LINK luxfit::calib)
 luxfit_test(calib tags_test LINK luxfit::calib)
 luxfit_test(calib tag_refine_test LINK luxfit::calib apriltag::apriltag)
 luxfit_test(calib reprojection_cost_test LINK luxfit::calib Ceres::ceres)
