@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/stages.h"
+#include "calib/camera_file.h"
 #include "calib/luminance.h"
 #include "calib/tag_refine.h"
 
@@ -20,7 +21,8 @@ constexpr size_t kPhotosPerView = 6;
 
 std::vector<Camera> ReadCameras(const Session& session) {
   std::vector<Camera> cameras;
-  for (const SessionCamera& camera : session.cameras) cameras.push_back(ReadOpenCvCamera(camera.intrinsics));
+  for (const SessionCamera& camera : session.cameras)
+    cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
   return cameras;
 }
 
