@@ -9,3 +9,7 @@ luxfit_test(calib tags_test LINK luxfit::calib)
 luxfit_test(calib tag_refine_test LINK luxfit::calib apriltag::apriltag)
 luxfit_test(calib reprojection_cost_test LINK luxfit::calib Ceres::ceres)
 luxfit_test(calib registration_test LINK luxfit::calib)
+
+# The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
+add_executable(memorial_radiance validation/memorial_radiance.cc)
+target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib fmt::fmt)
