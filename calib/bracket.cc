@@ -14,6 +14,12 @@ std::vector<float> VarianceOfCounts(const LuminanceOptions& options, size_t chan
   std::vector<float> variance(static_cast<size_t>(full_scale_counts) + 1);
   for (size_t i = 0; i < variance.size(); ++i) {
     const double count = static_cast<double>(i);
+    if (options.response->has_relative_sigma()) {
+      const double sigma =
+          options.response->Exposure(channel, count) * options.response->RelativeSigma(channel, count);
+      variance[i] = std::max(1e-20f, static_cast<float>(sigma * sigma));
+      continue;
+    }
     const double slope = full_scale_counts * options.response->Slope(channel, count);
     variance[i] = static_cast<float>(slope * slope * options.noise->Variance(count / full_scale_counts));
   }

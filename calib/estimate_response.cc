@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/internal/response_levels.h"
+#include "calib/internal/response_noise.h"
 
 namespace luxfit {
 namespace {
@@ -161,7 +162,8 @@ ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
   estimate.chosen = static_cast<size_t>(
       std::find_if(errors.begin(), errors.end(), [&](const ErrorSum& e) { return e.Mean() <= limit; }) -
       errors.begin());
-  estimate.response = solvers[estimate.chosen].second(brackets);
+  const CameraResponse response = solvers[estimate.chosen].second(brackets);
+  estimate.response = response.WithRelativeSigma(RelativeSigma(brackets, response, options));
   return estimate;
 }
 

@@ -64,7 +64,8 @@ struct ResponseScore {
 };
 
 struct ResponseEstimate {
-  std::optional<CameraResponse> response;  // empty: not determined, see message
+  // Empty: not determined, see message. With the relative sigma of every count, from how exposures disagree.
+  std::optional<CameraResponse> response;
   std::string message;
   size_t chosen = 0;  // index into scores
   std::vector<ResponseScore> scores;

@@ -42,6 +42,20 @@ CameraResponse::CameraResponse(Eigen::VectorXd counts, std::array<Eigen::VectorX
   }
 }
 
+CameraResponse CameraResponse::WithRelativeSigma(std::array<Eigen::VectorXd, 3> relative_sigma) const {
+  for (const Eigen::VectorXd& sigma : relative_sigma) {
+    if (sigma.size() != counts_.size() || !sigma.allFinite() || !(sigma.array() > 0).all())
+      throw std::invalid_argument("CameraResponse: relative_sigma: expected one value > 0 a knot");
+  }
+  CameraResponse response = *this;
+  response.relative_sigma_ = std::move(relative_sigma);
+  return response;
+}
+
+double CameraResponse::RelativeSigma(size_t channel, double counts) const {
+  return Interpolate(counts_, relative_sigma_[channel], counts);
+}
+
 double CameraResponse::Exposure(size_t channel, double counts) const {
   return Interpolate(counts_, exposure_[channel], counts);
 }

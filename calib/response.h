@@ -21,16 +21,22 @@ class CameraResponse {
   // `exposure`: one curve a channel at the same counts.
   CameraResponse(Eigen::VectorXd counts, std::array<Eigen::VectorXd, 3> exposure);
 
+  // The same with the standard deviation of ln X at every knot, > 0, where it is known.
+  CameraResponse WithRelativeSigma(std::array<Eigen::VectorXd, 3> relative_sigma) const;
+
   double Exposure(size_t channel, double counts) const;
   double Counts(size_t channel, double exposure) const;  // the inverse
   double Slope(size_t channel, double counts) const;     // dX / dcount
+
+  bool has_relative_sigma() const { return relative_sigma_[0].size() > 0; }
+  double RelativeSigma(size_t channel, double counts) const;
 
   const Eigen::VectorXd& counts() const { return counts_; }
   const Eigen::VectorXd& exposure(size_t channel) const { return exposure_[channel]; }
 
  private:
   Eigen::VectorXd counts_;
-  std::array<Eigen::VectorXd, 3> exposure_;
+  std::array<Eigen::VectorXd, 3> exposure_, relative_sigma_;
 };
 
 }  // namespace luxfit

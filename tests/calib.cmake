@@ -12,4 +12,4 @@ luxfit_test(calib registration_test LINK luxfit::calib)
 
 # The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
 add_executable(memorial_radiance validation/memorial_radiance.cc)
-target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib fmt::fmt)
+target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)

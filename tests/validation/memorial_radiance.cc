@@ -7,12 +7,13 @@
 // the pixels that a frame exposes well, after the one free scale of the channel (the median ratio). Not our
 // error alone: the published map was merged from 16 frames, of which 8 are left, and from the scans before
 // they were made into PNG and JPEG.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,68 @@ std::vector<Frame> ReadFrames(const std::string& folder) {
   return frames;
 }
 
+cv::Mat View(const luxfit::ImagePlane& plane) {
+  return {static_cast<int>(plane.rows()), static_cast<int>(plane.cols()), CV_32F,
+          const_cast<float*>(plane.data())};
+}
+
+// Edges of the logarithm of counts: alike in all exposures, but for what is dark or saturated in one.
+cv::Mat Edges(const Photo& photo) {
+  cv::Mat log_counts, horizontal, vertical;
+  cv::log(View(photo.rgb_counts[1]) + 5, log_counts);
+  cv::Sobel(log_counts, horizontal, CV_32F, 1, 0);
+  cv::Sobel(log_counts, vertical, CV_32F, 0, 1);
+  cv::Mat edges;
+  cv::magnitude(horizontal, vertical, edges);
+  return edges;
+}
+
+// `moved` as `reference` shows it; itself where they agree to half a pixel.
+Photo AlignedTo(const Photo& reference, const Photo& moved) {
+  constexpr int kBlock = 96, kStep = 48, kMinBlocks = 12;
+  const cv::Mat to = Edges(reference), from = Edges(moved);
+  cv::Mat window;
+  cv::createHanningWindow(window, {kBlock, kBlock}, CV_32F);
+  std::vector<cv::Point2f> at, shifted;
+  std::vector<double> lengths;
+  for (int v = 24; v + kBlock < to.rows - 24; v += kStep) {
+    for (int u = 24; u + kBlock < to.cols - 24; u += kStep) {
+      const cv::Rect block(u, v, kBlock, kBlock);
+      double peak = 0;
+      const cv::Point2d shift = cv::phaseCorrelate(to(block), from(block), window, &peak);
+      if (peak < 0.1) continue;
+      const cv::Point2f center(u + kBlock / 2.0f, v + kBlock / 2.0f);
+      at.push_back(center);
+      shifted.push_back(center + cv::Point2f(shift));
+      lengths.push_back(cv::norm(shift));
+    }
+  }
+  if (at.size() < kMinBlocks) return moved;
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2),
+                   lengths.end());
+  if (lengths[lengths.size() / 2] < 0.5) return moved;
+  const cv::Mat homography = cv::findHomography(at, shifted, cv::RANSAC, 0.5);
+  Photo aligned = moved;
+  for (luxfit::ImagePlane& plane : aligned.rgb_counts) {
+    cv::Mat warped;
+    cv::warpPerspective(View(plane), warped, homography, View(plane).size(),
+                        cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
+    plane = Eigen::Map<const luxfit::ImagePlane>(warped.ptr<float>(), warped.rows, warped.cols);
+  }
+  return aligned;
+}
+
+std::vector<Frame> Aligned(std::vector<Frame> frames) {
+  for (size_t i = frames.size() - 1; i-- > 0;) {
+    for (int round = 0; round < 3; ++round) frames[i].photo = AlignedTo(frames[i + 1].photo, frames[i].photo);
+  }
+  return frames;
+}
+
 // Registration left pure blue (in the one JPEG frame: black) where a frame does not reach; nothing within 6
 // px of such a border pixel is used.
 PixelMask InsideAllFrames(const std::vector<Frame>& frames) {
-  constexpr int kReach = 6, kBorder = 14;
+  constexpr int kReach = 6, kBorder = 20;
   const int height = frames[0].photo.height_px(), width = frames[0].photo.width_px();
   PixelMask inside = PixelMask::Constant(height, width, true);
   for (const Frame& frame : frames) {
@@ -126,7 +185,7 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   try {
-    const std::vector<Frame> frames = ReadFrames(folder);
+    const std::vector<Frame> frames = Aligned(ReadFrames(folder));
     if (frames.size() < 3) throw std::runtime_error(folder + "/list.txt: expected three frames or more");
     const Photo published = luxfit::ReadPhoto(folder + "/memorial.hdr");
     const PixelMask inside = InsideAllFrames(frames);
