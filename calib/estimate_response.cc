@@ -31,10 +31,17 @@ BracketSamples WithoutExposure(const BracketSamples& bracket, Eigen::Index left_
 
 // Errors in counts of one exposure predicted from the others.
 struct ErrorSum {
-  double sum = 0, squares = 0, count = 0;
+  double sum = 0, count = 0;
   double Mean() const { return count > 0 ? sum / count : 0; }
+};
+
+// Their means fold by fold: errors within a fold are no independent evidence.
+struct HeldOutErrors {
+  Eigen::VectorXd of_fold;
+  double Mean() const { return of_fold.size() > 0 ? of_fold.mean() : 0; }
   double StandardError() const {
-    return count > 1 ? std::sqrt(std::max(0.0, squares / count - Mean() * Mean()) / count) : 0;
+    const double folds = static_cast<double>(of_fold.size());
+    return folds > 1 ? std::sqrt((of_fold.array() - Mean()).square().sum() / (folds - 1) / folds) : 0;
   }
 };
 
@@ -56,9 +63,7 @@ ErrorSum PredictionError(const CameraResponse& response, const BracketSamples& b
       }
       if (!(bottom > 0)) continue;
       const double predicted = response.Counts(c, std::exp(top / bottom) * bracket.exposure_s[left_out]);
-      const double counts_off = std::abs(predicted - counts(i, left_out));
-      error.sum += counts_off;
-      error.squares += counts_off * counts_off;
+      error.sum += std::abs(predicted - counts(i, left_out));
       error.count += 1;
     }
   }
@@ -66,7 +71,7 @@ ErrorSum PredictionError(const CameraResponse& response, const BracketSamples& b
 }
 
 // Exposures between the shortest and the longest of a bracket; all where there are three.
-std::vector<Eigen::Index> HeldOut(const BracketSamples& bracket) {
+std::vector<Eigen::Index> InnerExposures(const BracketSamples& bracket) {
   Eigen::Index shortest = 0, longest = 0;
   bracket.exposure_s.minCoeff(&shortest);
   bracket.exposure_s.maxCoeff(&longest);
@@ -77,29 +82,31 @@ std::vector<Eigen::Index> HeldOut(const BracketSamples& bracket) {
   return inner;
 }
 
-ErrorSum HeldOutError(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
+HeldOutErrors HeldOut(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
                       const Solver& solve) {
   size_t folds = 0;
-  for (const BracketSamples& bracket : brackets) folds = std::max(folds, HeldOut(bracket).size());
-  ErrorSum total;
+  for (const BracketSamples& bracket : brackets) folds = std::max(folds, InnerExposures(bracket).size());
+  HeldOutErrors errors;
+  errors.of_fold.resize(static_cast<Eigen::Index>(folds));
   for (size_t fold = 0; fold < folds; ++fold) {
     std::vector<BracketSamples> training;
     training.reserve(brackets.size());
     for (const BracketSamples& bracket : brackets) {
-      const std::vector<Eigen::Index> inner = HeldOut(bracket);
+      const std::vector<Eigen::Index> inner = InnerExposures(bracket);
       training.push_back(inner.empty() ? bracket : WithoutExposure(bracket, inner[fold % inner.size()]));
     }
     const CameraResponse response = solve(training);
+    ErrorSum total;
     for (const BracketSamples& bracket : brackets) {
-      const std::vector<Eigen::Index> inner = HeldOut(bracket);
+      const std::vector<Eigen::Index> inner = InnerExposures(bracket);
       if (inner.empty()) continue;
       const ErrorSum error = PredictionError(response, bracket, inner[fold % inner.size()], options);
       total.sum += error.sum;
-      total.squares += error.squares;
       total.count += error.count;
     }
+    errors.of_fold[static_cast<Eigen::Index>(fold)] = total.Mean();
   }
-  return total;
+  return errors;
 }
 
 CameraResponse LinearResponse(const ResponseOptions& options) {
@@ -136,7 +143,7 @@ ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
   estimate.message = Lack(brackets, options);
   if (!estimate.message.empty()) return estimate;
   std::vector<std::pair<std::string, Solver>> solvers;
-  for (const double smoothing : {1e-1, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
+  for (const double smoothing : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
     std::array<char, 64> name{};
     std::snprintf(name.data(), name.size(), "debevec, smoothing %g", smoothing);
     solvers.push_back({name.data(), [&options, smoothing](const std::vector<BracketSamples>& training) {
@@ -147,20 +154,21 @@ ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
                        return SolveRobertson(training, options);
                      }});
   estimate.scores.reserve(solvers.size());
-  std::vector<ErrorSum> errors;
+  std::vector<HeldOutErrors> errors;
   errors.reserve(solvers.size());
   for (const auto& [name, solve] : solvers) {
-    errors.push_back(HeldOutError(brackets, options, solve));
+    errors.push_back(HeldOut(brackets, options, solve));
     estimate.scores.push_back({name, errors.back().Mean()});
   }
-  estimate.linear_error_counts = HeldOutError(brackets, options, [&](const std::vector<BracketSamples>&) {
+  estimate.linear_error_counts = HeldOut(brackets, options, [&](const std::vector<BracketSamples>&) {
                                    return LinearResponse(options);
                                  }).Mean();
-  const auto best = std::min_element(
-      errors.begin(), errors.end(), [](const ErrorSum& a, const ErrorSum& b) { return a.Mean() < b.Mean(); });
+  const auto best =
+      std::min_element(errors.begin(), errors.end(),
+                       [](const HeldOutErrors& a, const HeldOutErrors& b) { return a.Mean() < b.Mean(); });
   const double limit = best->Mean() + best->StandardError();
   estimate.chosen = static_cast<size_t>(
-      std::find_if(errors.begin(), errors.end(), [&](const ErrorSum& e) { return e.Mean() <= limit; }) -
+      std::find_if(errors.begin(), errors.end(), [&](const HeldOutErrors& e) { return e.Mean() <= limit; }) -
       errors.begin());
   const CameraResponse response = solvers[estimate.chosen].second(brackets);
   estimate.response = response.WithRelativeSigma(RelativeSigma(brackets, response, options));

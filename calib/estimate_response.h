@@ -18,8 +18,10 @@
 // exponent: times t^a and a response f^a fit the same pictures.
 //
 // Which of the two, and lambda: by exposures held out. Each inner exposure in turn is predicted, in counts,
-// from the response and the E_i of the others; the first within one standard error of the least mean absolute
-// error is taken, from the smoothest Debevec-Malik to Robertson's.
+// from the response and the E_i of the others; the first within one standard error (over the exposures) of
+// the least mean absolute error is taken, from the smoothest Debevec-Malik to Robertson's. Smoothness is
+// needed beyond what held-out exposures ask: exposures one stop apart leave every ripple of g whose period is
+// one stop undetermined, and predict each other with it.
 //
 // Sources: Debevec and Malik (1997), sec. 2.1; Robertson, Borman, Stevenson (2003), eq. 9 to 11.
 #ifndef LUXFIT_CALIB_ESTIMATE_RESPONSE_H_

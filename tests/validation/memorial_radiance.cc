@@ -3,11 +3,13 @@
 // FOLDER holds list.txt (file, exposure time in s), the frames it names and memorial.hdr. The frames are
 // scans of film, their response unknown: it is estimated from them.
 //
-// Printed: what was chosen, then per channel the relative difference of our map and the published one over
-// the pixels that a frame exposes well, after the one free scale of the channel (the median ratio). Not our
-// error alone: the published map was merged from 16 frames, of which 8 are left, and from the scans before
-// they were made into PNG and JPEG.
+// Printed: what was chosen, then the relative difference of our map and the published one over the pixels
+// that a frame exposes well, after one free scale (the median ratio), by channel and for luminance. Not our
+// error alone: the published map was merged from 16 frames, of which 8 are left, and from scans before they
+// were made into PNG and JPEG; and it is rounded to steps (last column, median), which its dim channels share
+// with the brightest: blue to several percent.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -21,6 +23,8 @@
 #include "calib/estimate_response.h"
 
 namespace {
+
+constexpr std::array<const char*, 4> kNames{"red", "green", "blue", "luminance"};
 
 using luxfit::BracketSamples;
 using luxfit::CameraResponse;
@@ -151,6 +155,13 @@ double Quantile(std::vector<double> values, double share) {
   return *at;
 }
 
+// The published map's own resolution at a pixel: its channels share one exponent, that of the largest.
+double StepOf(const Photo& published, Eigen::Index i) {
+  float largest = 0;
+  for (const auto& plane : published.rgb_counts) largest = std::max(largest, plane.data()[i]);
+  return std::exp2(std::floor(std::log2(largest)) + 1 - 8);
+}
+
 void Compare(const std::vector<Frame>& frames, const CameraResponse& response, const Photo& published,
              const PixelMask& inside) {
   luxfit::LuminanceOptions options;
@@ -158,21 +169,30 @@ void Compare(const std::vector<Frame>& frames, const CameraResponse& response, c
   luxfit::BracketMerger merger(options);
   for (const Frame& frame : frames) merger.Add(frame.photo, frame.exposure_s);
   const luxfit::LuminanceImage merged = merger.Merged();
-  std::printf("%-8s %10s %10s %10s %10s %10s\n", "channel", "pixels", "scale", "median %", "68 %", "95 %");
-  for (size_t c = 0; c < 3; ++c) {
-    std::vector<double> ratio;
+  std::printf("%-10s %8s %9s %9s %9s %9s %9s\n", "", "pixels", "scale", "median %", "68 % %", "95 % %",
+              "step %");
+  // Channels, then luminance.
+  const Eigen::Vector3f weights = options.weights.cast<float>();
+  for (size_t c = 0; c < 4; ++c) {
+    const luxfit::ImagePlane ours = c < 3 ? merged.relative_rgb[c] : merged.relative_luminance;
+    const luxfit::ImagePlane reference = c < 3 ? published.rgb_counts[c]
+                                               : luxfit::ImagePlane(weights[0] * published.rgb_counts[0] +
+                                                                    weights[1] * published.rgb_counts[1] +
+                                                                    weights[2] * published.rgb_counts[2]);
+    std::vector<double> ratio, step;
     for (Eigen::Index i = 0; i < inside.size(); ++i) {
-      const double theirs = published.rgb_counts[c].data()[i];
-      if (inside.data()[i] && merged.valid.data()[i] && theirs > 0)
-        ratio.push_back(merged.relative_rgb[c].data()[i] / theirs);
+      const double theirs = reference.data()[i];
+      if (!inside.data()[i] || !merged.valid.data()[i] || !(theirs > 0)) continue;
+      ratio.push_back(ours.data()[i] / theirs);
+      step.push_back(100 * StepOf(published, i) / theirs);
     }
     const double scale = Quantile(ratio, 0.5);
     std::vector<double> difference;
     difference.reserve(ratio.size());
     for (const double r : ratio) difference.push_back(100 * std::abs(r / scale - 1));
-    std::printf("%-8s %10zu %10.5f %10.2f %10.2f %10.2f\n",
-                std::vector<const char*>{"red", "green", "blue"}[c], ratio.size(), scale,
-                Quantile(difference, 0.5), Quantile(difference, 0.68), Quantile(difference, 0.95));
+    std::printf("%-10s %8zu %9.5f %9.2f %9.2f %9.2f %9.2f\n", kNames[c], ratio.size(), scale,
+                Quantile(difference, 0.5), Quantile(difference, 0.68), Quantile(difference, 0.95),
+                Quantile(step, 0.5));
   }
 }
 
