@@ -66,7 +66,11 @@ std::vector<std::string> InputFiles(const Session& session) {
   };
   if (session.scene) add(session.scene->mesh);
   add(session.tags.map_path);
-  for (const SessionCamera& camera : session.cameras) add(camera.intrinsics);
+  for (const SessionCamera& camera : session.cameras) {
+    add(camera.intrinsics);
+    add(camera.response_path);
+    add(camera.vignetting_path);
+  }
   add(session.photos_path);
   for (const SessionPhoto& photo : session.photos) add(photo.file);
   add(session.luxmeter.readings_path);
