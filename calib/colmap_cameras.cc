@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "calib/internal/colmap_binary.h"
+
 namespace luxfit {
 namespace {
 
@@ -90,30 +92,21 @@ std::map<int, Camera> ReadText(const std::string& path) {
   return cameras;
 }
 
-template <typename T>
-T ReadValue(std::ifstream& file, const std::string& path) {
-  T value{};
-  if (!file.read(reinterpret_cast<char*>(&value), sizeof(T)))
-    throw std::runtime_error(path + ": expected more of COLMAP's cameras.bin, got the end of the file");
-  return value;
-}
-
 std::map<int, Camera> ReadBinary(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot read COLMAP's cameras, expected an existing file");
+  ColmapBinary file(path);
   std::map<int, Camera> cameras;
-  const auto count = ReadValue<std::uint64_t>(file, path);
+  const auto count = file.Read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto id = static_cast<int>(ReadValue<std::uint32_t>(file, path));
-    const auto model_id = ReadValue<std::int32_t>(file, path);
-    const auto width_px = static_cast<int>(ReadValue<std::uint64_t>(file, path));
-    const auto height_px = static_cast<int>(ReadValue<std::uint64_t>(file, path));
+    const auto id = static_cast<int>(file.Read<std::uint32_t>());
+    const auto model_id = file.Read<std::int32_t>();
+    const auto width_px = static_cast<int>(file.Read<std::uint64_t>());
+    const auto height_px = static_cast<int>(file.Read<std::uint64_t>());
     if (model_id < 0 || model_id >= static_cast<int>(kModels.size()))
       throw std::runtime_error(path + ": expected a camera model of COLMAP 3.8 (0 to 10), got " +
                                std::to_string(model_id));
     const Model& model = Served(kModels[static_cast<std::size_t>(model_id)], path);
     std::vector<double> parameters(ParameterCount(model));
-    for (double& value : parameters) value = ReadValue<double>(file, path);
+    for (double& value : parameters) value = file.Read<double>();
     cameras[id] = ToCamera(model, width_px, height_px, parameters);
   }
   return cameras;
