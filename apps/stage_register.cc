@@ -21,7 +21,8 @@ constexpr size_t kPhotosPerView = 6;
 
 std::vector<Camera> ReadCameras(const Session& session) {
   std::vector<Camera> cameras;
-  for (const SessionCamera& camera : session.cameras) cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
+  for (const SessionCamera& camera : session.cameras)
+    cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
   return cameras;
 }
 

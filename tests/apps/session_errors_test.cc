@@ -204,8 +204,8 @@ TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
               HasSubstr("\"curve.csv\" is not available"));
   EXPECT_THAT(ErrorAfter("\"none\"", "\"estimate\""),
               HasSubstr("camera[0].vignetting: \"estimate\" is not available"));
-  EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.cameramodel"),
-              HasSubstr("camera[0].intrinsics: \"cam0.cameramodel\" is not"));
+  EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
+              HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
   EXPECT_THAT(
       ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = \"board/*.png\""),
       HasSubstr("camera[0].calibration_images: \"board/*.png\" is not available in this version; expected "
