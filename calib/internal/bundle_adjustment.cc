@@ -20,39 +20,54 @@ double Median(std::vector<double>& values) {
   return *middle;
 }
 
-// Squared errors of the points that count, px^2, and the number of points.
-struct PointErrors {
-  std::vector<double> squared_px;
-  double points = 0;
+// A point's residual and what the fit of the point itself leaves of its square: 2n - 3 of 2n for n views.
+struct PointError {
+  double squared_px = 0;
+  double left = 1;
 };
 
-PointErrors SquaredPointErrors(const BundleContext& context, const BundleAdjustment& adjustment) {
-  PointErrors errors;
-  const std::vector<bool> used = UsedPoints(adjustment);
-  errors.points = static_cast<double>(std::count(used.begin(), used.end(), true));
+std::vector<PointError> PointErrors(const BundleContext& context, const BundleAdjustment& adjustment) {
+  std::vector<int> seen_by(adjustment.points.size(), 0);
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (const PointObservation& seen : view.points)
+      seen_by[static_cast<std::size_t>(seen.point)] += seen.used;
+  }
+  std::vector<PointError> errors;
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
     for (const PointObservation& seen : view.points) {
-      if (!seen.used || !used[static_cast<std::size_t>(seen.point)]) continue;
-      errors.squared_px.push_back(std::pow(PointErrorPx(context, adjustment, view, seen), 2));
+      const int views = seen_by[static_cast<std::size_t>(seen.point)];
+      if (!seen.used || views < 2) continue;
+      errors.push_back({std::pow(PointErrorPx(context, adjustment, view, seen), 2), 1 - 1.5 / views});
     }
   }
   return errors;
 }
 
-// The fit takes 3 unknowns a point and 6 a view out of the residuals; those of views are shared between
-// points and corners as their numbers are.
+// The median tells which residuals to count, the mean square of those the sigma. The fit takes 6 unknowns a
+// view out of the residuals besides, shared between points and corners as their numbers are.
 void RescalePoints(const BundleContext& context, BundleAdjustment& adjustment, double unknowns_of_views,
                    double corners) {
-  PointErrors errors = SquaredPointErrors(context, adjustment);
-  const double measured = 2 * static_cast<double>(errors.squared_px.size());
-  const double free = measured - 3 * errors.points;
-  if (free <= 0) return;
-  const double spare = free - unknowns_of_views * free / (free + 2 * corners);
-  if (spare <= 0) return;
+  const std::vector<PointError> errors = PointErrors(context, adjustment);
+  std::vector<double> normalised;
+  normalised.reserve(errors.size());
+  double free = 0;
+  for (const PointError& error : errors) {
+    normalised.push_back(error.squared_px / error.left);
+    free += 2 * error.left;
+  }
+  if (free <= unknowns_of_views) return;
+  const double gate = kBundleRejectedSigmas * kBundleRejectedSigmas * Median(normalised) / kMedianOfTwo;
+  double sum = 0, counted = 0;
+  for (const PointError& error : errors) {
+    if (error.squared_px > gate) continue;
+    sum += error.squared_px;
+    counted += 2 * error.left;
+  }
+  const double spare = counted * (1 - unknowns_of_views / (free + 2 * corners));
   constexpr double kLeastSigmaPx = 0.02;  // rendered or imported without noise
-  adjustment.point_sigma_px =
-      std::max(kLeastSigmaPx, std::sqrt(Median(errors.squared_px) / kMedianOfTwo * measured / spare));
+  adjustment.point_sigma_px = std::max(kLeastSigmaPx, std::sqrt(sum / std::max(1.0, spare)));
 }
 
 void RescaleCorners(const BundleContext& context, BundleAdjustment& adjustment, double unknowns_of_views,
@@ -79,21 +94,6 @@ void RescaleCorners(const BundleContext& context, BundleAdjustment& adjustment, 
     count += 1;
   }
   adjustment.reduced_chi2 = std::max(1.0, sum / std::max(1.0, 2 * count - unknowns));
-}
-
-void Rescale(const BundleContext& context, BundleAdjustment& adjustment) {
-  double unknowns = 0, corners = 0, seen_points = 0;
-  const std::vector<bool> used = UsedPoints(adjustment);
-  for (const BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    unknowns += 6;
-    corners += 4 * static_cast<double>(std::count(view.used.begin(), view.used.end(), true));
-    for (const PointObservation& seen : view.points)
-      seen_points += seen.used && used[static_cast<std::size_t>(seen.point)] ? 1 : 0;
-  }
-  const double points = static_cast<double>(std::count(used.begin(), used.end(), true));
-  RescaleCorners(context, adjustment, unknowns, std::max(0.0, 2 * seen_points - 3 * points));
-  RescalePoints(context, adjustment, unknowns, corners);
 }
 
 }  // namespace
@@ -176,6 +176,21 @@ double PointErrorPx(const BundleContext& context, const BundleAdjustment& adjust
   return pixel.allFinite() ? (pixel - observation.pixel).norm() : std::numeric_limits<double>::infinity();
 }
 
+void RescaleBundle(const BundleContext& context, BundleAdjustment& adjustment) {
+  double unknowns = 0, corners = 0, seen_points = 0;
+  const std::vector<bool> used = UsedPoints(adjustment);
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    unknowns += 6;
+    corners += 4 * static_cast<double>(std::count(view.used.begin(), view.used.end(), true));
+    for (const PointObservation& seen : view.points)
+      seen_points += seen.used && used[static_cast<std::size_t>(seen.point)] ? 1 : 0;
+  }
+  const double points = static_cast<double>(std::count(used.begin(), used.end(), true));
+  RescaleCorners(context, adjustment, unknowns, std::max(0.0, 2 * seen_points - 3 * points));
+  RescalePoints(context, adjustment, unknowns, corners);
+}
+
 void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   const bool any = std::any_of(adjustment.views.begin(), adjustment.views.end(),
                                [](const BundleView& v) { return v.active; });
@@ -208,7 +223,7 @@ void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   ceres::Solve(options, built.problem.get(), &summary);
   adjustment.converged = summary.termination_type == ceres::CONVERGENCE && summary.IsSolutionUsable();
   adjustment.message = summary.message;
-  Rescale(context, adjustment);
+  RescaleBundle(context, adjustment);
 }
 
 }  // namespace luxfit

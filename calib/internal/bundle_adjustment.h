@@ -80,6 +80,9 @@ struct BundleContext {
 // sets converged, message, scale, reduced_chi2 and point_sigma_px.
 void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment);
 
+// Sets scale, reduced_chi2 and point_sigma_px from the residuals as they are.
+void RescaleBundle(const BundleContext& context, BundleAdjustment& adjustment);
+
 // Points that fewer than two active views use have no place: their observations do not count.
 std::vector<bool> UsedPoints(const BundleAdjustment& adjustment);
 

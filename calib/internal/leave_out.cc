@@ -81,7 +81,7 @@ BundleView* AstrayView(BundleAdjustment& adjustment) {
 
 // Its tags keep the view if it has any.
 void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
-  for (PointObservation& seen : view.points) seen.used = false;
+  view.points.clear();
   view.active = std::count(view.used.begin(), view.used.end(), true) > 0;
   notes.push_back({view.name, -1, "features_disagree",
                    "Most feature points of view " + view.name + " contradict its tags and the other views; " +
@@ -89,17 +89,15 @@ void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
                    "See whether the view shows the same room, unchanged; hang a tag where it sees one."});
 }
 
-// Throws out the observations of points that are too far off; whether there were any.
-bool RejectObservations(const BundleContext& context, BundleAdjustment& adjustment) {
+// Counts the observations of points that are within `sigmas`, and no others; whether that changed any.
+bool SelectObservations(const BundleContext& context, BundleAdjustment& adjustment, double sigmas) {
   bool any = false;
   for (BundleView& view : adjustment.views) {
     if (!view.active) continue;
     for (PointObservation& seen : view.points) {
-      if (!seen.used ||
-          PointErrorPx(context, adjustment, view, seen) <= kBundleRejectedSigmas * adjustment.point_sigma_px)
-        continue;
-      seen.used = false;
-      any = true;
+      const bool fits = PointErrorPx(context, adjustment, view, seen) <= sigmas * adjustment.point_sigma_px;
+      any = any || fits != seen.used;
+      seen.used = fits;
     }
   }
   return any;
@@ -107,16 +105,21 @@ bool RejectObservations(const BundleContext& context, BundleAdjustment& adjustme
 
 // Beside points, corners and points each weigh as their own residuals say, which needs a solution to tell.
 void SolveWithPoints(const BundleContext& context, BundleAdjustment& adjustment) {
+  if (adjustment.points.empty()) {
+    SolveBundle(context, adjustment);
+    return;
+  }
+  RescaleBundle(context, adjustment);
+  SelectObservations(context, adjustment, kBundleRejectedSigmas);
   SolveBundle(context, adjustment);
-  if (adjustment.points.empty()) return;
-  constexpr int kMostRounds = 3;
+  constexpr int kMostRounds = 5;
   for (int round = 0; round < kMostRounds && adjustment.converged; ++round) {
     const double sigma_px = adjustment.point_sigma_px, scale = adjustment.corner_weight_scale;
     adjustment.corner_weight_scale = std::sqrt(adjustment.reduced_chi2);
-    const bool rejected = RejectObservations(context, adjustment);
+    const bool changed = SelectObservations(context, adjustment, kBundleRejectedSigmas);
     SolveBundle(context, adjustment);
     constexpr double kSame = 0.02;  // relative, of sigmas
-    if (!rejected && std::abs(adjustment.point_sigma_px / sigma_px - 1) < kSame &&
+    if (!changed && std::abs(adjustment.point_sigma_px / sigma_px - 1) < kSame &&
         std::abs(adjustment.corner_weight_scale / scale - 1) < kSame)
       return;
   }
