@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/chart_axis.h"
 #include "apps/svg.h"
 
 namespace luxfit {
@@ -14,86 +15,55 @@ constexpr double kWidthPx = 980, kHeightPx = 640;
 constexpr double kLeftPx = 76, kRightPx = 770, kTopPx = 64, kBottomPx = 570;
 constexpr double kLeastPercent = 1e-3;  // of a logarithmic axis: nothing is 0
 
-// Decades to pixels.
-struct LogAxis {
-  double min = 1, max = 10, from_px = 0, to_px = 1;
-  double operator()(double value) const {
-    const double share = std::log(std::clamp(value, min, max) / min) / std::log(max / min);
-    return from_px + share * (to_px - from_px);
-  }
-};
-
 // A tenth of a decade free on either side.
-LogAxis AxisFor(double least, double most, double from_px, double to_px) {
-  return {least / 1.3, most * 1.3, from_px, to_px};
+ChartAxis AxisFor(double least, double most, double from_px, double to_px) {
+  return {least / 1.3, most * 1.3, from_px, to_px, true};
 }
 
 struct Style {
   const char* colour;
-  const char* mark;
+  SvgMarkShape mark;
 };
 
 // Colours of Okabe and Ito, told apart with any colour vision; marks for those who see none.
 Style StyleOf(FormFactorMethod method) {
   switch (method) {
     case FormFactorMethod::kHybrid:
-      return {"#d55e00", "disc"};
+      return {"#d55e00", SvgMarkShape::kDisc};
     case FormFactorMethod::kAnalytic:
-      return {"#0072b2", "square"};
+      return {"#0072b2", SvgMarkShape::kSquare};
     case FormFactorMethod::kMalley:
-      return {"#009e73", "diamond"};
+      return {"#009e73", SvgMarkShape::kDiamond};
     case FormFactorMethod::kMalleyStratified:
-      return {"#009e73", "triangle"};
+      return {"#009e73", SvgMarkShape::kTriangle};
     case FormFactorMethod::kIsocell:
-      return {"#56b4e9", "diamond"};
+      return {"#56b4e9", SvgMarkShape::kDiamond};
     case FormFactorMethod::kMonteCarlo:
-      return {"#cc79a7", "cross"};
+      return {"#cc79a7", SvgMarkShape::kCross};
     case FormFactorMethod::kHemicube:
-      return {"#b09a00", "square"};
+      return {"#b09a00", SvgMarkShape::kSquare};
     case FormFactorMethod::kSinglePlane:
-      return {"#888888", "triangle"};
+      return {"#888888", SvgMarkShape::kTriangle};
     case FormFactorMethod::kWallace:
-      return {"#000000", "cross"};
+      return {"#000000", SvgMarkShape::kCross};
   }
-  return {"#000000", "disc"};
+  return {"#000000", SvgMarkShape::kDisc};
 }
 
 std::string Mark(const Style& style, double x, double y, double r) {
-  const std::string fill = fmt::format(" fill=\"{}\" fill-opacity=\"0.75\"", style.colour), mark = style.mark;
-  if (mark == "disc") return SvgCircle(x, y, r, fill);
-  std::string path;
-  if (mark == "square") {
-    path = fmt::format("M{0:.1f} {1:.1f}h{2:.1f}v{2:.1f}h{3:.1f}z", x - r, y - r, 2 * r, -2 * r);
-  } else if (mark == "diamond") {
-    path = fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}l{3:.1f} {2:.1f}l{3:.1f} {3:.1f}z", x, y - 1.3 * r,
-                       1.3 * r, -1.3 * r);
-  } else if (mark == "triangle") {
-    path = fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}h{:.1f}z", x, y - 1.2 * r, 1.2 * r, 2.2 * r, -2.4 * r);
-  } else {
-    path = fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}m0 {3:.1f}l{3:.1f} {2:.1f}", x - r, y - r, 2 * r,
-                       -2 * r);
-    return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\" fill=\"none\"/>\n", path,
-                       style.colour);
-  }
-  return fmt::format("<path d=\"{}\"{}/>\n", path, fill);
+  return SvgMark(style.mark, style.colour, x, y, r);
 }
 
-std::string Axes(const LogAxis& x, const LogAxis& y) {
+std::string Axes(const ChartAxis& x, const ChartAxis& y) {
   std::string text;
   const std::string grid = " stroke=\"#e4e4e4\"", centred = " text-anchor=\"middle\"",
                     right = " text-anchor=\"end\"";
-  for (int decade = -6; decade <= 6; ++decade) {
-    for (const int step : {1, 2, 5}) {
-      const double value = step * std::pow(10.0, decade);
-      const std::string label = fmt::format("{:g}", value);
-      if (value >= x.min && value <= x.max)
-        text += SvgLine(x(value), kTopPx, x(value), kBottomPx, grid) +
-                SvgText(x(value), kBottomPx + 18, label, centred);
-      if (value >= y.min && value <= y.max)
-        text += SvgLine(kLeftPx, y(value), kRightPx, y(value), grid) +
-                SvgText(kLeftPx - 8, y(value) + 4, label, right);
-    }
-  }
+  for (const double value : x.Ticks())
+    text += SvgLine(x(value), kTopPx, x(value), kBottomPx, grid) +
+            SvgText(x(value), kBottomPx + 18, fmt::format("{:g}", value), centred);
+  for (const double value : y.Ticks())
+    text += SvgLine(kLeftPx, y(value), kRightPx, y(value), grid) +
+            SvgText(kLeftPx - 8, y(value) + 4, fmt::format("{:g}", value), right);
   const std::string frame = " stroke=\"#333\"";
   text += SvgLine(kLeftPx, kBottomPx, kRightPx, kBottomPx, frame) +
           SvgLine(kLeftPx, kTopPx, kLeftPx, kBottomPx, frame);
@@ -105,7 +75,7 @@ std::string Axes(const LogAxis& x, const LogAxis& y) {
 }
 
 // Right and down: what each time buys.
-std::string Front(const std::vector<ChartPoint>& points, const LogAxis& x, const LogAxis& y) {
+std::string Front(const std::vector<ChartPoint>& points, const ChartAxis& x, const ChartAxis& y) {
   std::vector<ChartPoint> front;
   std::copy_if(points.begin(), points.end(), std::back_inserter(front),
                [](const ChartPoint& p) { return p.on_front; });
@@ -119,7 +89,7 @@ std::string Front(const std::vector<ChartPoint>& points, const LogAxis& x, const
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
-std::string Automatic(const ChartPoint& point, const LogAxis& x, const LogAxis& y) {
+std::string Automatic(const ChartPoint& point, const ChartAxis& x, const ChartAxis& y) {
   const double px = x(point.time_s), py = y(point.error_percent);
   const std::string bounces = point.bounces ? fmt::format("{} bounces", *point.bounces) : "all bounces";
   const std::string label = fmt::format("automatic: {} {:g} to {:g} m, {} rays, {}", ToString(point.method),
@@ -168,9 +138,9 @@ std::string ChartSvg(const Chart& chart, const std::string& title) {
     most = std::max(most, point.error_percent);
   }
   least = std::max(least, kLeastPercent);
-  const LogAxis x = AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kLeftPx, kRightPx);
+  const ChartAxis x = AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kLeftPx, kRightPx);
   constexpr double kRoomForLabel = 3;  // below the least error
-  const LogAxis y = AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kBottomPx, kTopPx);
+  const ChartAxis y = AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kBottomPx, kTopPx);
   std::string body =
       SvgText(kLeftPx, 26, title, " font-size=\"17\" font-weight=\"bold\"") +
       SvgText(kLeftPx, 46,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/stages.h"
+#include "calib/camera_file.h"
 #include "calib/luminance.h"
 #include "calib/tag_refine.h"
 
@@ -26,7 +27,7 @@ std::vector<Camera> ReadCameras(const Session& session) {
           "{}: camera \"{}\": expected intrinsics, got calibration images; calibrate first and give "
           "the result as intrinsics = \"...\"",
           session.path, camera.id));
-    cameras.push_back(ReadOpenCvCamera(camera.intrinsics));
+    cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
   }
   return cameras;
 }

@@ -49,4 +49,30 @@ std::string SvgCircle(double x_px, double y_px, double radius_px, const std::str
                      attributes);
 }
 
+std::string SvgMark(SvgMarkShape shape, const std::string& colour, double x_px, double y_px,
+                    double radius_px) {
+  const double x = x_px, y = y_px, r = radius_px;
+  const std::string fill = fmt::format(" fill=\"{}\" fill-opacity=\"0.75\"", colour);
+  std::string path;
+  switch (shape) {
+    case SvgMarkShape::kDisc:
+      return SvgCircle(x, y, r, fill);
+    case SvgMarkShape::kSquare:
+      path = fmt::format("M{0:.1f} {1:.1f}h{2:.1f}v{2:.1f}h{3:.1f}z", x - r, y - r, 2 * r, -2 * r);
+      break;
+    case SvgMarkShape::kDiamond:
+      path = fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}l{3:.1f} {2:.1f}l{3:.1f} {3:.1f}z", x, y - 1.3 * r,
+                         1.3 * r, -1.3 * r);
+      break;
+    case SvgMarkShape::kTriangle:
+      path = fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}h{:.1f}z", x, y - 1.2 * r, 1.2 * r, 2.2 * r, -2.4 * r);
+      break;
+    case SvgMarkShape::kCross:
+      path = fmt::format("M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}m0 {3:.1f}l{3:.1f} {2:.1f}", x - r, y - r, 2 * r,
+                         -2 * r);
+      return fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"2\" fill=\"none\"/>\n", path, colour);
+  }
+  return fmt::format("<path d=\"{}\"{}/>\n", path, fill);
+}
+
 }  // namespace luxfit

@@ -16,6 +16,11 @@ std::string SvgLine(double x1_px, double y1_px, double x2_px, double y2_px, cons
 
 std::string SvgCircle(double x_px, double y_px, double radius_px, const std::string& attributes);
 
+enum class SvgMarkShape { kDisc, kSquare, kDiamond, kTriangle, kCross };
+// A point of a chart, about 2 radius_px wide, a little transparent.
+std::string SvgMark(SvgMarkShape shape, const std::string& colour, double x_px, double y_px,
+                    double radius_px);
+
 // &, <, > and quotes of any text, so that it can stand in the file.
 std::string XmlEscaped(const std::string& text);
 

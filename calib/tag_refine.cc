@@ -357,7 +357,7 @@ std::vector<TagDetection> RefineTagCorners(const ImagePlane& grey, const Camera&
   const TagFamilyPtr family = MakeTagFamily(options.family);
   std::vector<TagDetection> refined;
   for (const TagDetection& detection : detections) {
-    const TagPicture picture = DrawTag(*family, detection.id);
+    const TagPicture picture = DrawTag(*family, detection.id, options.border_bits);
     refined.push_back(RefineOne(grey, camera, picture, detection, options).value_or(detection));
   }
   return refined;

@@ -28,6 +28,7 @@ namespace luxfit {
 
 struct RefineTagCornersOptions {
   std::string family = "tag36h11";
+  int border_bits = 1;  // width of the black border in cells; Kalibr prints 2
   int max_iterations = 20;
   double max_shift_cells = 0.5;  // further from the detector's corner (1 px at least) the fit has gone astray
   double max_residual = 0.25;  // robust residual per unit of contrast; beyond it the pixels are not this tag

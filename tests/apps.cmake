@@ -1,6 +1,7 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 
 luxfit_test(apps csv_table_test LINK luxfit_apps)
+luxfit_test(apps line_chart_svg_test LINK luxfit_apps)
 luxfit_test(apps name_pattern_test LINK luxfit_apps)
 luxfit_test(apps session_errors_test LINK luxfit_apps)
 luxfit_test(apps session_test LINK luxfit_apps)

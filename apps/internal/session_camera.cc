@@ -1,5 +1,7 @@
 #include "apps/internal/session_camera.h"
 
+#include <algorithm>
+
 #include "apps/internal/session_board.h"
 #include "apps/internal/session_files.h"
 
@@ -7,11 +9,14 @@ namespace luxfit {
 namespace {
 
 std::string ReadIntrinsics(const TomlCursor& table, const std::string& folder) {
-  const TomlCursor value =
-      table.Require("intrinsics", "a file of intrinsics (OpenCV YAML or XML), or calibration_images");
-  const std::string extension = ExtensionOf(value.Text("a file of intrinsics (OpenCV YAML or XML)"));
-  if (extension != ".yaml" && extension != ".yml" && extension != ".xml")
-    throw NotAvailable(value, "an OpenCV calibration (.yaml, .yml or .xml)");
+  const std::string expected =
+      "a file of intrinsics (OpenCV YAML or XML, mrcal .cameramodel, COLMAP cameras.txt or .bin, Kalibr "
+      "camchain), or calibration_images";
+  const TomlCursor value = table.Require("intrinsics", expected);
+  const std::string extension = ExtensionOf(value.Text(expected));
+  const std::vector<std::string> known = {".yaml", ".yml", ".xml", ".cameramodel", ".txt", ".bin"};
+  if (std::find(known.begin(), known.end(), extension) == known.end())
+    throw value.Error("expected " + expected + ", got " + value.Shown());
   return AbsolutePath(FindFile(value, folder));
 }
 

@@ -253,8 +253,8 @@ TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
               HasSubstr("\"curve.csv\" is not available"));
   EXPECT_THAT(ErrorAfter("\"none\"", "\"estimate\""),
               HasSubstr("camera[0].vignetting: \"estimate\" is not available"));
-  EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.cameramodel"),
-              HasSubstr("camera[0].intrinsics: \"cam0.cameramodel\" is not"));
+  EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
+              HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
   EXPECT_THAT(
       ErrorAfter("method = \"tags\"", "method = \"colmap\""),
       HasSubstr(

@@ -9,7 +9,7 @@
 
 namespace luxfit {
 
-inline Camera OfficeCamera(const std::array<double, 8>& distortion) {
+inline Camera OfficeCamera(const std::array<double, 12>& distortion) {
   Camera camera;
   camera.width_px = 960;
   camera.height_px = 720;

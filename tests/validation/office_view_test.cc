@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/camera.h"
+#include "calib/camera_file.h"
 #include "calib/image.h"
 #include "calib/luminance.h"
 #include "forward/mesh_file.h"
@@ -135,7 +135,7 @@ class OfficeView : public testing::Test {
   }
 
   const nlohmann::json truth_ = ReadJson("truth.json"), tags_ = ReadJson("tags.json");
-  const Camera camera_ = ReadOpenCvCamera(kFolder + "cam0.yaml");
+  const Camera camera_ = ReadCamera(kFolder + "cam0.yaml");
   const Room room_ = MakeRoom(ReadScene(kFolder + "room.obj"));
 };
 

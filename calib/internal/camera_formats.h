@@ -1,0 +1,21 @@
+// The readers behind calib/camera_file.h, one a format.
+#ifndef LUXFIT_CALIB_INTERNAL_CAMERA_FORMATS_H_
+#define LUXFIT_CALIB_INTERNAL_CAMERA_FORMATS_H_
+
+#include <string>
+#include <vector>
+
+#include "calib/camera_file.h"
+
+namespace luxfit {
+
+FiledCamera ReadOpenCvCamera(const std::string& path);
+FiledCamera ReadMrcalCamera(const std::string& path);
+std::vector<FiledCamera> ReadKalibrCamchain(const std::string& path);
+
+// Throws where focal lengths are not > 0, a number is not finite, or the size is not >= 1 x 1.
+void CheckCamera(const Camera& camera, const std::string& place);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_INTERNAL_CAMERA_FORMATS_H_
