@@ -31,20 +31,26 @@ cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& family) {
   return {};
 }
 
-// Where each tag stands if its own top-left corner is the `turn`-th of its square on the board, and ids run
-// row by row from the bottom or from the top.
-TagGrid Layout(const Board& board, std::size_t turn, bool is_from_bottom) {
+// How ids and tags may stand on a printed grid: the first id at any corner, rows first, tags turned by any
+// number of quarters.
+struct Numbering {
+  bool is_from_bottom = true, is_from_left = true;
+  std::size_t turn = 0;  // the tag's own top-left corner is that one of its square on the board
+};
+
+TagGrid Layout(const Board& board, const Numbering& numbering) {
   const std::vector<Eigen::Vector3d> corners = BoardCorners(board);
   TagGrid grid;
   grid.reserve(static_cast<std::size_t>(board.rows * board.columns));
   for (int i = 0; i < board.rows * board.columns; ++i) {
-    const int row = is_from_bottom ? board.rows - 1 - i / board.columns : i / board.columns;
-    const int column = i % board.columns, across = 2 * board.columns;
+    const int along = i % board.columns, up = i / board.columns, across = 2 * board.columns;
+    const int row = numbering.is_from_bottom ? board.rows - 1 - up : up;
+    const int column = numbering.is_from_left ? along : board.columns - 1 - along;
     const int first = 2 * row * across + 2 * column;
     const std::array<int, 4> square = {first, first + 1, first + across + 1, first + across};
     GridTag tag;
     for (std::size_t k = 0; k < 4; ++k) {
-      tag.corner_index[k] = square[(k + turn) % 4];
+      tag.corner_index[k] = square[(k + numbering.turn) % 4];
       tag.corners_m[k] = corners[static_cast<std::size_t>(tag.corner_index[k])].head<2>();
     }
     grid.push_back(tag);
@@ -68,14 +74,17 @@ std::vector<SeenTag> TagsOfBoard(const std::vector<FoundTag>& found, const Board
   return tags;
 }
 
-// The layout in which most tags agree; Kalibr's where none does better.
+// The numbering in which most tags agree; Kalibr's where none does better.
 SeenGrid BestLayout(const std::vector<SeenTag>& found, const Board& board) {
   SeenGrid best;
+  const std::vector<TagFrame> frames = FramesOf(found);
   for (std::size_t turn = 0; turn < 4; ++turn) {
-    for (const bool is_from_bottom : {true, false}) {
-      const TagGrid grid = Layout(board, turn, is_from_bottom);
-      std::vector<SeenTag> agreeing = AgreeingTags(grid, found);
-      if (agreeing.size() > best.tags.size()) best = {grid, std::move(agreeing), 1, found.size()};
+    for (const bool is_from_left : {true, false}) {
+      for (const bool is_from_bottom : {true, false}) {
+        const TagGrid grid = Layout(board, {is_from_bottom, is_from_left, turn});
+        std::vector<SeenTag> agreeing = AgreeingTags(grid, found, frames);
+        if (agreeing.size() > best.tags.size()) best = {grid, std::move(agreeing), 1, found.size()};
+      }
     }
   }
   return best;

@@ -66,7 +66,7 @@ SeenCharuco FindMarkers(const ImagePlane& grey, const Board& board) {
         if (number >= 0 && number < static_cast<int>(seen.layout.markers.size()))
           of_board.push_back({number, tag.corners_px});
       }
-      seen.markers = AgreeingTags(seen.layout.markers, of_board);
+      seen.markers = AgreeingTags(seen.layout.markers, of_board, FramesOf(of_board));
       if (seen.markers.size() > best.markers.size()) best = std::move(seen);
     }
     if (photo.scale == 1 || (!best.markers.empty() && 2 * best.markers.size() >= best.layout.markers.size()))

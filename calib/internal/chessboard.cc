@@ -14,7 +14,7 @@ namespace {
 // Longer sides of the photo in which each of OpenCV's two detectors looks: the first is fast and finds most
 // boards, the second finds blurred and oblique ones.
 constexpr int kFastLongestPx = 800, kRobustLongestPx = 1200;
-constexpr double kClearSquares = 0.7;  // the next edges are a square away
+constexpr double kClearSquares = 0.45;  // the outermost squares of some prints are half as wide
 
 // Rows of corners, as many as the board has; pixels of the full photo.
 struct CornerGrid {

@@ -5,11 +5,11 @@
 // with Gaussian weights w over a window that holds nothing but the four fields. Blur and a monotonic curve of
 // the grey values leave q where it is, for they act on both sides of the corner alike.
 //
-// sigma from the residuals themselves: N^-1 (sum (w r)^2 g g^T) N^-1 with N = sum w g g^T, times what
-// neighbouring gradients share.
+// sigma: the picture about a saddle looks the same turned by 180 degrees; what does not is noise (or print,
+// texture, a shadow), propagated through the equation above to q, and a floor for aliasing and flatness.
 //
 // Source: Foerstner and Guelch (1987), "A fast operator for detection and precise location of distinct
-// points"; White (1980) for the covariance.
+// points".
 #ifndef LUXFIT_CALIB_INTERNAL_SADDLE_H_
 #define LUXFIT_CALIB_INTERNAL_SADDLE_H_
 

@@ -1,5 +1,6 @@
 #include "calib/internal/tag_grid.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
 
@@ -51,13 +52,17 @@ std::array<Eigen::Vector2d, 4> Mapped(const Eigen::Matrix3d& homography, const G
 }
 
 // Whether `a`, looked at alone, puts `b` where it is.
-bool Predicts(const TagGrid& grid, const SeenTag& a, const SeenTag& b) {
-  const auto homography = PixelFromBoardBy(grid, {a}, {0});
-  if (!homography) return false;
-  const std::array<Eigen::Vector2d, 4> expected = Mapped(*homography, TagOf(grid, b));
+bool Predicts(const TagGrid& grid, const SeenTag& a, const TagFrame& frame, const SeenTag& b) {
+  if (!frame) return false;
+  const std::array<Eigen::Vector2d, 4>& from = TagOf(grid, a).corners_m;
+  Eigen::Matrix2d board_from_tag;
+  board_from_tag << from[1] - from[0], from[3] - from[0];
+  const Eigen::Matrix2d tag_from_board = board_from_tag.inverse();
   double error_px = 0, side_px = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    error_px += (expected[i] - b.corners_px[i]).norm() / 4;
+    const Eigen::Vector2d expected =
+        MapPoint(*frame, tag_from_board * (TagOf(grid, b).corners_m[i] - from[0]));
+    error_px += (expected - b.corners_px[i]).norm() / 4;
     side_px += (b.corners_px[(i + 1) % 4] - b.corners_px[i]).norm() / 4;
   }
   // A tag's own corners extrapolate worse the further the other is.
@@ -78,14 +83,23 @@ bool IsProper(const std::array<Eigen::Vector2d, 4>& corners_px) {
 
 }  // namespace
 
-std::vector<SeenTag> AgreeingTags(const TagGrid& grid, const std::vector<SeenTag>& found) {
+std::vector<TagFrame> FramesOf(const std::vector<SeenTag>& tags) {
+  std::vector<TagFrame> frames;
+  frames.reserve(tags.size());
+  for (const SeenTag& tag : tags) frames.push_back(UnitSquareTo(tag.corners_px));
+  return frames;
+}
+
+std::vector<SeenTag> AgreeingTags(const TagGrid& grid, const std::vector<SeenTag>& found,
+                                  const std::vector<TagFrame>& frames) {
   std::vector<std::size_t> group(found.size());
   std::iota(group.begin(), group.end(), 0);
   for (std::size_t i = 0; i < found.size(); ++i) {
     // The nearest is the tag itself.
     for (const std::size_t j : NearestTags(grid, found, Middle(TagOf(grid, found[i])), kNearTags + 1)) {
       if (j == i || found[i].number == found[j].number || group[i] == group[j]) continue;
-      if (!Predicts(grid, found[i], found[j]) && !Predicts(grid, found[j], found[i])) continue;
+      if (!Predicts(grid, found[i], frames[i], found[j]) && !Predicts(grid, found[j], frames[j], found[i]))
+        continue;
       const std::size_t from = group[j], to = group[i];
       std::replace(group.begin(), group.end(), from, to);
     }

@@ -30,8 +30,13 @@ struct SeenTag {
   std::array<double, 4> sigma_px = {0, 0, 0, 0};  // 0: not measured, the detector's
 };
 
-// The largest set of tags in which each lies where a near one says it must.
-std::vector<SeenTag> AgreeingTags(const TagGrid& grid, const std::vector<SeenTag>& found);
+// Pixels from a tag's own square, (0, 0) to (1, 1); nothing where its corners make none.
+using TagFrame = std::optional<Eigen::Matrix3d>;
+std::vector<TagFrame> FramesOf(const std::vector<SeenTag>& tags);
+
+// The largest set of tags in which each lies where a near one says it must. `frames` are those of `found`.
+std::vector<SeenTag> AgreeingTags(const TagGrid& grid, const std::vector<SeenTag>& found,
+                                  const std::vector<TagFrame>& frames);
 
 // Board to pixels about a place, from the corners of the nearest seen tags.
 std::optional<Eigen::Matrix3d> PixelFromBoardNear(const TagGrid& grid, const std::vector<SeenTag>& seen,
