@@ -111,18 +111,21 @@ std::vector<Case> AllKinds() {
 }
 
 TEST(BoardDetectTest, CornersAreWhereTheyAre) {
+  const Camera camera = BentCamera();
+  const support::BoardRenderer renderer(camera);
   for (const Case& c : AllKinds()) {
+    for (const double gamma : {1.0, 2.2}) 
     for (const double noise : {0.0, 0.02}) {
       std::mt19937_64 rng = support::TestRng();
-      const Camera camera = BentCamera();
       const Eigen::Isometry3d pose = Pose(c.board, c.distance_m, 0.2, {0.4, -0.3});
       support::BoardRenderOptions options;
       options.noise_sigma = noise;
-      const ImagePlane grey = support::RenderBoard(camera, pose, DrawBoard(c.board, c.style), rng, options);
+      options.gamma = gamma;
+      const ImagePlane grey = renderer.Render(pose, DrawBoard(c.board, c.style), rng, options);
       const BoardDetection detection = DetectBoard(grey, c.board);
       const Errors errors = Compare(detection, c.board, camera, pose);
-      std::printf("%-22s noise %.2f: %d of %d, mean %.3f %.3f, rms %.3f, largest %.3f, normalised %.2f %s\n",
-                  c.name, noise, errors.corners, errors.expected, errors.mean_px.x(), errors.mean_px.y(),
+      std::printf("%-22s noise %.2f gamma %.1f: %d of %d, mean %.3f %.3f, rms %.3f, largest %.3f, normalised %.2f %s\n",
+                  c.name, noise, gamma, errors.corners, errors.expected, errors.mean_px.x(), errors.mean_px.y(),
                   errors.rms_px, errors.largest_px, errors.normalised, detection.message.c_str());
     }
   }
