@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/board.h"
 #include "calib/tags.h"
 #include "forward/sensor.h"
 
@@ -38,7 +39,9 @@ struct SessionTags {
 
 struct SessionCamera {
   std::string id;
-  std::string intrinsics;  // absolute path, empty: none
+  std::string intrinsics;  // absolute path; empty: to be had from the calibration images
+  std::optional<Board> board;
+  std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
   std::string response = "linear";
   std::string vignetting = "none";
   double black_level_counts = 0;
