@@ -38,6 +38,15 @@ std::string ReadName(const TomlCursor& root, const std::string& path) {
   return fs::path(AbsolutePath(path)).parent_path().filename().string();
 }
 
+// Calibration images show a board, or the room's surveyed tags.
+void ExpectCalibrationTargets(const TomlCursor& cameras, const Session& session) {
+  if (!session.tags.survey.empty()) return;
+  for (const TomlCursor& table : cameras.Elements("a list of tables [[camera]]")) {
+    if (table.Find("calibration_images") && !table.Find("intrinsics"))
+      table.Require("board", "what the calibration images show (a board, or surveyed tags in [tags] map)");
+  }
+}
+
 // The tables need the states, and a session without [states] has the one that its tables name.
 Session WithTables(const TomlCursor& root, const std::string& folder, Session session) {
   const auto photos = root.Find("photos");
@@ -70,6 +79,7 @@ std::vector<std::string> InputFiles(const Session& session) {
     add(camera.intrinsics);
     add(camera.response_path);
     add(camera.vignetting_path);
+    for (const std::string& image : camera.calibration_images) add(image);
   }
   add(session.photos_path);
   for (const SessionPhoto& photo : session.photos) add(photo.file);
@@ -95,7 +105,10 @@ Session ReadSession(const std::string& path) {
   if (const auto tags = root.Find("tags")) session.tags = ReadTagsSection(*tags, folder);
   if (const auto registration = root.Find("registration"))
     session.registration_method = ReadRegistrationSection(*registration);
-  if (const auto cameras = root.Find("camera")) session.cameras = ReadCameras(*cameras, folder);
+  if (const auto cameras = root.Find("camera")) {
+    session.cameras = ReadCameras(*cameras, folder);
+    ExpectCalibrationTargets(*cameras, session);
+  }
   session.luminaires = ReadLuminaires(root, folder);
   session = WithTables(root, folder, std::move(session));
   session.input_files = InputFiles(session);

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/board.h"
 #include "calib/response.h"
 #include "calib/tags.h"
 #include "calib/vignetting.h"
@@ -40,10 +41,12 @@ struct SessionTags {
 
 struct SessionCamera {
   std::string id;
-  std::string intrinsics;           // absolute path, empty: none
-  std::string response = "linear";  // linear | estimate | file
-  std::string response_path;        // absolute path of that file
-  std::string vignetting = "none";  // none | estimate | file
+  std::string intrinsics;  // absolute path; empty: to be had from the calibration images
+  std::optional<Board> board;
+  std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
+  std::string response = "linear";              // linear | estimate | file
+  std::string response_path;                    // absolute path of that file
+  std::string vignetting = "none";              // none | estimate | file
   std::string vignetting_path;
   double black_level_counts = 0;
   double cdm2_per_count_s = 0;  // 0: unknown

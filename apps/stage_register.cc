@@ -21,8 +21,14 @@ constexpr size_t kPhotosPerView = 6;
 
 std::vector<Camera> ReadCameras(const Session& session) {
   std::vector<Camera> cameras;
-  for (const SessionCamera& camera : session.cameras)
+  for (const SessionCamera& camera : session.cameras) {
+    if (camera.intrinsics.empty())
+      throw std::runtime_error(fmt::format(
+          "{}: camera \"{}\": expected intrinsics, got calibration images; calibrate first and give "
+          "the result as intrinsics = \"...\"",
+          session.path, camera.id));
     cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
+  }
   return cameras;
 }
 

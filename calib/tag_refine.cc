@@ -6,6 +6,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -227,10 +228,19 @@ Eigen::Vector2d CornerPixel(const Camera& camera, const LocalFrame& frame, const
   return Project(camera, frame.ToRay(Map(homography.inverse(), st).st));
 }
 
+// Whether a pixel is of a random share of all. The choice is the same in every run; a lattice would miss
+// edges that run along its rows.
+bool IsOfShare(Eigen::Index u, Eigen::Index v, double share) {
+  uint32_t hash = static_cast<uint32_t>(u) * 0x9e3779b1U ^ static_cast<uint32_t>(v) * 0x85ebca77U;
+  hash = (hash ^ (hash >> 15)) * 0x2c1b3c6dU;
+  hash = (hash ^ (hash >> 12)) * 0x297a2d39U;
+  return (hash ^ (hash >> 15)) * 0x1p-32 < share;
+}
+
 // Pixels that lie, with their whole footprint, on the tag's picture.
 std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera, const LocalFrame& frame,
                                     const Eigen::Matrix3d& homography, const Eigen::Vector2d& center_px,
-                                    double radius_px, int total_cells) {
+                                    double radius_px, int total_cells, double share) {
   std::vector<TagPixel> pixels;
   const auto first = [](double x) {
     return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::floor(x)));
@@ -241,7 +251,7 @@ std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera
       std::min<Eigen::Index>(grey.cols() - 1, static_cast<Eigen::Index>(center_px.x() + radius_px));
   for (Eigen::Index v = first(center_px.y() - radius_px); v <= last_v; ++v) {
     for (Eigen::Index u = first(center_px.x() - radius_px); u <= last_u; ++u) {
-      if (!std::isfinite(grey(v, u))) continue;
+      if (!std::isfinite(grey(v, u)) || !IsOfShare(u, v, share)) continue;
       const Eigen::Vector2d middle(static_cast<double>(u), static_cast<double>(v));
       const Eigen::Vector3d ray = Unproject(camera, middle);
       if (!ray.allFinite()) continue;
@@ -312,13 +322,14 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
   const std::optional<Eigen::Matrix3d> start = HomographyFrom(xy, CornersInCells(picture));
   if (!start) return std::nullopt;
 
-  const TagFitter fitter(
-      picture, CollectPixels(grey, camera, frame, *start, center_px, radius_px, picture.total_cells()));
+  const double cells_per_px = (picture.border_end - picture.border_begin) / detection.side_px;
+  const double share = options.max_pixels * std::pow(cells_per_px / picture.total_cells(), 2);
+  const TagFitter fitter(picture, CollectPixels(grey, camera, frame, *start, center_px, radius_px,
+                                                picture.total_cells(), share));
   if (fitter.pixel_count() < std::size_t{5} * kUnknowns) return std::nullopt;
   Fit fit;
   fit.homography = *start;
   if (!fitter.FitShading(fit)) return std::nullopt;
-  const double cells_per_px = (picture.border_end - picture.border_begin) / detection.side_px;
   bool converged = false;
   for (int i = 0; i < options.max_iterations && !converged; ++i) {
     // The sharp picture's derivative jumps as edges pass pixel borders: full steps then swing to and fro by a
@@ -357,7 +368,7 @@ std::vector<TagDetection> RefineTagCorners(const ImagePlane& grey, const Camera&
   const TagFamilyPtr family = MakeTagFamily(options.family);
   std::vector<TagDetection> refined;
   for (const TagDetection& detection : detections) {
-    const TagPicture picture = DrawTag(*family, detection.id);
+    const TagPicture picture = DrawTag(*family, detection.id, options.border_bits);
     refined.push_back(RefineOne(grey, camera, picture, detection, options).value_or(detection));
   }
   return refined;

@@ -2,33 +2,16 @@
 
 #include <algorithm>
 
+#include "apps/internal/session_board.h"
 #include "apps/internal/session_files.h"
 
 namespace luxfit {
 namespace {
 
-void CheckBoard(const TomlCursor& board) {
-  board.ExpectKeys({"type", "columns", "rows", "tag_size_m", "square_size_m", "marker_size_m", "spacing"});
-  board.Require("type", "aprilgrid, chessboard or charuco").OneOf({"aprilgrid", "chessboard", "charuco"});
-  for (const char* key : {"columns", "rows"})
-    if (const auto count = board.Find(key)) count->WholeNumber("a number of tags or squares");
-  for (const char* key : {"tag_size_m", "square_size_m", "marker_size_m"})
-    if (const auto size = board.Find(key)) size->NumberAbove(0, "m");
-  if (const auto spacing = board.Find("spacing")) spacing->NumberAbove(0, "tag sizes");
-}
-
-void CheckCalibrationImages(const TomlCursor& table) {
-  if (const auto board = table.Find("board")) CheckBoard(*board);
-  const auto images = table.Find("calibration_images");
-  if (!images) return;
-  images->Text("a file pattern");
-  throw NotAvailable(*images, "intrinsics = \"camera.yaml\" (OpenCV YAML)");
-}
-
 std::string ReadIntrinsics(const TomlCursor& table, const std::string& folder) {
   const std::string expected =
       "a file of intrinsics (OpenCV YAML or XML, mrcal .cameramodel, COLMAP cameras.txt or .bin, Kalibr "
-      "camchain)";
+      "camchain), or calibration_images";
   const TomlCursor value = table.Require("intrinsics", expected);
   const std::string extension = ExtensionOf(value.Text(expected));
   const std::vector<std::string> known = {".yaml", ".yml", ".xml", ".cameramodel", ".txt", ".bin"};
@@ -64,8 +47,11 @@ SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
   table.ExpectKeys({"id", "intrinsics", "calibration_images", "board", "response", "vignetting",
                     "black_level", "cdm2_per_count_s", "luminance_weights"});
   SessionCamera camera;
-  CheckCalibrationImages(table);
-  camera.intrinsics = ReadIntrinsics(table, folder);
+  if (const auto board = table.Find("board")) camera.board = ReadBoard(*board);
+  if (const auto images = table.Find("calibration_images"))
+    camera.calibration_images = FindFiles(*images, folder);
+  if (camera.calibration_images.empty() || table.Find("intrinsics"))
+    camera.intrinsics = ReadIntrinsics(table, folder);
   const NameOrFile response = ReadNameOrFile(table, "response", "linear", folder);
   camera.response = response.name;
   camera.response_path = response.path;
