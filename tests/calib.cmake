@@ -1,5 +1,10 @@
 luxfit_test(calib image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
+luxfit_test(calib raw_photo_test LINK luxfit::calib)
 luxfit_test(calib luminance_test LINK luxfit::calib)
+luxfit_test(calib bracket_test LINK luxfit::calib)
+luxfit_test(calib estimate_response_test LINK luxfit::calib)
+luxfit_test(calib exposure_gains_test LINK luxfit::calib)
+luxfit_test(calib estimate_vignetting_test LINK luxfit::calib)
 luxfit_test(calib camera_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib camera_file_test LINK luxfit::calib)
 luxfit_test(calib colmap_model_test LINK luxfit::calib)
@@ -11,3 +16,7 @@ luxfit_test(calib real_boards_test LINK luxfit::calib)
 luxfit_test(calib reprojection_cost_test LINK luxfit::calib Ceres::ceres)
 luxfit_test(calib registration_test LINK luxfit::calib)
 luxfit_test(calib joint_registration_test LINK luxfit::calib opencv_core opencv_calib3d)
+
+# The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
+add_executable(memorial_radiance validation/memorial_radiance.cc)
+target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
