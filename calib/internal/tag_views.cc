@@ -1,0 +1,167 @@
+#include "calib/internal/tag_views.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "calib/internal/leave_out.h"
+#include "calib/internal/pose_start.h"
+
+namespace luxfit {
+namespace {
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
+  return joined;
+}
+
+BundleView ToView(const ViewDetections& detections, const std::map<int, SurveyedTag>& survey,
+                  std::map<int, std::vector<std::string>>& unknown, std::vector<RegistrationNote>& notes) {
+  BundleView view;
+  view.name = detections.view;
+  view.camera = detections.camera;
+  std::map<int, int> times_seen;
+  for (const TagDetection& tag : detections.tags) ++times_seen[tag.id];
+  for (const auto& [id, times] : times_seen) {
+    if (times < 2) continue;
+    notes.push_back({view.name, id, "tag_duplicated",
+                     "Tag " + std::to_string(id) + " is seen " + std::to_string(times) + " times in view " +
+                         view.name + "; it is left out there.",
+                     "Hang each tag id once, or remove copies and mirrors from view."});
+  }
+  for (const TagDetection& detection : detections.tags) {
+    const auto surveyed = survey.find(detection.id);
+    if (surveyed == survey.end()) {
+      std::vector<std::string>& seen_in = unknown[detection.id];
+      if (seen_in.empty() || seen_in.back() != view.name) seen_in.push_back(view.name);
+      continue;
+    }
+    if (times_seen[detection.id] > 1) continue;
+    if (!(detection.corner_sigma_px > 0)) {
+      throw std::invalid_argument("RegisterViews: view " + view.name + ": expected corner_sigma_px > 0");
+    }
+    view.tags.push_back({detection.id, surveyed->second.size_m, detection.side_px, detection.corner_sigma_px,
+                         TagCornersInWorld(surveyed->second), detection.corners_px});
+  }
+  view.used.assign(view.tags.size(), false);
+  return view;
+}
+
+std::vector<TagObservation> Without(const std::vector<TagObservation>& tags, const std::set<int>& left_out) {
+  std::vector<TagObservation> kept;
+  for (const TagObservation& tag : tags) {
+    if (left_out.count(tag.id) == 0) kept.push_back(tag);
+  }
+  return kept;
+}
+
+// The pose that each view's own tags give, all of them counted.
+std::vector<PoseStart> StartsOf(const BundleContext& context, const std::vector<BundleView>& views,
+                                const PoseStartOptions& options) {
+  std::vector<PoseStart> starts;
+  starts.reserve(views.size());
+  for (const BundleView& view : views)
+    starts.push_back(EstimatePoseStart(context.CameraOf(view), view.tags, options));
+  return starts;
+}
+
+// Tags that more views contradict than confirm, each view having agreed on a pose by two tags or more.
+std::set<int> FindMovedTags(const std::vector<BundleView>& views, const std::vector<PoseStart>& starts) {
+  std::map<int, int> balance;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const PoseStart& start = starts[v];
+    if (start.status != PoseStartStatus::kOk ||
+        std::count(start.agrees.begin(), start.agrees.end(), true) < 2)
+      continue;
+    for (std::size_t i = 0; i < start.agrees.size(); ++i)
+      balance[views[v].tags[i].id] += start.agrees[i] ? 1 : -1;
+  }
+  std::set<int> moved;
+  for (const auto& [id, votes] : balance) {
+    if (votes < 0) moved.insert(id);
+  }
+  return moved;
+}
+
+RegistrationNote StartNote(const BundleView& view, const PoseStart& start) {
+  if (start.status == PoseStartStatus::kAmbiguous) {
+    return {
+        view.name, -1, "pose_ambiguous",
+        "View " + view.name +
+            " sees its tags so frontally or so small that two poses fit them equally well; it is left out.",
+        "Show the view another tag, on another surface, or take it closer and more obliquely."};
+  }
+  if (start.status == PoseStartStatus::kConflict) {
+    return {view.name, -1, "view_disagrees",
+            "No two tags of view " + view.name + " agree on a pose; it is left out.",
+            "See whether a tag was moved or its survey is wrong, and whether the camera of the view is the "
+            "right one."};
+  }
+  return {view.name, -1, "no_tags",
+          "View " + view.name + " shows no surveyed tag that can be used; it is left out.",
+          "Hang a tag where the view sees it, at least 40 pixels a side, or leave the view's photos out."};
+}
+
+}  // namespace
+
+std::map<int, SurveyedTag> IndexSurvey(const std::vector<SurveyedTag>& survey) {
+  std::map<int, SurveyedTag> by_id;
+  for (const SurveyedTag& tag : survey) {
+    if (!by_id.emplace(tag.id, tag).second) {
+      throw std::invalid_argument("RegisterViews: survey: tag " + std::to_string(tag.id) + " appears twice");
+    }
+    if (!(tag.size_m > 0)) {
+      throw std::invalid_argument("RegisterViews: survey: tag " + std::to_string(tag.id) +
+                                  ": expected size_m > 0");
+    }
+  }
+  return by_id;
+}
+
+std::vector<BundleView> ViewsOf(const BundleContext& context, const std::map<int, SurveyedTag>& survey,
+                                const std::vector<ViewDetections>& detections,
+                                std::vector<RegistrationNote>& notes) {
+  std::vector<BundleView> views;
+  std::map<int, std::vector<std::string>> unknown;
+  for (const ViewDetections& view : detections) {
+    if (view.camera < 0 || view.camera >= static_cast<int>(context.cameras.size())) {
+      throw std::invalid_argument("RegisterViews: view " + view.view + ": camera: expected 0 to " +
+                                  std::to_string(static_cast<int>(context.cameras.size()) - 1) + ", got " +
+                                  std::to_string(view.camera));
+    }
+    views.push_back(ToView(view, survey, unknown, notes));
+  }
+  for (const auto& [id, seen_in] : unknown) {
+    notes.push_back({"", id, "tag_unknown",
+                     "Tag " + std::to_string(id) + " is seen (in " + Join(seen_in) +
+                         ") but is not in the survey; it is left out.",
+                     "Add it to the tag survey, or take it down."});
+  }
+  return views;
+}
+
+void StartViews(const BundleContext& context, std::vector<BundleView>& views,
+                std::vector<RegistrationNote>& notes) {
+  PoseStartOptions options;
+  options.survey_sigma_m = context.options.survey_sigma_m;
+  std::vector<PoseStart> starts = StartsOf(context, views, options);
+  const std::set<int> moved = FindMovedTags(views, starts);
+  for (const int id : moved) notes.push_back(TagDisagrees(id));
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    BundleView& view = views[v];
+    const std::size_t before = view.tags.size();
+    view.tags = Without(view.tags, moved);
+    if (view.tags.size() < before) starts[v] = EstimatePoseStart(context.CameraOf(view), view.tags, options);
+    view.used = starts[v].agrees;
+    view.active = starts[v].status == PoseStartStatus::kOk;
+    if (view.active) {
+      view.SetCamFromWorld(starts[v].cam_from_world);
+    } else {
+      notes.push_back(StartNote(view, starts[v]));
+    }
+  }
+}
+
+}  // namespace luxfit
