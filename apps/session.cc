@@ -77,6 +77,8 @@ std::vector<std::string> InputFiles(const Session& session) {
   add(session.tags.map_path);
   for (const SessionCamera& camera : session.cameras) {
     add(camera.intrinsics);
+    add(camera.response_path);
+    add(camera.vignetting_path);
     for (const std::string& image : camera.calibration_images) add(image);
   }
   add(session.photos_path);

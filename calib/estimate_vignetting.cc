@@ -15,17 +15,17 @@ constexpr double kHuber = 2.5;
 constexpr size_t kMinSamples = 30;
 constexpr int kGrid = 32;
 
-// Samples with r^2 and ln value at hand.
+// A sample with r^2 and ln value at hand; kept in the order of surfaces.
 struct Row {
   int photo, surface, fold;
   double r2, log_value, sigma;
 };
 
-std::vector<Row> RowsOf(const std::vector<SurfaceSample>& samples, int photos, const Vignetting& none) {
+std::vector<Row> RowsOf(const std::vector<VignettingSample>& samples, int photos, const Vignetting& none) {
   std::map<int, int> surfaces;  // renumbered without gaps
   std::vector<Row> rows;
   rows.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) {
+  for (const VignettingSample& sample : samples) {
     if (sample.photo < 0 || sample.photo >= photos || !(sample.value > 0) || !std::isfinite(sample.value) ||
         !(sample.relative_sigma > 0) || !sample.pixel.allFinite())
       throw std::invalid_argument(
@@ -38,6 +38,8 @@ std::vector<Row> RowsOf(const std::vector<SurfaceSample>& samples, int photos, c
   const bool by_surface = surfaces.size() >= 2 * kFolds;
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].fold = (by_surface ? rows[i].surface : static_cast<int>(i)) % kFolds;
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.surface < b.surface; });
   return rows;
 }
 
@@ -111,40 +113,64 @@ class Problem {
     return sum;
   }
 
-  Eigen::VectorXd Terms(const Row& row) const {
-    Eigen::VectorXd terms = Eigen::VectorXd::Zero(order_ + photos_);
+  // Unknowns that a row touches: every coefficient, and its photo's gain.
+  std::vector<Eigen::Index> UnknownsOf(const Row& row) const {
+    std::vector<Eigen::Index> unknowns;
+    unknowns.reserve(static_cast<size_t>(order_) + 1);
+    for (Eigen::Index k = 0; k < order_; ++k) unknowns.push_back(k);
+    if (photos_ > 0) unknowns.push_back(order_ + row.photo);
+    return unknowns;
+  }
+
+  // d model / d unknown, in the order of UnknownsOf.
+  std::vector<double> DerivativesOf(const Row& row) const {
+    std::vector<double> derivatives;
+    derivatives.reserve(static_cast<size_t>(order_) + 1);
     double power = 1;
-    for (int k = 0; k < order_; ++k) terms[k] = (power *= row.r2);
-    if (photos_ > 0) terms[order_ + row.photo] = 1;
-    return terms;
+    for (int k = 0; k < order_; ++k) derivatives.push_back(power *= row.r2);
+    if (photos_ > 0) derivatives.push_back(1);
+    return derivatives;
   }
 
   void Step(int left_out, Solution& solution) const {
     const Eigen::Index unknowns = order_ + photos_;
-    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(unknowns, surfaces_);
-    Eigen::VectorXd mean_value = Eigen::VectorXd::Zero(surfaces_), weights = mean_value, right(unknowns);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns);
     solution.normal = Eigen::MatrixXd::Zero(unknowns, unknowns);
-    right.setZero();
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      const Row& row = rows_[i];
-      if (row.fold == left_out) continue;
-      const double weight = solution.weight[static_cast<Eigen::Index>(i)] / (row.sigma * row.sigma);
-      const Eigen::VectorXd terms = Terms(row);
-      mean.col(row.surface) += weight * terms;
-      mean_value[row.surface] += weight * row.log_value;
-      weights[row.surface] += weight;
-      solution.normal += weight * terms * terms.transpose();
-      right += weight * row.log_value * terms;
-    }
-    for (int s = 0; s < surfaces_; ++s) {
-      if (!(weights[s] > 0)) continue;
-      solution.normal -= mean.col(s) * mean.col(s).transpose() / weights[s];
-      right -= mean.col(s) * (mean_value[s] / weights[s]);
+    for (size_t first = 0; first < rows_.size();) {
+      size_t last = first;
+      while (last < rows_.size() && rows_[last].surface == rows_[first].surface) ++last;
+      AddSurface(first, last, left_out, solution, right);
+      first = last;
     }
     for (Eigen::Index g = order_; g < unknowns; ++g) solution.normal(g, g) += 1 / (gain_prior_ * gain_prior_);
     // A direction without any information stays where it is.
     solution.normal.diagonal().array() += 1e-6;
     if (unknowns > 0) solution.x = solution.normal.ldlt().solve(right);
+  }
+
+  // Rows [first, last) of one surface, its luminance eliminated.
+  void AddSurface(size_t first, size_t last, int left_out, Solution& solution, Eigen::VectorXd& right) const {
+    std::map<Eigen::Index, double> mean;
+    double mean_value = 0, weights = 0;
+    for (size_t i = first; i < last; ++i) {
+      const Row& row = rows_[i];
+      if (row.fold == left_out) continue;
+      const double weight = solution.weight[static_cast<Eigen::Index>(i)] / (row.sigma * row.sigma);
+      const std::vector<Eigen::Index> at = UnknownsOf(row);
+      const std::vector<double> d = DerivativesOf(row);
+      for (size_t a = 0; a < at.size(); ++a) {
+        mean[at[a]] += weight * d[a];
+        right[at[a]] += weight * row.log_value * d[a];
+        for (size_t b = 0; b < at.size(); ++b) solution.normal(at[a], at[b]) += weight * d[a] * d[b];
+      }
+      mean_value += weight * row.log_value;
+      weights += weight;
+    }
+    if (!(weights > 0)) return;
+    for (const auto& [a, of_a] : mean) {
+      right[a] -= of_a * mean_value / weights;
+      for (const auto& [b, of_b] : mean) solution.normal(a, b) -= of_a * of_b / weights;
+    }
   }
 
   const std::vector<Row>& rows_;
@@ -179,7 +205,7 @@ double RobustRms(Eigen::VectorXd absolute) {
 
 }  // namespace
 
-VignettingEstimate EstimateVignetting(const std::vector<SurfaceSample>& samples, int photos,
+VignettingEstimate EstimateVignetting(const std::vector<VignettingSample>& samples, int photos,
                                       const Vignetting& none, const VignettingOptions& options) {
   VignettingEstimate estimate;
   estimate.vignetting = none;
@@ -223,7 +249,7 @@ VignettingEstimate EstimateVignetting(const std::vector<SurfaceSample>& samples,
 
 VignettingEstimate VignettingOfFlatField(const LuminanceImage& flat_field, const VignettingOptions& options) {
   const Eigen::Index height = flat_field.valid.rows(), width = flat_field.valid.cols();
-  std::vector<SurfaceSample> samples;
+  std::vector<VignettingSample> samples;
   samples.reserve(static_cast<size_t>(kGrid) * kGrid);
   for (Eigen::Index row = 0; row < kGrid; ++row) {
     for (Eigen::Index column = 0; column < kGrid; ++column) {

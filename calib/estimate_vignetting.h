@@ -26,7 +26,7 @@
 
 namespace luxfit {
 
-struct SurfaceSample {
+struct VignettingSample {
   int photo = 0;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   int surface = 0;  // samples of one number show the same luminance
@@ -51,7 +51,7 @@ struct VignettingEstimate {
 };
 
 // `none`: centre and radius (NoVignetting).
-VignettingEstimate EstimateVignetting(const std::vector<SurfaceSample>& samples, int photos,
+VignettingEstimate EstimateVignetting(const std::vector<VignettingSample>& samples, int photos,
                                       const Vignetting& none, const VignettingOptions& options = {});
 
 // A photo of an evenly bright surface that fills the picture: cells of a grid of 32 x 32 as samples.

@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <exception>
-#include <exiv2/exiv2.hpp>
+#include <initializer_list>
+
+#include "calib/internal/exif.h"
 
 namespace luxfit {
 namespace {
@@ -59,19 +61,12 @@ std::optional<double> Iso(const Exiv2::ExifData& exif) {
 }  // namespace
 
 ExposureMetadata ReadExposureMetadata(const std::string& path) {
-  // A broken tag is no reason to write on the user's terminal.
-  Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);
-  ExposureMetadata metadata;
+  const Exiv2::ExifData exif = ReadExif(path);
   try {
-    const auto image = Exiv2::ImageFactory::open(path);
-    image->readMetadata();
-    const Exiv2::ExifData& exif = image->exifData();
-    metadata = {ExposureTime(exif), FNumber(exif), Iso(exif)};
+    return {ExposureTime(exif), FNumber(exif), Iso(exif)};
   } catch (const std::exception&) {
-    // Not a format that carries EXIF (EXR, HDR, PFM), or broken: it says nothing.
-    return {};
+    return {};  // a value of another type than the standard's
   }
-  return metadata;
 }
 
 }  // namespace luxfit

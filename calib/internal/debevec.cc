@@ -41,7 +41,8 @@ struct NormalEquations {
 
 // One pixel's rows, its ln E eliminated: what is left of each row is its difference from their weighted mean.
 void AddPixel(const Eigen::RowVectorXd& counts, const Eigen::VectorXd& log_exposure,
-              const Eigen::VectorXd& weight_of_level, const ResponseOptions& options, NormalEquations& normal) {
+              const Eigen::VectorXd& weight_of_level, const ResponseOptions& options,
+              NormalEquations& normal) {
   struct Row {
     LevelPosition at;
     double log_time, weight;

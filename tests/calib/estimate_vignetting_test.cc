@@ -22,16 +22,16 @@ double Truth(const Eigen::Vector2d& pixel) {
 
 // 400 surfaces, each in some photos at places at random.
 template <typename Rng>
-std::vector<SurfaceSample> Samples(bool vignetted, const Eigen::VectorXd& log_gain, double outlier_share,
-                                   Rng& rng) {
+std::vector<VignettingSample> Samples(bool vignetted, const Eigen::VectorXd& log_gain, double outlier_share,
+                                      Rng& rng) {
   std::uniform_real_distribution<double> u(0, kWidth - 1), v(0, kHeight - 1), unit(0, 1);
   std::normal_distribution<double> noise(0, 0.01);
-  std::vector<SurfaceSample> samples;
+  std::vector<VignettingSample> samples;
   for (int surface = 0; surface < 400; ++surface) {
     const double luminance = std::exp(3 * unit(rng));
     for (int photo = 0; photo < kPhotos; ++photo) {
       if (unit(rng) > 0.3) continue;
-      SurfaceSample sample{photo, {u(rng), v(rng)}, surface, luminance, 0.01};
+      VignettingSample sample{photo, {u(rng), v(rng)}, surface, luminance, 0.01};
       if (vignetted) sample.value *= Truth(sample.pixel);
       sample.value *= std::exp(log_gain[photo] + noise(rng));
       if (unit(rng) < outlier_share) sample.value *= 1.5;  // a glossy surface that mirrors a lamp
@@ -86,7 +86,7 @@ TEST(EstimateVignettingTest, NoneIsFoundWhereThereIsNone) {
 TEST(EstimateVignettingTest, SurfacesAlwaysAtOnePlaceDetermineNothing) {
   auto rng = support::TestRng();
   auto samples = Samples(true, Eigen::VectorXd::Zero(kPhotos), 0, rng);
-  for (SurfaceSample& sample : samples) sample.pixel = {10.0 + sample.surface, 100.0};
+  for (VignettingSample& sample : samples) sample.pixel = {10.0 + sample.surface, 100.0};
   const VignettingEstimate estimate = EstimateVignetting(samples, kPhotos, NoVignetting(kWidth, kHeight));
   EXPECT_FALSE(estimate.is_determined);
   EXPECT_FALSE(estimate.message.empty());
