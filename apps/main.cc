@@ -104,6 +104,8 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<CLI::App*, int (*)(const luxfit::CommandOptions&)>> commands = {
       add("run", "everything: register the photos, observe, fit, check against the luxmeter", true,
           luxfit::RunCommand),
+      add("calibrate", "intrinsics of cameras and rigs, from images of a board or of the room's tags", true,
+          luxfit::CalibrateCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
       add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,

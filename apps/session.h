@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "calib/board.h"
+#include "calib/lens_kind.h"
 #include "calib/tags.h"
 #include "forward/sensor.h"
 
@@ -42,6 +43,8 @@ struct SessionCamera {
   std::string intrinsics;  // absolute path; empty: to be had from the calibration images
   std::optional<Board> board;
   std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
+  std::string calibration_corners;              // absolute path of a corners.vnl; empty: corners are found
+  std::optional<Eigen::Array2i> image_size_px;  // of cameras whose corners come without images
   std::string response = "linear";
   std::string vignetting = "none";
   double black_level_counts = 0;
@@ -104,6 +107,14 @@ struct SessionLuxmeter {
   double common_sigma = 0;
 };
 
+// How cameras without intrinsics are calibrated.
+struct SessionCalibration {
+  std::optional<LensKind> lens;    // absent: chosen
+  std::string back_end = "mrcal";  // mrcal | opencv
+  std::string rig = "auto";        // auto | numbers | order | none: what makes a set of images
+  double focal_start_px = 0;       // 0: scanned
+};
+
 struct Session {
   std::string name;
   std::string path;  // absolute path of the session file
@@ -111,6 +122,7 @@ struct Session {
   SessionTags tags;
   std::string registration_method = "auto";  // auto | tags
   std::vector<SessionCamera> cameras;
+  SessionCalibration calibration;
   std::string photos_path;  // empty: no [photos] section
   std::vector<SessionPhoto> photos;
   std::vector<SessionState>

@@ -153,8 +153,7 @@ MrcalArguments MakeArguments(const CalibrationProblem& problem, const Calibratio
   arguments.frames = static_cast<int>(arguments.reference_from_target.size());
   arguments.warp.x2 = state.warp_m.x();
   arguments.warp.y2 = state.warp_m.y();
-  arguments.selections =
-      SelectionsOf(state.lens, selection, arguments.is_grid, arguments.extrinsics > 0);
+  arguments.selections = SelectionsOf(state.lens, selection, arguments.is_grid, arguments.extrinsics > 0);
   return arguments;
 }
 
@@ -204,10 +203,9 @@ Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
           arguments.cam_from_reference.data(), arguments.reference_from_target.data(),
           arguments.points_in_reference.data(), &arguments.warp, arguments.cameras, arguments.extrinsics,
           arguments.frames, arguments.points, arguments.points, arguments.boards.data(),
-          arguments.point_observations.data(), arguments.board_count(),
-          arguments.point_observation_count(), arguments.pool.data(), &arguments.model,
-          arguments.image_sizes.data(), arguments.selections, &arguments.constants, arguments.spacing_m,
-          arguments.columns, arguments.rows, false))
+          arguments.point_observations.data(), arguments.board_count(), arguments.point_observation_count(),
+          arguments.pool.data(), &arguments.model, arguments.image_sizes.data(), arguments.selections,
+          &arguments.constants, arguments.spacing_m, arguments.columns, arguments.rows, false))
     throw std::runtime_error("calibration: libmrcal refused its optimiser's callback");
   std::vector<double> scale(static_cast<std::size_t>(states), 1.0);
   mrcal_unpack_solver_state_vector(scale.data(), arguments.cameras, arguments.extrinsics, arguments.frames,
@@ -255,8 +253,8 @@ LinearizedState LinearizeByMrcal(const CalibrationProblem& problem, const Calibr
   out.jacobian = JacobianOf(a);
   const int boards = a.board_count();
   for (int c = 0; c < a.cameras; ++c) {
-    out.intrinsics_at.push_back(mrcal_state_index_intrinsics(
-        c, a.cameras, a.extrinsics, a.frames, a.points, a.points, boards, a.selections, &a.model));
+    out.intrinsics_at.push_back(mrcal_state_index_intrinsics(c, a.cameras, a.extrinsics, a.frames, a.points,
+                                                             a.points, boards, a.selections, &a.model));
     const bool moves = a.is_grid && c > 0;
     out.cam_from_rig_at.push_back(moves ? mrcal_state_index_extrinsics(c - 1, a.cameras, a.extrinsics,
                                                                        a.frames, a.points, a.points, boards,
