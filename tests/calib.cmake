@@ -20,3 +20,8 @@ luxfit_test(calib joint_registration_test LINK luxfit::calib opencv_core opencv_
 # The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
 add_executable(memorial_radiance validation/memorial_radiance.cc)
 target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
+luxfit_test(calib calibration_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib calibration_coverage_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib projection_uncertainty_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib corners_file_test LINK luxfit::calib)
