@@ -8,6 +8,7 @@
 
 #include "apps/earlier_result.h"
 #include "apps/plan_svg.h"
+#include "apps/stage_calibrate.h"
 #include "apps/stages.h"
 
 namespace luxfit {
@@ -79,6 +80,15 @@ int LinearizeCommand(const CommandOptions& options) {
   return 0;
 }
 
+int CalibrateCommand(const CommandOptions& options) {
+  const Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = CalibrateSession(session, context);
+  Print(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/stages/calibrate.json").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
 int RegisterCommand(const CommandOptions& options) {
   Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
@@ -88,7 +98,7 @@ int RegisterCommand(const CommandOptions& options) {
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
     Print(result.dump(2) + "\n");
-    return 0;
+    return context.undetermined ? 1 : 0;
   }
   for (const nlohmann::json& view : result["views"]) {
     const nlohmann::json& sigma = view["position_sigma_m"];
@@ -102,7 +112,7 @@ int RegisterCommand(const CommandOptions& options) {
   for (const Warning& w : context.warnings)
     warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
   Print(WarningText(warnings));
-  return 0;
+  return context.undetermined ? 1 : 0;
 }
 
 int CheckCommand(const CommandOptions& options) {

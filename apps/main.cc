@@ -106,6 +106,8 @@ int main(int argc, char** argv) {
           luxfit::RunCommand),
       add("linearize", "photos to luminance: exposures, response, vignetting", true,
           luxfit::LinearizeCommand),
+      add("calibrate", "intrinsics of cameras and rigs, from images of a board or of the room's tags", true,
+          luxfit::CalibrateCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
       add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/internal/session_calibration.h"
 #include "apps/internal/session_camera.h"
 #include "apps/internal/session_files.h"
 #include "apps/internal/session_luminaires.h"
@@ -38,12 +39,16 @@ std::string ReadName(const TomlCursor& root, const std::string& path) {
   return fs::path(AbsolutePath(path)).parent_path().filename().string();
 }
 
-// Calibration images show a board, or the room's surveyed tags.
-void ExpectCalibrationTargets(const TomlCursor& cameras, const Session& session) {
-  if (!session.tags.survey.empty()) return;
+// A camera without intrinsics is calibrated: from images of a board, or of the room's surveyed tags, which
+// the session's own photos show.
+void ExpectCalibrationTargets(const TomlCursor& root, const TomlCursor& cameras, const Session& session) {
   for (const TomlCursor& table : cameras.Elements("a list of tables [[camera]]")) {
-    if (table.Find("calibration_images") && !table.Find("intrinsics"))
+    if (table.Find("intrinsics")) continue;
+    const bool has_images = table.Find("calibration_images") || table.Find("calibration_corners");
+    if (table.Find("calibration_corners") || (has_images && session.tags.survey.empty()))
       table.Require("board", "what the calibration images show (a board, or surveyed tags in [tags] map)");
+    if (!has_images && (session.tags.survey.empty() || !root.Find("photos")))
+      table.Require("intrinsics", ExpectedIntrinsics());
   }
 }
 
@@ -79,6 +84,7 @@ std::vector<std::string> InputFiles(const Session& session) {
     add(camera.intrinsics);
     add(camera.response_path);
     add(camera.vignetting_path);
+    add(camera.calibration_corners);
     for (const std::string& image : camera.calibration_images) add(image);
   }
   add(session.photos_path);
@@ -95,8 +101,8 @@ Session ReadSession(const std::string& path) {
   ExpectSessionFile(path);
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
-  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "photos", "states", "luminaires",
-                   "luminaire", "luxmeter"});
+  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "states",
+                   "luminaires", "luminaire", "luxmeter"});
   const std::string folder = fs::path(path).parent_path().string();
   Session session;
   session.name = ReadName(root, path);
@@ -107,8 +113,10 @@ Session ReadSession(const std::string& path) {
     session.registration_method = ReadRegistrationSection(*registration);
   if (const auto cameras = root.Find("camera")) {
     session.cameras = ReadCameras(*cameras, folder);
-    ExpectCalibrationTargets(*cameras, session);
+    ExpectCalibrationTargets(root, *cameras, session);
   }
+  if (const auto calibration = root.Find("calibration"))
+    session.calibration = ReadCalibrationSection(*calibration);
   session.luminaires = ReadLuminaires(root, folder);
   session = WithTables(root, folder, std::move(session));
   session.input_files = InputFiles(session);

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "calib/board.h"
+#include "calib/lens_kind.h"
 #include "calib/response.h"
 #include "calib/tags.h"
 #include "calib/vignetting.h"
@@ -48,6 +49,8 @@ struct SessionCamera {
   std::string response_path;                    // absolute path of that file
   std::string vignetting = "none";              // none | estimate | file
   std::string vignetting_path;
+  std::string calibration_corners;              // absolute path of a corners.vnl; empty: corners are found
+  std::optional<Eigen::Array2i> image_size_px;  // of cameras whose corners come without images
   double black_level_counts = 0;
   double cdm2_per_count_s = 0;  // 0: unknown
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
@@ -126,6 +129,14 @@ struct SessionLuxmeter {
   double common_sigma = 0;
 };
 
+// How cameras without intrinsics are calibrated.
+struct SessionCalibration {
+  std::optional<LensKind> lens;    // absent: chosen
+  std::string back_end = "mrcal";  // mrcal | opencv
+  std::string rig = "auto";        // auto | numbers | order | none: what makes a set of images
+  double focal_start_px = 0;       // 0: scanned
+};
+
 struct Session {
   std::string name;
   std::string path;  // absolute path of the session file
@@ -133,6 +144,7 @@ struct Session {
   SessionTags tags;
   std::string registration_method = "auto";  // auto | tags
   std::vector<SessionCamera> cameras;
+  SessionCalibration calibration;
   std::string photos_path;  // empty: no [photos] section
   std::vector<SessionPhoto> photos;
   std::vector<SessionState>

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "apps/stage_calibrate.h"
 #include "apps/stages.h"
-#include "calib/camera_file.h"
 #include "calib/luminance.h"
 #include "calib/tag_refine.h"
 
@@ -18,19 +18,6 @@ namespace {
 // More photos of one pose average noise and outvote a corner that one of them shows badly; the pixel grid
 // they share.
 constexpr size_t kPhotosPerView = 6;
-
-std::vector<Camera> ReadCameras(const Session& session) {
-  std::vector<Camera> cameras;
-  for (const SessionCamera& camera : session.cameras) {
-    if (camera.intrinsics.empty())
-      throw std::runtime_error(fmt::format(
-          "{}: camera \"{}\": expected intrinsics, got calibration images; calibrate first and give "
-          "the result as intrinsics = \"...\"",
-          session.path, camera.id));
-    cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
-  }
-  return cameras;
-}
 
 double DimmingSum(const Session& session, const SessionPhoto& photo) {
   for (const SessionState& state : session.states) {
@@ -112,7 +99,7 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
                              ": tags.map: expected a tag map (this version registers photos by surveyed "
                              "tags), got none; add map = \"tags.json\" to [tags]");
   }
-  registered.cameras = ReadCameras(session);
+  registered.cameras = CamerasOf(session, context);
   std::vector<ViewDetections> detections;
   std::vector<std::pair<size_t, const SessionPhoto*>> jobs;
   for (const auto& [view, photos] : by_view) {
@@ -149,7 +136,6 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
                     registered.registration.message));
   }
   context.choices.push_back({"registration", "tags", {"tags"}, "the only method of this version"});
-  context.choices.push_back({"lens", "as given", {}, "intrinsics were given, not estimated"});
   WriteArtifact(registered, context);
   return registered;
 }

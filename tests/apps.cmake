@@ -12,6 +12,8 @@ luxfit_test(apps tag_map_test LINK luxfit_apps)
 # Runs the program itself, which no test links.
 luxfit_test(apps cli_bad_input_test LINK opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)
 add_dependencies(apps_cli_bad_input_test luxfit)
+luxfit_test(apps board_command_test LINK luxfit_apps)
+add_dependencies(apps_board_command_test luxfit)
 luxfit_test(apps formfactors_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_formfactors_test luxfit)
 luxfit_test(apps chart_test LINK nlohmann_json::nlohmann_json)

@@ -26,6 +26,7 @@ struct LensCandidate {
   LensKind kind;
   LensFit fit;
   HeldOutScore score;
+  std::vector<bool> counted;  // corners in that score
 };
 
 struct LensChoice {

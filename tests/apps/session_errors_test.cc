@@ -200,9 +200,7 @@ TEST_F(SessionErrorsTest, SceneTagsAndCamerasAreChecked) {
 }
 
 TEST_F(SessionErrorsTest, CalibrationImagesAreChecked) {
-  EXPECT_THAT(
-      ErrorAfter("intrinsics = \"cam0.yaml\"\n", ""),
-      Holds("camera[0].intrinsics: expected a file of intrinsics", "or calibration_images, got nothing"));
+  EXPECT_EQ(ErrorAfter("intrinsics = \"cam0.yaml\"\n", ""), "") << "its own photos show the surveyed tags";
   EXPECT_THAT(
       ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = \"board/*.png\""),
       Holds(At("intrinsics") + "camera[0].calibration_images: expected files that match, got none for "
@@ -216,6 +214,29 @@ TEST_F(SessionErrorsTest, CalibrationImagesAreChecked) {
   folder_.Replace("session.toml", "intrinsics = \"cam0.yaml\"", "calibration_images = \"photos/*.png\"");
   folder_.Replace("session.toml", "[tags]\nfamily = \"tag36h11\"\nmap = \"tags.json\"\n", "");
   EXPECT_THAT(Error(), HasSubstr("camera[0].board: expected what the calibration images show"));
+  folder_.Replace("session.toml", "calibration_images = \"photos/*.png\"", "");
+  EXPECT_THAT(Error(), Holds("camera[0].intrinsics: expected a file of intrinsics",
+                             "or calibration_images, got nothing"));
+  EXPECT_THAT(ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_corners = \"tags.json\""),
+              HasSubstr("camera[0].board: expected what the calibration images show"));
+}
+
+TEST_F(SessionErrorsTest, CalibrationIsChecked) {
+  const auto error = [&](const std::string& line) {
+    return ErrorAfter("[photos]", "[calibration]\n" + line + "\n[photos]");
+  };
+  EXPECT_EQ(error("lens = \"opencv8\"\nback_end = \"opencv\"\nrig = \"order\"\nfocal_start_px = 800"), "");
+  EXPECT_EQ(error("lens = \"splined10\""), "");
+  EXPECT_THAT(error("lens = \"opencv6\""), HasSubstr("calibration.lens: expected auto, opencv4, opencv5"));
+  EXPECT_THAT(error("lens = \"splined\""), HasSubstr("splinedN with N control points"));
+  EXPECT_THAT(error("back_end = \"kalibr\""), HasSubstr("calibration.back_end: expected"));
+  EXPECT_THAT(error("lens = \"splined8\"\nback_end = \"opencv\""),
+              HasSubstr("calibration: expected back_end = \"mrcal\" with a splined lens"));
+  EXPECT_THAT(error("rig = \"pairs\""), HasSubstr("calibration.rig: expected"));
+  EXPECT_THAT(error("focal_start_px = 0"), HasSubstr("calibration.focal_start_px: expected > 0"));
+  EXPECT_THAT(
+      ErrorAfter("intrinsics = \"cam0.yaml\"", "intrinsics = \"cam0.yaml\"\nimage_size = [640.5, 480]"),
+      HasSubstr("camera[0].image_size: expected [width, height] in whole pixels"));
 }
 
 TEST_F(SessionErrorsTest, BoardsAreChecked) {
