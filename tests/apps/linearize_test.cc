@@ -292,15 +292,16 @@ class ObservedLightTest : public LinearizeTest {
     Camera camera;
     camera.width_px = 640;
     camera.height_px = 480;
-    camera.fx = camera.fy = 400;
-    camera.cx = 319.5;
-    camera.cy = 239.5;
+    camera.fx_px = camera.fy_px = 400;
+    camera.cx_px = 319.5;
+    camera.cy_px = 239.5;
     registered_.cameras = {camera};
     for (int y = 0; y < 30; ++y) {
       for (int x = 0; x < 40; ++x) {
-        Element element{};
+        Element element;
         element.center = {0.1 * x, 0.1 * y, 0};
-        room_.patches.elements.push_back(element);
+        element.normal = element.origin = element.edge_u = element.edge_v = Eigen::Vector3d::Zero();
+        patches_.elements.push_back(element);
       }
     }
     for (int view = 0; view < 8; ++view) {
@@ -318,10 +319,10 @@ class ObservedLightTest : public LinearizeTest {
     const Vignetting frame = NoVignetting(640, 480);
     std::vector<Observation> observations;
     for (int view = 0; view < 8; ++view) {
-      for (int e = 0; e < static_cast<int>(room_.patches.elements.size()); ++e) {
+      for (int e = 0; e < static_cast<int>(patches_.elements.size()); ++e) {
         const Eigen::Vector2d pixel = Project(
             registered_.cameras[0], registered_.registration.views[static_cast<size_t>(view)].cam_from_world *
-                                        room_.patches.elements[static_cast<size_t>(e)].center);
+                                        patches_.elements[static_cast<size_t>(e)].center);
         if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() > 639 || pixel.y() > 479) continue;
         double value = 0.2 + 0.1 * std::sin(0.3 * e);
         truth_[e] = value;
@@ -336,7 +337,7 @@ class ObservedLightTest : public LinearizeTest {
 
   Session session_;
   RegisteredSession registered_;
-  Room room_;
+  Patches patches_;
   std::map<int, double> truth_;
 };
 
@@ -344,7 +345,7 @@ TEST_F(ObservedLightTest, VignettingAndSmallGainsAreTakenOut) {
   const std::vector<double> factors{1, 1.01, 0.99, 1.005, 1, 0.995, 1.01, 0.99};
   nlohmann::json artifact;
   const auto corrected =
-      WithEstimatedVignetting(session_, registered_, room_, Observe(true, factors), context_, artifact);
+      WithEstimatedVignetting(session_, registered_, patches_, Observe(true, factors), context_, artifact);
   EXPECT_THAT(context_.warnings, IsEmpty());
   ASSERT_THAT(context_.choices, SizeIs(1));
   double scale = 0;
