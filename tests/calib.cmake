@@ -25,3 +25,6 @@ luxfit_test(calib calibration_coverage_test LINK luxfit::calib opencv_core openc
 luxfit_test(calib calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib projection_uncertainty_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib corners_file_test LINK luxfit::calib)
+# The office as worse cameras would have photographed it, for `luxfit run`.
+add_executable(office_variants validation/office_variants.cc)
+target_link_libraries(office_variants PRIVATE luxfit_build luxfit::calib opencv_core opencv_imgcodecs)
