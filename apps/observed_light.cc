@@ -70,8 +70,8 @@ std::vector<ExposureRatio> RatiosOfViews(const ViewsOfElement& elements,
 }
 
 VignettingSample SampleOf(const Observation& observation, const Camera& camera, const RegisteredView& view,
-                          const Room& room, int photo, int states) {
-  const Eigen::Vector3d center = room.patches.elements[static_cast<size_t>(observation.element)].center;
+                          const Patches& patches, int photo, int states) {
+  const Eigen::Vector3d center = patches.elements[static_cast<size_t>(observation.element)].center;
   VignettingSample sample;
   sample.photo = photo;
   sample.pixel = Project(camera, view.cam_from_world * center);
@@ -163,8 +163,9 @@ void WarnOfExposures(const Session& session, const RegisteredSession& registered
 }
 
 std::vector<Observation> WithEstimatedVignetting(const Session& session, const RegisteredSession& registered,
-                                                 const Room& room, std::vector<Observation> observations,
-                                                 RunContext& context, nlohmann::json& artifact) {
+                                                 const Patches& patches,
+                                                 std::vector<Observation> observations, RunContext& context,
+                                                 nlohmann::json& artifact) {
   const int states = static_cast<int>(session.states.size());
   for (size_t c = 0; c < session.cameras.size(); ++c) {
     if (session.cameras[c].vignetting != "estimate") continue;
@@ -175,7 +176,7 @@ std::vector<Observation> WithEstimatedVignetting(const Session& session, const R
     const Camera& camera = registered.cameras[c];
     const auto sample_of = [&](const Observation& o, PhotoNumbers& numbers) {
       const RegisteredView& view = registered.registration.views[static_cast<size_t>(o.view)];
-      return SampleOf(o, camera, view, room, numbers.Of(o), states);
+      return SampleOf(o, camera, view, patches, numbers.Of(o), states);
     };
     PhotoNumbers numbers;
     for (const Observation& o : of_camera) numbers.Of(o);

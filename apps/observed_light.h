@@ -20,8 +20,9 @@ void WarnOfExposures(const Session& session, const RegisteredSession& registered
 // For cameras with vignetting = "estimate": observations divided by the vignetting estimated from them, and
 // by their photo's gain. Warns ("vignetting_undetermined") where they do not determine it, and leaves them.
 std::vector<Observation> WithEstimatedVignetting(const Session& session, const RegisteredSession& registered,
-                                                 const Room& room, std::vector<Observation> observations,
-                                                 RunContext& context, nlohmann::json& artifact);
+                                                 const Patches& patches,
+                                                 std::vector<Observation> observations, RunContext& context,
+                                                 nlohmann::json& artifact);
 
 }  // namespace luxfit
 

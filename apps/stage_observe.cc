@@ -127,7 +127,8 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     observations.insert(observations.end(), by_photo[i].begin(), by_photo[i].end());
     json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
-  observations = WithEstimatedVignetting(session, registered, room, std::move(observations), context, json);
+  observations =
+      WithEstimatedVignetting(session, registered, room.patches, std::move(observations), context, json);
   WarnOfExposures(session, registered, observations, context);
   WriteJson(context.out + "/stages/observe.json", json);
   return observations;

@@ -89,7 +89,15 @@ TEST_F(SessionErrorsTest, PhotoRowsAreChecked) {
   EXPECT_EQ(ErrorAfter("photos.csv", "v0,all,0.05", "v0,Z,0.2"), "") << "a bracket";
 }
 
-TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
+TEST_F(SessionErrorsTest, AViewHasOneCameraAndSettingsArePositive) {
+  const auto error_after_row = [&](const std::string& row) {
+    Reset();
+    folder_.Write("photos.csv",
+                  "file,camera,view,state,exposure_s,iso\n"
+                  "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all," +
+                      row + "\n");
+    return Error();
+  };
   folder_.Replace("session.toml", "[photos]",
                   "[[camera]]\nid = \"cam1\"\nintrinsics = \"cam0.yaml\"\n[photos]");
   folder_.Replace("photos.csv", "all.png,cam0", "all.png,cam1");
@@ -99,10 +107,11 @@ TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
   folder_.Write("photos.csv",
                 "file,camera,view,state,exposure_s,iso\n"
                 "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all,0.05,200\n");
-  EXPECT_THAT(Error(), Holds("photos.csv:3: iso: ", "not available in this version",
-                             "expected \"100\" as in line 2, got \"200\""));
-  folder_.Replace("photos.csv", "0.05,200", "0.05,100");
   EXPECT_EQ(Error(), "");
+  EXPECT_THAT(error_after_row("0.05,-200"),
+              Holds("photos.csv:3: iso: expected > 0, got \"-200\"", "leave it empty"));
+  EXPECT_EQ(error_after_row("0.05,"), "");
+  EXPECT_EQ(error_after_row(",100"), "");  // the photo's own metadata may say it
 }
 
 TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
@@ -266,14 +275,6 @@ TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
 
 // What the format knows and this version cannot serve yet.
 TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
-  EXPECT_THAT(
-      ErrorAfter("response = \"linear\"", "response = \"estimate\""),
-      HasSubstr(At("response") +
-                "camera[0].response: \"estimate\" is not available in this version; expected \"linear\""));
-  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
-              HasSubstr("\"curve.csv\" is not available"));
-  EXPECT_THAT(ErrorAfter("\"none\"", "\"estimate\""),
-              HasSubstr("camera[0].vignetting: \"estimate\" is not available"));
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
   EXPECT_THAT(
@@ -321,9 +322,16 @@ TEST_F(SessionErrorsTest, PhotometricFilesMustBeThere) {
               HasSubstr("luminaire[0].cosine_exponent: expected it beside photometry = \"cosine_power\""));
 }
 
-TEST_F(SessionErrorsTest, KeysOfLaterFeaturesAreCheckedForType) {
+TEST_F(SessionErrorsTest, ResponseAndVignettingAreNamesOrFiles) {
+  EXPECT_EQ(ErrorAfter("response = \"linear\"", "response = \"estimate\""), "");
+  EXPECT_EQ(ErrorAfter("\"none\"", "\"estimate\""), "");
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = 1"),
-              HasSubstr("camera[0].response: expected \"linear\", got 1"));
+              HasSubstr("camera[0].response: expected \"linear\", \"estimate\" or a file, got 1"));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
+              HasSubstr(At("response") + "camera[0].response: expected an existing file, got \"curve.csv\""));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"estimat\""), HasSubstr("mean \"estimate\"?"));
+  EXPECT_THAT(ErrorAfter("\"none\"", "\"flat.png\""),
+              HasSubstr("camera[0].vignetting: expected an existing file"));
 }
 
 }  // namespace
