@@ -136,7 +136,7 @@ TEST_F(RealBoardsTest, AprilRoboticsTestPhotos) {
        {"33369213973_9d9bb4cc96_c", "34085369442_304b6bafd9_c", "34139872896_defdb2f8d9_c"}) {
     const std::string path = "apriltag_test/test/data/" + std::string(name);
     DetectTagsOptions options;
-    options.enlarge = 2;
+    options.enlarge = 3;
     options.min_decision_margin = 0;
     options.min_side_px = 8;
     const std::vector<TagDetection> found = DetectTags(ReadGrey(path + ".jpg", 2.2), options);
