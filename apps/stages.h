@@ -81,6 +81,9 @@ struct RegisteredSession {
 };
 RegisteredSession RegisterSession(const Session& session, RunContext& context);
 
+// What a view's pose comes from: tags | colmap | both.
+std::string MethodOf(const RegisteredView& view);
+
 // One photo as relative luminance; checks that it is linear and of the camera's size.
 LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
 
