@@ -64,7 +64,7 @@ class RegistrationJob {
 
   FeatureModel Features(const Registration& tags) const {
     if (HasModel()) return ReadFeatures(session_, cameras_, views_);
-    const FeatureModel features =
+    FeatureModel features =
         RunFeatures(session_, cameras_, views_, detections_, tags, context_.out + "/stages/colmap");
     if (features.views.empty())
       Warn("colmap_no_model", "COLMAP found too few matches between the photos for a model.",
