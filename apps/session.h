@@ -38,6 +38,14 @@ struct SessionTags {
   std::string family = "tag36h11";
   std::string map_path;  // empty: no map was given
   std::vector<SurveyedTag> survey;
+  double size_m = 0;  // of every tag, where there is no map; 0: not given
+};
+
+struct SessionRegistration {
+  std::string method = "auto";  // tags | colmap | both | auto
+  std::string colmap_model;     // absolute path of a folder; empty: none
+  // Roughly where the camera of each of these views stood, in the scene's frame; empty or three and more.
+  std::map<std::string, Eigen::Vector3d> start_positions_m;
 };
 
 struct SessionCamera {
@@ -142,7 +150,7 @@ struct Session {
   std::string path;  // absolute path of the session file
   std::optional<SessionScene> scene;
   SessionTags tags;
-  std::string registration_method = "auto";  // auto | tags
+  SessionRegistration registration;
   std::vector<SessionCamera> cameras;
   SessionCalibration calibration;
   std::string photos_path;  // empty: no [photos] section

@@ -76,6 +76,16 @@ void Report(const CalibratedGroup& calibrated, RunContext& context) {
                                                         ToString(lens.kind), lens.held_out_px, lens.rms_px)
                                           : ToString(lens.kind) + " (" + lens.verdict + ")");
   context.choices.push_back(std::move(choice));
+  if (c.board_bend_sigma_m.isZero()) return;
+  const bool is_bent = !c.board_bend_m.isZero();
+  context.choices.push_back(
+      {"shape of the board",
+       is_bent ? "bent" : "flat",
+       {"flat", "bent"},
+       is_bent ? fmt::format("bent by {:.3f} and {:.3f} mm in its middle, sigma {:.3f} and {:.3f}",
+                             1e3 * c.board_bend_m.x(), 1e3 * c.board_bend_m.y(),
+                             1e3 * c.board_bend_sigma_m.x(), 1e3 * c.board_bend_sigma_m.y())
+               : "no bend above two sigma was found"});
 }
 
 std::vector<CalibratedGroup> CalibrateThese(const Session& session, const std::vector<int>& cameras,

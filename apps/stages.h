@@ -86,6 +86,9 @@ struct RegisteredSession {
 };
 RegisteredSession RegisterSession(const Session& session, RunContext& context);
 
+// What a view's pose comes from: tags | colmap | both.
+std::string MethodOf(const RegisteredView& view);
+
 // One photo of a linearized session as relative luminance, its bracket merged; checks that it is linear, or
 // its camera's response known, and of the camera's size.
 LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);

@@ -168,6 +168,11 @@ class ResultWriter {
   bool warp_;
 };
 
+// Whether the bend that was fitted is more than its own uncertainty explains (two sigma).
+bool IsBent(const Calibration& result) {
+  return (result.board_bend_m.array().abs() > 2 * result.board_bend_sigma_m.array()).any();
+}
+
 std::vector<LensScore> ScoresOf(const LensChoice& choice) {
   std::vector<LensScore> scores;
   for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
@@ -190,6 +195,25 @@ std::vector<LensScore> ScoresOf(const LensChoice& choice) {
     scores.push_back(score);
   }
   return scores;
+}
+
+// With a flat board where the bend that was fitted means nothing.
+void WriteResult(const CalibrationProblem& problem, const LensCandidate& chosen, LensFitOptions fit_options,
+                 const CalibrateCamerasOptions& options, Calibration& out) {
+  Calibration bent = out;
+  ResultWriter(problem, chosen, fit_options.warp, options).Write(bent);
+  if (fit_options.warp && !IsBent(bent)) {
+    LensCandidate flat = chosen;
+    flat.fit.state.warp_m.setZero();
+    fit_options.warp = false;
+    flat.fit = FitFrom(problem, flat.fit.state, fit_options);
+    if (flat.fit.ok) {
+      ResultWriter(problem, flat, false, options).Write(out);
+      out.board_bend_sigma_m = bent.board_bend_sigma_m;
+      return;
+    }
+  }
+  out = std::move(bent);
 }
 
 void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates,
@@ -306,7 +330,7 @@ Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamer
   out.lens = chosen.kind;
   out.held_out_px = chosen.score.PerAxisPx();
   out.converged = true;
-  ResultWriter(problem, chosen, fit_options.warp, options).Write(out);
+  WriteResult(problem, chosen, fit_options, options, out);
   Judge(input, options.gates, out);
   return out;
 }

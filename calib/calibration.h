@@ -97,7 +97,8 @@ struct CornerResidual {
 struct LensScore {
   LensKind kind;
   bool is_fitted = false;
-  double rms_px = 0, held_out_px = 0;  // per axis; held_out_px NaN where there were too few sets
+  // Per axis; held out: NaN where there were too few sets, infinity where the lens has no image of a corner.
+  double rms_px = 0, held_out_px = 0;
   int outliers = 0;
   std::string verdict;
 };
@@ -112,7 +113,8 @@ struct Calibration {
   double rms_px = 0, rms_2d_px = 0, noise_px = 0;  // of corners in use; noise: per axis, freedom taken off
   double held_out_px = std::numeric_limits<double>::quiet_NaN();  // per axis
   double outlier_share = 0;
-  Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();  // in the middle, along x and y; 0: flat
+  // In the middle of a grid, along x and y; 0: flat, as no more than two sigma of bend was found.
+  Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d board_bend_sigma_m = Eigen::Vector2d::Zero();
   std::vector<CalibrationNote> notes;
   bool converged = false;

@@ -70,7 +70,7 @@ std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_dete
   const cv::Mat from(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
                      const_cast<float*>(grey.data()));  // read only: cv::Mat knows no const
   cv::Mat to(static_cast<int>(large.rows()), static_cast<int>(large.cols()), CV_32F, large.data());
-  cv::resize(from, to, to.size(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_CUBIC);
   const Eigen::Array2d scale(static_cast<double>(large.cols()) / static_cast<double>(grey.cols()),
                              static_cast<double>(large.rows()) / static_cast<double>(grey.rows()));
   std::vector<TagDetection> tags = DetectIn(large, detector, options.display_gamma);

@@ -13,6 +13,7 @@ namespace luxfit {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeastSets = 3;  // two to fit, one to hold out
 constexpr int kPoseSteps = 30;
 constexpr double kCornersPerParameter = 2;  // fewer, and a lens is not worth trying
@@ -69,7 +70,7 @@ void ScoreSet(const CalibrationProblem& problem, const CalibrationState& lens, c
     sum += seen.weight * seen.weight *
            (ProjectByLens(lens.lens, seen.parameters->data(), p, false).pixel - seen.pixel).squaredNorm();
   }
-  score.squares[static_cast<std::size_t>(set)] = std::isfinite(sum) ? sum : kNaN;
+  score.squares[static_cast<std::size_t>(set)] = std::isfinite(sum) ? sum : kInfinity;
   score.freedom[static_cast<std::size_t>(set)] = freedom;
 }
 
@@ -83,10 +84,15 @@ void ScoreFold(const CalibrationProblem& problem, const LensFit& fit, const std:
     start.rig_from_target.push_back(fit.state.rig_from_target[static_cast<std::size_t>(set)]);
   const bool warp = options.warp && problem.input->target.IsGrid();
   const SolvedState solved = SolveCalibration(training.problem, start, {true, warp}, options.back_end);
-  if (!solved.ok) return;
-  for (int set = fold; set < problem.sets; set += folds)
+  for (int set = fold; set < problem.sets; set += folds) {
+    if (!solved.ok) {
+      score.squares[static_cast<std::size_t>(set)] = kInfinity;
+      score.freedom[static_cast<std::size_t>(set)] = 1;
+      continue;
+    }
     ScoreSet(problem, solved.state, fit.state.rig_from_target[static_cast<std::size_t>(set)], counted, set,
              score);
+  }
 }
 
 // Corners that some candidate can explain.
@@ -221,7 +227,7 @@ std::string Decide(const CalibrationProblem& problem, const LensFitOptions& opti
 double HeldOutScore::PerAxisPx() const {
   double sum = 0, count = 0;
   for (std::size_t s = 0; s < squares.size(); ++s) {
-    if (!std::isfinite(squares[s])) continue;
+    if (std::isnan(squares[s])) continue;
     sum += squares[s];
     count += freedom[s];
   }

@@ -277,16 +277,24 @@ TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
 TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
-  EXPECT_THAT(
-      ErrorAfter("method = \"tags\"", "method = \"colmap\""),
-      HasSubstr(
-          "registration.method: \"colmap\" is not available in this version; expected \"auto\" or \"tags\""));
-  EXPECT_THAT(ErrorAfter("method = \"tags\"", "colmap = \"sparse/0\""),
-              HasSubstr("registration.colmap: \"sparse/0\" is"));
-  EXPECT_THAT(ErrorAfter("map = \"tags.json\"", "size_m = 0.2"),
-              Holds("tags.map: expected a tag map", "not available in this version"));
   EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
               HasSubstr("luminaires.count: \"estimate\" is not available"));
+}
+
+TEST_F(SessionErrorsTest, RegistrationIsChecked) {
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "method = \"sfm\""),
+              Holds("registration.method: expected", "got \"sfm\""));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "colmap = \"sparse/0\""),
+              Holds("registration.colmap: expected the folder of a COLMAP model", "sparse/0"));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "method = \"tags\"\ncolmap = \".\""),
+              HasSubstr("registration.colmap: expected no COLMAP model beside method = \"tags\""));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "start = { v00 = [1, 2, 3] }"),
+              HasSubstr("registration.start: expected the rough places of three views or more, got 1"));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "start = { a = [1, 2, 3], b = [1, 2, 3], c = [1, 2, 3] }"),
+              Holds("registration.start.a: expected a view of the photo table", "got \"a\""));
+  EXPECT_EQ(ErrorAfter("map = \"tags.json\"", "size_m = 0.2"), "");
+  EXPECT_THAT(ErrorAfter("map = \"tags.json\"", ""),
+              HasSubstr("tags.map: expected a tag map, or the tags' size"));
 }
 
 TEST_F(SessionErrorsTest, SensitivityCurvesAreChecked) {

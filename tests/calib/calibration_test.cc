@@ -48,28 +48,28 @@ const CalibrationNote* NoteOf(const Calibration& calibration, const std::string&
   return nullptr;
 }
 
-TEST(Calibration, RecoversALensFromNoisyBoards) {
+TEST(Calibration, RecoversALensWithinItsOwnSigma) {
   auto rng = TestRng();
   const Camera truth = OpenCv8Camera();
-  const Calibration result = CalibrateCameras(ViewsOf(truth, Views(100), rng), Only("OPENCV8"));
+  const Calibration result = CalibrateCameras(ViewsOf(truth, Views(20), rng), Only("OPENCV8"));
   ASSERT_TRUE(result.IsUsable()) << result.message;
   const CalibratedCamera& camera = result.cameras.front();
-  // One sigma is 0.016 % here.
-  EXPECT_NEAR(camera.camera.fx_px, truth.fx_px, 2e-4 * truth.fx_px);
-  EXPECT_NEAR(camera.camera.fy_px, truth.fy_px, 2e-4 * truth.fy_px);
-  // 18 000 residuals: their rms is known to 0.5 %.
-  EXPECT_NEAR(result.held_out_px, kNoisePx, 0.015 * kNoisePx);
-  EXPECT_NEAR(result.noise_px, kNoisePx, 0.015 * kNoisePx);
+  const Eigen::VectorXd sigma_px = camera.uncertainty.covariance.diagonal().cwiseSqrt();
+  EXPECT_NEAR(camera.camera.fx_px, truth.fx_px, 4 * sigma_px[0]);
+  EXPECT_NEAR(camera.camera.cy_px, truth.cy_px, 4 * sigma_px[3]);
+  EXPECT_LT(sigma_px[0], 1e-3 * truth.fx_px);
+  // 3 600 residuals: their rms is known to 1.2 %.
+  EXPECT_NEAR(result.noise_px, kNoisePx, 0.04 * kNoisePx);
+  EXPECT_NEAR(result.held_out_px, kNoisePx, 0.06 * kNoisePx);
   EXPECT_NEAR(result.rms_2d_px, std::sqrt(2.0) * result.rms_px, 1e-12);
-  EXPECT_LT(support::LensDifferencePx(truth, camera.camera, 0.8), 0.1);
-  EXPECT_LT(result.outlier_share, 2e-3);
-  EXPECT_EQ(camera.uncertain_share, 0);
+  EXPECT_LT(result.outlier_share, 3e-3);
+  EXPECT_TRUE(result.board_bend_m.isZero()) << "a flat board is no bent one";
 }
 
 TEST(Calibration, OpenCvsBackEndFindsTheSameLens) {
   auto rng = TestRng();
   const Camera truth = OpenCv8Camera();
-  const CalibrationInput input = ViewsOf(truth, Views(30), rng);
+  const CalibrationInput input = ViewsOf(truth, Views(10), rng);
   CalibrateCamerasOptions options = Only("OPENCV5");
   options.board_may_bend = false;
   const Calibration by_mrcal = CalibrateCameras(input, options);
@@ -82,29 +82,14 @@ TEST(Calibration, OpenCvsBackEndFindsTheSameLens) {
   EXPECT_NEAR(by_opencv.rms_px, by_mrcal.rms_px, 1e-3 * by_mrcal.rms_px);
 }
 
-TEST(Calibration, FisheyeLensesAreFittedBySplinesToo) {
-  auto rng = TestRng();
-  const Camera truth = FisheyeCamera();
-  const CalibrationInput input = ViewsOf(truth, WideViews(60), rng);
-  const Calibration fisheye = CalibrateCameras(input, Only("FISHEYE"));
-  ASSERT_TRUE(fisheye.IsUsable()) << fisheye.message;
-  EXPECT_NEAR(fisheye.cameras[0].camera.fx_px, truth.fx_px, 5e-4 * truth.fx_px);
-  EXPECT_NEAR(fisheye.held_out_px, kNoisePx, 0.02 * kNoisePx);
-  const Calibration splined = CalibrateCameras(input, Only("SPLINED8"));
-  ASSERT_TRUE(splined.converged) << splined.message;
-  // Its core means something else, so lenses are compared by where they put directions.
-  EXPECT_LT(support::LensDifferencePx(truth, splined.cameras[0].camera, 0.8), 0.15);
-  EXPECT_NEAR(splined.held_out_px, kNoisePx, 0.1 * kNoisePx);
-}
-
 TEST(Calibration, TheSimplestLensThatHeldOutImagesSupportIsTaken) {
   auto rng = TestRng();
   Camera simple = OpenCv8Camera();
   simple.distortion = {-0.2, 0.06, 1e-3, -5e-4};
-  const Calibration for_simple = CalibrateCameras(ViewsOf(simple, Views(25), rng));
+  const Calibration for_simple = CalibrateCameras(ViewsOf(simple, Views(14), rng));
   EXPECT_EQ(ToString(for_simple.lens), "OPENCV4");
   ASSERT_GE(for_simple.lenses.size(), 4U);
-  const Calibration for_wide = CalibrateCameras(ViewsOf(FisheyeCamera(), WideViews(25), rng));
+  const Calibration for_wide = CalibrateCameras(ViewsOf(FisheyeCamera(), WideViews(16), rng));
   EXPECT_EQ(ToString(for_wide.lens), "FISHEYE");
   for (const LensScore& lens : for_wide.lenses) {
     if (ToString(lens.kind) == "OPENCV4") {
@@ -118,7 +103,7 @@ TEST(Calibration, OutliersAreFoundAndQuestioned) {
   auto rng = TestRng();
   const Camera truth = OpenCv8Camera();
   for (const double share : {0.1, 0.4}) {
-    BoardViewsOptions views = Views(25);
+    BoardViewsOptions views = Views(16);
     views.outlier_share = share;
     const Calibration result = CalibrateCameras(ViewsOf(truth, views, rng), Only("OPENCV5"));
     ASSERT_TRUE(result.converged) << result.message;
@@ -171,7 +156,7 @@ TEST(Calibration, BoardsInTheMiddleOnlyDoNotPass) {
 
 TEST(Calibration, ABentBoardIsMeasuredAlongWithTheLens) {
   auto rng = TestRng();
-  BoardViewsOptions views = Views(30);
+  BoardViewsOptions views = Views(16);
   views.bend_m = {0.002, -0.001};
   const Calibration result = CalibrateCameras(ViewsOf(OpenCv8Camera(), views, rng), Only("OPENCV5"));
   ASSERT_TRUE(result.IsUsable()) << result.message;
@@ -204,7 +189,7 @@ void ExpectSecondCamera(const Calibration& result) {
 TEST(Calibration, RigsBeforeAChessboardAreSolvedWhole) {
   auto rng = TestRng();
   const BoardViews views(GridTarget(), {OpenCv8Camera(), OpenCv8Camera()},
-                         {Eigen::Isometry3d::Identity(), SecondCamera()}, Views(20), rng);
+                         {Eigen::Isometry3d::Identity(), SecondCamera()}, Views(12), rng);
   const Calibration result = CalibrateCameras(views.input(), Only("OPENCV5"));
   ExpectSecondCamera(result);
   EXPECT_NEAR(result.held_out_px, kNoisePx, 0.03 * kNoisePx);
@@ -223,7 +208,7 @@ TEST(Calibration, AprilGridsCalibrateCamerasAndRigs) {
   auto rng = TestRng();
   ASSERT_FALSE(AprilGrid().IsGrid());
   const Camera truth = OpenCv8Camera();
-  const Calibration single = CalibrateCameras(ViewsOf(truth, Views(25), rng, AprilGrid()), Only("OPENCV5"));
+  const Calibration single = CalibrateCameras(ViewsOf(truth, Views(16), rng, AprilGrid()), Only("OPENCV5"));
   ASSERT_TRUE(single.IsUsable()) << single.message;
   EXPECT_NEAR(single.cameras[0].camera.fx_px, truth.fx_px,
               4 * std::sqrt(single.cameras[0].uncertainty.covariance(0, 0)));

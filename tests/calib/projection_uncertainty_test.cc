@@ -62,7 +62,7 @@ TEST(ProjectionUncertainty, IsTheScatterOfCalibrationsFromFreshNoise) {
   const std::vector<Eigen::Vector2d> pixels = {{640, 480}, {300, 250}, {1100, 800}, {60, 60}};
   const std::vector<double> ranges_m = {0.7, 3};
   std::vector<double> sums(pixels.size() * ranges_m.size(), 0);
-  constexpr int kSamples = 60;
+  constexpr int kSamples = 40;
   for (int sample = 0; sample < kSamples; ++sample) {
     const Calibration refit = CalibrateCameras(Resampled(input, reference, kNoisePx, rng), options);
     ASSERT_EQ(refit.images.size(), reference.images.size());
@@ -76,8 +76,8 @@ TEST(ProjectionUncertainty, IsTheScatterOfCalibrationsFromFreshNoise) {
     const double expected = std::sqrt(
         ProjectionCovarianceAt(reference.cameras[0].camera, predicted, pixel, ranges_m[k / pixels.size()])
             .trace());
-    // The root of a sum of 120 squares scatters by 6.5 % at most: three of these.
-    EXPECT_NEAR(std::sqrt(sums[k] / kSamples), expected, 0.2 * expected) << pixel.transpose();
+    // The root of a sum of 80 squares scatters by 8 % (11 % where one direction has all of it): three of these.
+    EXPECT_NEAR(std::sqrt(sums[k] / kSamples), expected, 0.25 * expected) << pixel.transpose();
   }
 }
 

@@ -14,6 +14,7 @@
 #include "calib/board_drawing.h"
 #include "calib/camera.h"
 #include "calib/image.h"
+#include "tests/support/blur.h"
 
 namespace luxfit::support {
 
@@ -70,25 +71,6 @@ struct BoardRenderOptions {
   double levels = 0;  // quantised to 1 / levels; 0: not
   double gamma = 1;   // the exponent of the file: grey^(1 / gamma)
 };
-
-inline ImagePlane Blurred(const ImagePlane& sharp, double sigma_px) {
-  if (!(sigma_px > 0)) return sharp;
-  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
-  Eigen::ArrayXf kernel(2 * reach + 1);
-  for (int i = -reach; i <= reach; ++i)
-    kernel[i + reach] = static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
-  kernel /= kernel.sum();
-  ImagePlane rows = ImagePlane::Zero(sharp.rows(), sharp.cols()), out = rows;
-  for (int i = -reach; i <= reach; ++i) {
-    for (Eigen::Index u = 0; u < sharp.cols(); ++u)
-      rows.col(u) += kernel[i + reach] * sharp.col(std::clamp<Eigen::Index>(u + i, 0, sharp.cols() - 1));
-  }
-  for (int i = -reach; i <= reach; ++i) {
-    for (Eigen::Index v = 0; v < sharp.rows(); ++v)
-      out.row(v) += kernel[i + reach] * rows.row(std::clamp<Eigen::Index>(v + i, 0, sharp.rows() - 1));
-  }
-  return out;
-}
 
 // Renders boards through one camera, whose rays it keeps.
 class BoardRenderer {
