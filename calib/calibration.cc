@@ -28,7 +28,8 @@ double Median(const Eigen::MatrixXd& values) {
   for (double& value : sorted) {
     if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
   }
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
   return sorted[sorted.size() / 2];
 }
 
@@ -56,7 +57,7 @@ std::vector<LensKind> CandidatesOf(const CalibrationInput& input, const Calibrat
   if (!options.lenses.empty()) return options.lenses;
   std::vector<LensKind> kinds;
   for (const int coefficients : {4, 5, 8, 12}) kinds.push_back({LensModel::kOpenCv, coefficients, 0});
-  if (seed.is_wide || FieldOfViewDeg(input, seed) > kWideFieldDeg)
+  if (FieldOfViewDeg(input, seed) > kWideFieldDeg)
     kinds.insert(kinds.begin() + 1, {LensModel::kFisheye, 4, 0});
   if (options.back_end == CalibrationBackEnd::kOpenCv) return kinds;
   for (const int knots : {8, 14}) kinds.push_back({LensModel::kSplined, 0, knots});
@@ -69,9 +70,10 @@ CalibrationInput WithoutLost(CalibrationInput input, const CalibrationSeed& seed
   for (std::size_t i = 0; i < input.images.size(); ++i) {
     CalibrationImage& image = input.images[i];
     if (image.corners.empty() || seed.image_found[i]) continue;
-    notes.push_back({"image_rejected", false,
-                     fmt::format("{}: its {} corners fit no view of the target", image.name, image.corners.size()),
-                     "check that it shows this board, sharp and unmirrored; leave it out otherwise"});
+    notes.push_back(
+        {"image_rejected", false,
+         fmt::format("{}: its {} corners fit no view of the target", image.name, image.corners.size()),
+         "check that it shows this board, sharp and unmirrored; leave it out otherwise"});
     image.corners.clear();
   }
   return input;
@@ -87,8 +89,8 @@ class ResultWriter {
 
   void Write(Calibration& out) const {
     WriteResiduals(out);
-    const CalibrationCovariance covariance =
-        CovarianceOf(problem_, fit_.state, LinearizeCalibration(problem_, fit_.state, {true, warp_}), fit_.noise_px);
+    const CalibrationCovariance covariance = CovarianceOf(
+        problem_, fit_.state, LinearizeCalibration(problem_, fit_.state, {true, warp_}), fit_.noise_px);
     out.board_bend_m = fit_.state.warp_m;
     out.board_bend_sigma_m = covariance.warp_sigma_m;
     for (std::size_t c = 0; c < problem_.input->cameras.size(); ++c) WriteCamera(c, covariance, out);
@@ -141,9 +143,8 @@ class ResultWriter {
     camera.cam_from_rig_sigma = covariance.cam_from_rig_sigma[c];
     camera.uncertainty = covariance.cameras[c];
     camera.coverage = CoverageOf(problem_.input->target, given, CoveringImages(static_cast<int>(c)));
-    const Eigen::MatrixXd sigma_px =
-        ProjectionSigmaMap(camera.camera, camera.uncertainty, kMapColumns, kMapRows,
-                           std::numeric_limits<double>::infinity());
+    const Eigen::MatrixXd sigma_px = ProjectionSigmaMap(camera.camera, camera.uncertainty, kMapColumns,
+                                                        kMapRows, std::numeric_limits<double>::infinity());
     camera.uncertain_share = ShareAbove(sigma_px, options_.gates.max_sigma_px);
     camera.median_sigma_px = Median(sigma_px);
     out.cameras.push_back(std::move(camera));
@@ -167,6 +168,11 @@ class ResultWriter {
   bool warp_;
 };
 
+// Whether the bend that was fitted is more than its own uncertainty explains (two sigma).
+bool IsBent(const Calibration& result) {
+  return (result.board_bend_m.array().abs() > 2 * result.board_bend_sigma_m.array()).any();
+}
+
 std::vector<LensScore> ScoresOf(const LensChoice& choice) {
   std::vector<LensScore> scores;
   for (std::size_t i = 0; i < choice.candidates.size(); ++i) {
@@ -174,7 +180,8 @@ std::vector<LensScore> ScoresOf(const LensChoice& choice) {
     LensScore score;
     score.kind = candidate.kind;
     score.is_fitted = candidate.fit.ok;
-    score.verdict = candidate.fit.ok ? (static_cast<int>(i) == choice.chosen ? "chosen" : "") : candidate.fit.message;
+    score.verdict =
+        candidate.fit.ok ? (static_cast<int>(i) == choice.chosen ? "chosen" : "") : candidate.fit.message;
     score.held_out_px = candidate.score.PerAxisPx();
     double sum = 0;
     int used = 0;
@@ -190,20 +197,42 @@ std::vector<LensScore> ScoresOf(const LensChoice& choice) {
   return scores;
 }
 
-void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates, std::vector<CalibrationNote>& notes) {
-  const std::string photograph = "photograph the target so that its corners reach every part of the image, tilted and at two distances";
+// With a flat board where the bend that was fitted means nothing.
+void WriteResult(const CalibrationProblem& problem, const LensCandidate& chosen, LensFitOptions fit_options,
+                 const CalibrateCamerasOptions& options, Calibration& out) {
+  Calibration bent = out;
+  ResultWriter(problem, chosen, fit_options.warp, options).Write(bent);
+  if (fit_options.warp && !IsBent(bent)) {
+    LensCandidate flat = chosen;
+    flat.fit.state.warp_m.setZero();
+    fit_options.warp = false;
+    flat.fit = FitFrom(problem, flat.fit.state, fit_options);
+    if (flat.fit.ok) {
+      ResultWriter(problem, flat, false, options).Write(out);
+      out.board_bend_sigma_m = bent.board_bend_sigma_m;
+      return;
+    }
+  }
+  out = std::move(bent);
+}
+
+void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates,
+                 std::vector<CalibrationNote>& notes) {
+  const std::string photograph =
+      "photograph the target so that its corners reach every part of the image, tilted and at two distances";
   if (camera.uncertain_share > gates.max_uncertain_share) {
-    notes.push_back({"uncertain_projection", true,
-                     fmt::format("{}: projections are uncertain by more than {:g} px over {:.0f} % of the image "
-                                 "(median {:.2g} px)",
-                                 camera.id, gates.max_sigma_px, 100 * camera.uncertain_share,
-                                 camera.median_sigma_px),
-                     photograph});
+    notes.push_back(
+        {"uncertain_projection", true,
+         fmt::format("{}: projections are uncertain by more than {:g} px over {:.0f} % of the image "
+                     "(median {:.2g} px)",
+                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.median_sigma_px),
+         photograph});
   } else if (camera.uncertain_share > 0) {
-    notes.push_back({"uncertain_corners", false,
-                     fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the image",
-                                 camera.id, gates.max_sigma_px, 100 * camera.uncertain_share),
-                     "do not rely on these parts of the image (see the uncertainty map), or " + photograph});
+    notes.push_back(
+        {"uncertain_corners", false,
+         fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the image",
+                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share),
+         "do not rely on these parts of the image (see the uncertainty map), or " + photograph});
   }
   const bool is_covered = camera.coverage.covered_share >= gates.min_covered_share;
   const bool is_tilted = !camera.coverage.is_flat || camera.coverage.max_tilt_deg >= gates.min_tilt_deg;
@@ -225,10 +254,11 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
     out.notes.push_back({"few_images", true, "too few images to hold any out: nothing checks the fit",
                          "photograph the target at least 8 times, tilted differently"});
   } else if (out.held_out_px > gates.max_held_out_px) {
-    out.notes.push_back({"held_out_error", true,
-                         fmt::format("images held out of the fit are off by {:.2f} px per axis, more than {:g}",
-                                     out.held_out_px, gates.max_held_out_px),
-                         "check the board's size and flatness, and the photos' sharpness; try a splined lens"});
+    out.notes.push_back(
+        {"held_out_error", true,
+         fmt::format("images held out of the fit are off by {:.2f} px per axis, more than {:g}",
+                     out.held_out_px, gates.max_held_out_px),
+         "check the board's size and flatness, and the photos' sharpness; try a splined lens"});
   } else if (out.held_out_px > gates.max_held_out_ratio * out.noise_px) {
     out.notes.push_back({"held_out_error", true,
                          fmt::format("images held out of the fit are off by {:.2f} px per axis, {:.1f} times "
@@ -238,16 +268,19 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
   }
   for (const CalibratedCamera& camera : out.cameras) JudgeCamera(camera, gates, out.notes);
   if (out.outlier_share > gates.questioned_outliers) {
-    const auto outliers_of = [](const ImageCalibration& i) { return static_cast<double>(i.outliers) / i.corners; };
+    const auto outliers_of = [](const ImageCalibration& i) {
+      return static_cast<double>(i.outliers) / i.corners;
+    };
     const auto worst = std::max_element(out.images.begin(), out.images.end(),
                                         [&](const ImageCalibration& a, const ImageCalibration& b) {
                                           return outliers_of(a) < outliers_of(b);
                                         });
     out.notes.push_back(
         {"outliers", out.outlier_share > gates.max_outliers,
-         fmt::format("{:.1f} % of the corners were left out, most in {} ({} of {}); a good set has under {:g} %",
-                     100 * out.outlier_share, input.images[static_cast<std::size_t>(worst->image)].name,
-                     worst->outliers, worst->corners, 100 * gates.questioned_outliers),
+         fmt::format(
+             "{:.1f} % of the corners were left out, most in {} ({} of {}); a good set has under {:g} %",
+             100 * out.outlier_share, input.images[static_cast<std::size_t>(worst->image)].name,
+             worst->outliers, worst->corners, 100 * gates.questioned_outliers),
          "look at the images with most outliers: blur, a bent board, reflections, a wrong board"});
   }
 }
@@ -255,7 +288,8 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
 }  // namespace
 
 bool Calibration::IsUsable() const {
-  return converged && std::none_of(notes.begin(), notes.end(), [](const CalibrationNote& n) { return n.fails; });
+  return converged &&
+         std::none_of(notes.begin(), notes.end(), [](const CalibrationNote& n) { return n.fails; });
 }
 
 Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamerasOptions& options) {
@@ -265,7 +299,8 @@ Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamer
   CalibrationProblem problem = MakeProblem(given);
   CalibrationSeed seed = SeedCalibration(problem, options.focal_start_px);
   CalibrationInput input = given;
-  if (seed.ok && std::find(seed.image_found.begin(), seed.image_found.end(), false) != seed.image_found.end()) {
+  if (seed.ok &&
+      std::find(seed.image_found.begin(), seed.image_found.end(), false) != seed.image_found.end()) {
     input = WithoutLost(std::move(input), seed, out.notes);
     problem = MakeProblem(input);
     seed = SeedCalibration(problem, options.focal_start_px);
@@ -285,7 +320,8 @@ Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamer
   out.lenses = ScoresOf(choice);
   out.lens_because = choice.because;
   if (choice.chosen < 0) {
-    out.message = choice.because + (choice.candidates.empty() ? "" : ": " + choice.candidates.front().fit.message);
+    out.message =
+        choice.because + (choice.candidates.empty() ? "" : ": " + choice.candidates.front().fit.message);
     out.notes.push_back({"not_determined", true, out.message,
                          "photograph the target at least 8 times, all over the image and tilted"});
     return out;
@@ -294,7 +330,7 @@ Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamer
   out.lens = chosen.kind;
   out.held_out_px = chosen.score.PerAxisPx();
   out.converged = true;
-  ResultWriter(problem, chosen, fit_options.warp, options).Write(out);
+  WriteResult(problem, chosen, fit_options, options, out);
   Judge(input, options.gates, out);
   return out;
 }

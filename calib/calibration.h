@@ -4,8 +4,8 @@
 //   min over lens_c, cam_from_rig_c, rig_from_target_s, bend of
 //     sum_corners w^2 |f(lens_c, cam_from_rig_c rig_from_target_s p) - q|^2
 // by libmrcal (its weak regularisation of distortion included), or OpenCV; w is the median corner's sigma
-// over the corner's own. Nothing has to be known beforehand: focal lengths are scanned, wrong corners left out
-// (more than `outlier_sigmas` off) and named.
+// over the corner's own. Nothing has to be known beforehand: focal lengths are scanned, wrong corners left
+// out (more than `outlier_sigmas` off) and named.
 //
 // The lens is the simplest candidate that images held out support: k folds over sets; each left-out set is
 // placed by its own corners (6 of its residuals' freedom) with the lens of the others, and
@@ -41,12 +41,12 @@ namespace luxfit {
 enum class CalibrationBackEnd { kMrcal, kOpenCv };
 
 struct CalibrationGates {
-  double max_held_out_px = 1.0;      // per axis: sharp corners and a fitting lens stay well below
-  double max_held_out_ratio = 1.5;   // to the noise of the fit: more is a lens with too many parameters
-  double max_sigma_px = 1.0;         // of a direction's projection ...
-  double max_uncertain_share = 0.2;  // ... over more than this part of the image
-  double min_covered_share = 0.5;    // of the cells of the image (calib/calibration_coverage.h)
-  double min_tilt_deg = 10;          // of a flat board, once at least: the focal length needs it
+  double max_held_out_px = 1.0;       // per axis: sharp corners and a fitting lens stay well below
+  double max_held_out_ratio = 1.5;    // to the noise of the fit: more is a lens with too many parameters
+  double max_sigma_px = 1.0;          // of a direction's projection ...
+  double max_uncertain_share = 0.2;   // ... over more than this part of the image
+  double min_covered_share = 0.5;     // of the cells of the image (calib/calibration_coverage.h)
+  double min_tilt_deg = 10;           // of a flat board, once at least: the focal length needs it
   double questioned_outliers = 0.03;  // share of corners; more is a warning
   double max_outliers = 0.2;          // and more than this a failure
 };
@@ -97,7 +97,8 @@ struct CornerResidual {
 struct LensScore {
   LensKind kind;
   bool is_fitted = false;
-  double rms_px = 0, held_out_px = 0;  // per axis; held_out_px NaN where there were too few sets
+  // Per axis; held out: NaN where there were too few sets, infinity where the lens has no image of a corner.
+  double rms_px = 0, held_out_px = 0;
   int outliers = 0;
   std::string verdict;
 };
@@ -107,12 +108,13 @@ struct Calibration {
   LensKind lens;
   std::vector<LensScore> lenses;  // every candidate tried, in order
   std::string lens_because;
-  std::vector<ImageCalibration> images;  // those in use
-  std::vector<CornerResidual> corners;   // of those images, outliers too
+  std::vector<ImageCalibration> images;            // those in use
+  std::vector<CornerResidual> corners;             // of those images, outliers too
   double rms_px = 0, rms_2d_px = 0, noise_px = 0;  // of corners in use; noise: per axis, freedom taken off
   double held_out_px = std::numeric_limits<double>::quiet_NaN();  // per axis
   double outlier_share = 0;
-  Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();  // in the middle, along x and y; 0: flat
+  // In the middle of a grid, along x and y; 0: flat, as no more than two sigma of bend was found.
+  Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d board_bend_sigma_m = Eigen::Vector2d::Zero();
   std::vector<CalibrationNote> notes;
   bool converged = false;

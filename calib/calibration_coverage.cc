@@ -50,10 +50,9 @@ std::vector<std::string> EmptyThirds(const Eigen::MatrixXi& counts) {
   for (int row = 0; row < kThirds; ++row) {
     for (int column = 0; column < kThirds; ++column) {
       if (thirds(row, column) > 0 || named(row, column) != 0) continue;
-      const std::string where = row == 1 && column == 1
-                                    ? "middle"
-                                    : rows[static_cast<std::size_t>(row)] + " " +
-                                          columns[static_cast<std::size_t>(column)];
+      const std::string where = row == 1 && column == 1 ? "middle"
+                                                        : rows[static_cast<std::size_t>(row)] + " " +
+                                                              columns[static_cast<std::size_t>(column)];
       empty.push_back("the " + where + " third");
     }
   }

@@ -16,7 +16,8 @@ void CheckTarget(const CalibrationTarget& target) {
   if (!target.IsGrid()) return;
   const auto count = static_cast<std::size_t>(target.columns) * static_cast<std::size_t>(target.rows);
   if (target.columns < 2 || target.rows < 2 || target.points.size() != count || !(target.spacing_m > 0))
-    throw std::invalid_argument("calibration: a grid of at least 2 x 2 points needs all of them and their spacing");
+    throw std::invalid_argument(
+        "calibration: a grid of at least 2 x 2 points needs all of them and their spacing");
 }
 
 void CheckImage(const CalibrationInput& input, const CalibrationImage& image) {

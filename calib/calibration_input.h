@@ -37,8 +37,8 @@ struct CalibrationCamera {
 
 struct CalibrationImage {
   std::string name;
-  int camera = 0;  // index into the cameras
-  int set = 0;     // any number; equal in images taken together
+  int camera = 0;                    // index into the cameras
+  int set = 0;                       // any number; equal in images taken together
   std::vector<BoardCorner> corners;  // `index` into the target's points; sigma_px 0: not known
 };
 

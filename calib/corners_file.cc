@@ -65,13 +65,15 @@ class Reader {
       is_weight_ = is_weight_ || names[i] == "weight";
     }
     if (columns_.file < 0 || columns_.x < 0 || columns_.y < 0)
-      throw Error("a header \"# filename x y level\"", "\"" + fmt::format("{}", fmt::join(names, " ")) + "\"");
+      throw Error("a header \"# filename x y level\"",
+                  "\"" + fmt::format("{}", fmt::join(names, " ")) + "\"");
   }
 
   double Number(const std::string& text) const {
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
-    if (end == text.c_str() || *end != '\0' || !std::isfinite(value)) throw Error("a number or -", "\"" + text + "\"");
+    if (end == text.c_str() || *end != '\0' || !std::isfinite(value))
+      throw Error("a number or -", "\"" + text + "\"");
     return value;
   }
 
@@ -99,7 +101,8 @@ class Reader {
 
   // 0: not to be used.
   double SigmaPx(double value) const {
-    if (!is_weight_) return value < 0 ? 0 : kSigmaOfLevel0Px * std::exp2(std::min<double>(value, kMostLevels));
+    if (!is_weight_)
+      return value < 0 ? 0 : kSigmaOfLevel0Px * std::exp2(std::min<double>(value, kMostLevels));
     return value > 0 ? kSigmaOfLevel0Px / value : 0;
   }
 

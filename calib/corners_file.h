@@ -1,8 +1,8 @@
 // mrcal's corners.vnl: where images show a board's corners.
 //
 //   # filename x y level
-//   left01.jpg 244.4 94.1 0        one row per corner, all of a board in order; level: the corner was found in
-//   left01.jpg - - -               the image shrunk by 2^level, so its weight is 2^-level; "-": not found
+//   left01.jpg 244.4 94.1 0        one row per corner, all of a board in order; level: the corner was found
+//   in left01.jpg - - -               the image shrunk by 2^level, so its weight is 2^-level; "-": not found
 //
 // An image without any corner may stand as a single row of "-". Other columns are ignored, their order is the
 // header's.

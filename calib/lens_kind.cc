@@ -21,7 +21,7 @@ int NumberAfter(const std::string& text, const std::string& prefix) {
 
 bool operator==(const LensKind& a, const LensKind& b) {
   if (a.lens != b.lens) return false;
-  return a.lens == LensModel::kOpenCv   ? a.coefficients == b.coefficients
+  return a.lens == LensModel::kOpenCv    ? a.coefficients == b.coefficients
          : a.lens == LensModel::kSplined ? a.knots == b.knots
                                          : true;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 #include "calib/internal/bundle_covariance.h"
 #include "calib/internal/feature_views.h"
 #include "calib/internal/leave_out.h"
+#include "calib/internal/survey_diagnosis.h"
 #include "calib/internal/tag_views.h"
 
 namespace luxfit {
@@ -92,6 +94,20 @@ RegisteredView ViewOf(const BundleContext& context, const BundleAdjustment& adju
   return out;
 }
 
+// Sizes that are off by more than printers are.
+void NameSizeError(const RegisterViewsOptions& options, Registration& registration) {
+  constexpr double kSigmas = 4;
+  if (options.tag_size_sigma == 0 || std::abs(registration.tag_size_error) < kSigmas * options.tag_size_sigma)
+    return;
+  std::ostringstream message;
+  message.precision(3);
+  message << "All tags come out " << 100 * std::abs(registration.tag_size_error) << " % "
+          << (registration.tag_size_error > 0 ? "larger" : "smaller") << " than surveyed.";
+  registration.notes.push_back(
+      {"", -1, "tag_sizes_wrong", message.str(),
+       "Measure a printed tag's black square and the distance between two tags again."});
+}
+
 void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Registration& registration) {
   const std::vector<bool> used_points = UsedPoints(adjustment);
   for (const BundleView& view : adjustment.views) {
@@ -100,6 +116,7 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Regis
   registration.converged = adjustment.converged;
   registration.message = adjustment.message;
   registration.tag_size_error = adjustment.size_error;
+  NameSizeError(context.options, registration);
   registration.points = static_cast<int>(std::count(used_points.begin(), used_points.end(), true));
   registration.point_sigma_px = registration.points > 0 ? adjustment.point_sigma_px : 0;
   AddCovariances(context, adjustment, registration);
@@ -128,7 +145,14 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
   const BundleContext context{cameras, options};
   Registration registration;
   BundleAdjustment adjustment;
-  adjustment.views = ViewsOf(context, IndexSurvey(survey), detections, registration.notes);
+  const std::map<int, SurveyedTag> survey_by_id = IndexSurvey(survey);
+  adjustment.views = ViewsOf(context, survey_by_id, detections, registration.notes);
+  if (const std::optional<RegistrationNote> diagnosis =
+          DiagnoseSurvey(context, survey_by_id, adjustment.views)) {
+    registration.notes.push_back(*diagnosis);
+    registration.message = diagnosis->message;
+    return registration;
+  }
   StartViews(context, adjustment.views, registration.notes);
   if (!features.views.empty()) JoinFeatures(context, features, adjustment, registration.notes);
   SolveLeavingOut(context, adjustment, registration.notes);

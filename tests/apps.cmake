@@ -1,8 +1,11 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 
+luxfit_test(apps colmap_run_test LINK luxfit_apps opencv_core opencv_calib3d)
 luxfit_test(apps csv_table_test LINK luxfit_apps)
 luxfit_test(apps line_chart_svg_test LINK luxfit_apps)
 luxfit_test(apps name_pattern_test LINK luxfit_apps)
+luxfit_test(apps linearize_test LINK luxfit_apps nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
+luxfit_test(apps process_test LINK luxfit_apps)
 luxfit_test(apps session_errors_test LINK luxfit_apps)
 luxfit_test(apps session_test LINK luxfit_apps)
 luxfit_test(apps stage_room_test LINK luxfit_apps)

@@ -1,5 +1,6 @@
 #include "calib/internal/calibration_fit.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,9 +13,9 @@ namespace luxfit {
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr int kMedianRounds = 2;                     // with the noise of the median
-constexpr double kMedianOfTwoAxes = 1.17741;         // median of |r| of two axes of sigma 1
-constexpr double kGateOfDiagonal = 0.02;             // of the seed, whose lens has no distortion
+constexpr int kMedianRounds = 2;                          // with the noise of the median
+constexpr double kMedianOfTwoAxes = 1.17741;              // median of |r| of two axes of sigma 1
+constexpr double kGateOfDiagonal = 0.02;                  // of the seed, whose lens has no distortion
 constexpr double kStereographicToEquidistant = 1.0 / 12;  // 2 tan(theta / 2) = theta + theta^3 / 12 + ...
 
 double Weighted(const CalibrationProblem& problem, const Eigen::Matrix2Xd& residuals, std::size_t k) {
@@ -85,15 +86,37 @@ Camera WidestCamera(const CalibrationProblem& problem, const CalibrationState& w
   return widest;
 }
 
+// k1, k2 that bring a pinhole nearest to the stereographic lens, over the angles that it sees:
+//   tan(theta) (1 + k1 tan^2 + k2 tan^4) = 2 tan(theta / 2)
+Eigen::Vector2d StereographicDistortion(const Camera& wide) {
+  constexpr double kWidest = 1.1;  // rad: beyond, two coefficients cannot follow
+  constexpr int kSteps = 20;
+  const double half = std::hypot(wide.width_px, wide.height_px) / 2 / wide.fx_px;
+  const double most = std::min(kWidest, 2 * std::atan(half / 2));
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  for (int i = 1; i <= kSteps; ++i) {
+    const double theta = most * i / kSteps, r = std::tan(theta);
+    const Eigen::Vector2d d(r * r * r, std::pow(r, 5));
+    hessian += d * d.transpose();
+    gradient += d * (2 * std::tan(theta / 2) - r);
+  }
+  return hessian.inverse() * gradient;
+}
+
 // The start of a lens that a wide seed, fitted without distortion, gives.
 CalibrationState FromWide(const CalibrationProblem& problem, const CalibrationState& wide,
                           const LensKind& kind) {
   CalibrationState start = wide;
-  start.lens = MakeLensFunction(kind, WidestCamera(problem, wide));
+  const Camera widest = WidestCamera(problem, wide);
+  const Eigen::Vector2d distortion = StereographicDistortion(widest);
+  start.lens = MakeLensFunction(kind, widest);
   for (std::vector<double>& parameters : start.intrinsics) {
     parameters.resize(4);
     parameters.resize(static_cast<std::size_t>(ParameterCount(start.lens)), 0.0);
     if (kind.lens == LensModel::kFisheye) parameters[4] = kStereographicToEquidistant;
+    if (kind.lens == LensModel::kOpenCv)
+      std::copy(distortion.begin(), distortion.end(), parameters.begin() + 4);
   }
   return start;
 }
@@ -156,12 +179,12 @@ LensFit FitLens(CalibrationProblem problem, const CalibrationSeed& seed, const L
   }
   const CalibrationState& better = seed.is_wide ? seed.wide : seed.pinhole;
   MarkOutliers(problem, Residuals(problem, better), kGateOfDiagonal * DiagonalPx(problem));
-  const CalibrationState& family = kind.lens == LensModel::kOpenCv ? seed.pinhole : seed.wide;
+  const bool from_pinhole = kind.lens == LensModel::kOpenCv && !seed.is_wide;
+  const CalibrationState& family = from_pinhole ? seed.pinhole : seed.wide;
   const SolvedState solved = SolveCalibration(problem, family, {false, false}, CalibrationBackEnd::kMrcal);
   const CalibrationState core = solved.ok ? solved.state : family;
   MarkOutliers(problem, Residuals(problem, core), kGateOfDiagonal * DiagonalPx(problem));
-  return FitFrom(std::move(problem),
-                 kind.lens == LensModel::kOpenCv ? FromSimpler(core, kind) : FromWide(problem, core, kind),
+  return FitFrom(std::move(problem), from_pinhole ? FromSimpler(core, kind) : FromWide(problem, core, kind),
                  options);
 }
 

@@ -26,7 +26,7 @@ struct LensFitOptions {
 
 struct LensFit {
   bool ok = false;
-  std::string message;         // why not
+  std::string message;  // why not
   CalibrationState state;
   std::vector<bool> used;      // by corner of the problem; false: an outlier
   Eigen::Matrix2Xd residuals;  // px, of all corners

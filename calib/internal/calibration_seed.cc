@@ -13,7 +13,7 @@ namespace luxfit {
 namespace {
 
 constexpr double kFocalStep = 1.25;
-constexpr double kGateOfDiagonal = 0.02;   // what distortion may amount to before it is fitted
+constexpr double kGateOfDiagonal = 0.02;    // what distortion may amount to before it is fitted
 constexpr double kScaleOfDiagonal = 0.005;  // of the loss
 constexpr std::size_t kImagesOfScan = 8;
 constexpr int kStepsOfScan = 8, kStepsOfPose = 30;
@@ -125,7 +125,7 @@ ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const Im
 // The poses of a camera relative to one that is placed, from the sets they share.
 struct SharedSets {
   std::vector<std::pair<const ImageCorners*, Eigen::Isometry3d>> images;  // of the camera; pose of the other
-  std::vector<Eigen::Isometry3d> candidates;                             // camera from the other
+  std::vector<Eigen::Isometry3d> candidates;                              // camera from the other
 };
 
 Eigen::Isometry3d BestCandidate(const GuessedCamera& guess, const SharedSets& shared) {
@@ -236,7 +236,8 @@ FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<Image
   seed.state.rig_from_target.assign(static_cast<std::size_t>(problem.sets), Eigen::Isometry3d::Identity());
   std::vector<std::size_t> most(static_cast<std::size_t>(problem.sets), 0);
   for (std::size_t i = 0; i < images.size(); ++i) {
-    const auto set = static_cast<std::size_t>(images[i].set), camera = static_cast<std::size_t>(images[i].camera);
+    const auto set = static_cast<std::size_t>(images[i].set),
+               camera = static_cast<std::size_t>(images[i].camera);
     if (!seed.found[i] || images[i].points.size() <= most[set]) continue;
     most[set] = images[i].points.size();
     seed.state.rig_from_target[set] = (*poses)[camera].inverse() * placed[i].cam_from_target;

@@ -18,10 +18,10 @@ namespace luxfit {
 
 struct CalibrationSeed {
   bool ok = false;
-  std::string message, remedy;   // why not
-  CalibrationState pinhole;      // OPENCV4 without distortion
-  CalibrationState wide;         // SPLINED0
-  bool is_wide = false;          // which of the two fits better
+  std::string message, remedy;    // why not
+  CalibrationState pinhole;       // OPENCV4 without distortion
+  CalibrationState wide;          // SPLINED0
+  bool is_wide = false;           // which of the two fits better
   std::vector<bool> image_found;  // by image of the input: false where no pose fits its corners
 };
 

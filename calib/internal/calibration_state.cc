@@ -37,8 +37,8 @@ CalibrationProblem MakeProblem(const CalibrationInput& input) {
     problem.set_of_image.push_back(image.corners.empty() ? -1 : number_of_set.at(image.set));
     for (const BoardCorner& corner : image.corners) {
       const double weight = corner.sigma_px > 0 ? median_px / corner.sigma_px : 1;
-      problem.corners.push_back({static_cast<int>(i), image.camera, problem.set_of_image.back(),
-                                 corner.index, corner.pixel, weight, true});
+      problem.corners.push_back({static_cast<int>(i), image.camera, problem.set_of_image.back(), corner.index,
+                                 corner.pixel, weight, true});
     }
   }
   std::sort(problem.corners.begin(), problem.corners.end(),
@@ -62,9 +62,9 @@ Eigen::Matrix2Xd Residuals(const CalibrationProblem& problem, const CalibrationS
   Eigen::Index k = 0;
   for (const CornerObservation& corner : problem.corners) {
     const auto camera = static_cast<std::size_t>(corner.camera);
-    const Eigen::Vector3d p = state.cam_from_rig[camera] *
-                              (state.rig_from_target[static_cast<std::size_t>(corner.set)] *
-                               TargetPoint(problem.input->target, corner.point, state.warp_m));
+    const Eigen::Vector3d p =
+        state.cam_from_rig[camera] * (state.rig_from_target[static_cast<std::size_t>(corner.set)] *
+                                      TargetPoint(problem.input->target, corner.point, state.warp_m));
     residuals.col(k++) =
         ProjectByLens(state.lens, state.intrinsics[camera].data(), p, false).pixel - corner.pixel;
   }

@@ -59,6 +59,17 @@ std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in
   return taken;
 }
 
+// Tag corners that were handed to COLMAP as features: the tag measures them already.
+bool IsCornerOfTag(const BundleView& view, const Eigen::Vector2d& pixel) {
+  constexpr double kSamePx = 0.02;  // pixels are rounded to floats on the way
+  return std::any_of(view.tags.begin(), view.tags.end(), [&pixel](const TagObservation& tag) {
+    return std::any_of(tag.corners_px.begin(), tag.corners_px.end(),
+                       [&pixel](const Eigen::Vector2d& corner_px) {
+                         return (corner_px - pixel).squaredNorm() < kSamePx * kSamePx;
+                       });
+  });
+}
+
 }  // namespace
 
 std::vector<std::size_t> MatchViews(const std::vector<BundleView>& views, FeatureModel& features) {
@@ -106,7 +117,8 @@ void JoinFeatures(const BundleContext& context, FeatureModel features, BundleAdj
     adjustment.points.push_back({track.p_in_model, track.surface});
     for (const FeatureObservation& seen : track.seen) {
       const auto v = static_cast<std::size_t>(seen.view);
-      if (taken[v]) adjustment.views[view_of[v]].points.push_back({point, seen.pixel, true});
+      BundleView& view = adjustment.views[view_of[v]];
+      if (taken[v] && !IsCornerOfTag(view, seen.pixel)) view.points.push_back({point, seen.pixel, true});
     }
   }
 }

@@ -13,7 +13,8 @@ namespace luxfit {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kLeastSets = 3;       // two to fit, one to hold out
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kLeastSets = 3;  // two to fit, one to hold out
 constexpr int kPoseSteps = 30;
 constexpr double kCornersPerParameter = 2;  // fewer, and a lens is not worth trying
 
@@ -57,8 +58,8 @@ void ScoreSet(const CalibrationProblem& problem, const CalibrationState& lens, c
     const CornerObservation& corner = problem.corners[k];
     if (corner.set != set || !counted[k]) continue;
     const auto camera = static_cast<std::size_t>(corner.camera);
-    points.push_back({TargetPoint(problem.input->target, corner.point, lens.warp_m), corner.pixel, corner.weight,
-                      &lens.intrinsics[camera], lens.cam_from_rig[camera]});
+    points.push_back({TargetPoint(problem.input->target, corner.point, lens.warp_m), corner.pixel,
+                      corner.weight, &lens.intrinsics[camera], lens.cam_from_rig[camera]});
   }
   const double freedom = 2.0 * static_cast<double>(points.size()) - 6;
   if (freedom < 2) return;
@@ -69,12 +70,12 @@ void ScoreSet(const CalibrationProblem& problem, const CalibrationState& lens, c
     sum += seen.weight * seen.weight *
            (ProjectByLens(lens.lens, seen.parameters->data(), p, false).pixel - seen.pixel).squaredNorm();
   }
-  score.squares[static_cast<std::size_t>(set)] = std::isfinite(sum) ? sum : kNaN;
+  score.squares[static_cast<std::size_t>(set)] = std::isfinite(sum) ? sum : kInfinity;
   score.freedom[static_cast<std::size_t>(set)] = freedom;
 }
 
-void ScoreFold(const CalibrationProblem& problem, const LensFit& fit, const std::vector<bool>& counted, int fold,
-               int folds, const LensFitOptions& options, HeldOutScore& score) {
+void ScoreFold(const CalibrationProblem& problem, const LensFit& fit, const std::vector<bool>& counted,
+               int fold, int folds, const LensFitOptions& options, HeldOutScore& score) {
   const TrainingProblem training = Without(problem, fit.used, fold, folds);
   if (training.problem.sets < 2 || !SeesEveryCamera(training.problem)) return;
   CalibrationState start = fit.state;
@@ -83,9 +84,15 @@ void ScoreFold(const CalibrationProblem& problem, const LensFit& fit, const std:
     start.rig_from_target.push_back(fit.state.rig_from_target[static_cast<std::size_t>(set)]);
   const bool warp = options.warp && problem.input->target.IsGrid();
   const SolvedState solved = SolveCalibration(training.problem, start, {true, warp}, options.back_end);
-  if (!solved.ok) return;
-  for (int set = fold; set < problem.sets; set += folds)
-    ScoreSet(problem, solved.state, fit.state.rig_from_target[static_cast<std::size_t>(set)], counted, set, score);
+  for (int set = fold; set < problem.sets; set += folds) {
+    if (!solved.ok) {
+      score.squares[static_cast<std::size_t>(set)] = kInfinity;
+      score.freedom[static_cast<std::size_t>(set)] = 1;
+      continue;
+    }
+    ScoreSet(problem, solved.state, fit.state.rig_from_target[static_cast<std::size_t>(set)], counted, set,
+             score);
+  }
 }
 
 // Corners that some candidate can explain.
@@ -99,7 +106,8 @@ std::vector<bool> CountedCorners(const std::vector<LensCandidate>& candidates, s
 }
 
 // Mean square of the lens' own projection uncertainty at its corners, per axis, px^2.
-double OwnUncertaintyPx2(const CalibrationProblem& problem, const LensFit& fit, const LensFitOptions& options) {
+double OwnUncertaintyPx2(const CalibrationProblem& problem, const LensFit& fit,
+                         const LensFitOptions& options) {
   CalibrationProblem used = problem;
   for (std::size_t k = 0; k < used.corners.size(); ++k) used.corners[k].used = fit.used[k];
   const bool warp = options.warp && problem.input->target.IsGrid();
@@ -165,8 +173,25 @@ void ScoreAll(const CalibrationProblem& problem, int folds, const LensFitOptions
               std::vector<LensCandidate>& candidates) {
   const std::vector<bool> counted = CountedCorners(candidates, problem.corners.size());
   for (LensCandidate& candidate : candidates) {
-    if (candidate.fit.ok) candidate.score = ScoreHeldOut(problem, candidate.fit, counted, folds, options);
+    if (candidate.fit.ok && candidate.counted != counted) {
+      candidate.counted = counted;
+      candidate.score = ScoreHeldOut(problem, candidate.fit, counted, folds, options);
+    }
   }
+}
+
+bool IsRicherSpline(const LensKind& kind, const std::vector<LensCandidate>& candidates) {
+  return kind.lens == LensModel::kSplined && !candidates.empty() &&
+         candidates.back().kind.lens == LensModel::kSplined;
+}
+
+// Splines take most of the time: a richer one is tried only where the one before it beat all others.
+bool IsLastTheBest(const std::vector<LensCandidate>& candidates) {
+  const double last_px = candidates.back().score.PerAxisPx();
+  return std::isfinite(last_px) &&
+         std::all_of(candidates.begin(), candidates.end(), [&](const LensCandidate& candidate) {
+           return !candidate.fit.ok || !(candidate.score.PerAxisPx() < last_px);
+         });
 }
 
 std::string Decide(const CalibrationProblem& problem, const LensFitOptions& options, LensChoice& choice) {
@@ -175,8 +200,8 @@ std::string Decide(const CalibrationProblem& problem, const LensFitOptions& opti
     const LensCandidate& candidate = choice.candidates[i];
     if (!candidate.fit.ok) continue;
     if (choice.chosen < 0) choice.chosen = static_cast<int>(i);  // the simplest, where nothing is held out
-    if (best < 0 || candidate.score.PerAxisPx() <
-                        choice.candidates[static_cast<std::size_t>(best)].score.PerAxisPx())
+    if (best < 0 ||
+        candidate.score.PerAxisPx() < choice.candidates[static_cast<std::size_t>(best)].score.PerAxisPx())
       best = static_cast<int>(i);
   }
   if (best < 0) return "no candidate could be fitted";
@@ -202,7 +227,7 @@ std::string Decide(const CalibrationProblem& problem, const LensFitOptions& opti
 double HeldOutScore::PerAxisPx() const {
   double sum = 0, count = 0;
   for (std::size_t s = 0; s < squares.size(); ++s) {
-    if (!std::isfinite(squares[s])) continue;
+    if (std::isnan(squares[s])) continue;
     sum += squares[s];
     count += freedom[s];
   }
@@ -217,7 +242,8 @@ HeldOutScore ScoreHeldOut(const CalibrationProblem& problem, const LensFit& fit,
   const int parts = std::min(folds, problem.sets);
   if (problem.sets < kLeastSets || parts < 2) return score;
   // Folds are disjoint sets: each writes its own elements.
-  tbb::parallel_for(0, parts, [&](int fold) { ScoreFold(problem, fit, counted, fold, parts, options, score); });
+  tbb::parallel_for(0, parts,
+                    [&](int fold) { ScoreFold(problem, fit, counted, fold, parts, options, score); });
   return score;
 }
 
@@ -228,7 +254,11 @@ LensChoice ChooseLens(const CalibrationProblem& problem, const CalibrationSeed& 
   choice.candidates.reserve(kinds.size());
   for (const LensKind& kind : kinds) {
     if (kinds.size() > 1 && !IsWorthTrying(problem, kind)) continue;
-    choice.candidates.push_back({kind, FitLens(problem, seed, kind, simpler, options), {}});
+    if (IsRicherSpline(kind, choice.candidates)) {
+      ScoreAll(problem, folds, options, choice.candidates);
+      if (!IsLastTheBest(choice.candidates)) continue;
+    }
+    choice.candidates.push_back({kind, FitLens(problem, seed, kind, simpler, options), {}, {}});
     const LensFit& fit = choice.candidates.back().fit;
     if (fit.ok && kind.lens == LensModel::kOpenCv) simpler = &fit;
   }

@@ -14,7 +14,8 @@
 namespace luxfit {
 
 struct HeldOutScore {
-  std::vector<double> squares;  // by set: sum of w^2 |r|^2, px^2; NaN where the set has no score
+  // By set: sum of w^2 |r|^2, px^2. NaN: no score; infinity: the lens of the others has no image of it.
+  std::vector<double> squares;
   std::vector<double> freedom;  // by set: 2 n - 6
   double PerAxisPx() const;     // NaN where no set has a score
 };
@@ -26,6 +27,7 @@ struct LensCandidate {
   LensKind kind;
   LensFit fit;
   HeldOutScore score;
+  std::vector<bool> counted;  // corners in that score
 };
 
 struct LensChoice {

@@ -66,12 +66,27 @@ struct MrcalArguments {
   }
 };
 
-// A corner's pixel and weight; mrcal takes weights below 0 as "not seen".
-mrcal_point3_t Seen(const CornerObservation& corner) {
+// Whether a set's pose hangs on fewer corners in use than determine it.
+std::vector<bool> StarvedSets(const CalibrationProblem& problem) {
+  constexpr int kLeastCorners = 4;
+  std::vector<int> used(static_cast<std::size_t>(problem.sets), 0);
+  for (const CornerObservation& corner : problem.corners)
+    used[static_cast<std::size_t>(corner.set)] += corner.used ? 1 : 0;
+  std::vector<bool> starved;
+  starved.reserve(used.size());
+  for (const int count : used) starved.push_back(count < kLeastCorners);
+  return starved;
+}
+
+// A corner's pixel and weight; mrcal takes weights below 0 as "not seen". A starved set's pose would make the
+// equations singular: its corners hold it by a thread.
+mrcal_point3_t Seen(const CornerObservation& corner, const std::vector<bool>& starved) {
+  constexpr double kThread = 1e-3;
   mrcal_point3_t seen{};
   seen.x = corner.pixel.x();
   seen.y = corner.pixel.y();
   seen.z = corner.used ? corner.weight : -1;
+  if (starved[static_cast<std::size_t>(corner.set)]) seen.z = kThread * corner.weight;
   return seen;
 }
 
@@ -81,6 +96,7 @@ void AddBoards(const CalibrationProblem& problem, MrcalArguments& arguments) {
   arguments.columns = target.columns;
   arguments.rows = target.rows;
   arguments.spacing_m = target.spacing_m;
+  const std::vector<bool> starved = StarvedSets(problem);
   mrcal_point3_t unseen{};
   unseen.z = -1;
   int image = -1;
@@ -95,7 +111,7 @@ void AddBoards(const CalibrationProblem& problem, MrcalArguments& arguments) {
       arguments.pool.resize(arguments.pool.size() + target.points.size(), unseen);
     }
     arguments.pool[arguments.pool.size() - target.points.size() + static_cast<std::size_t>(corner.point)] =
-        Seen(corner);
+        Seen(corner, starved);
   }
 }
 
@@ -108,13 +124,14 @@ void AddPoints(const CalibrationProblem& problem, MrcalArguments& arguments) {
     arguments.points_in_reference.push_back(p);
   }
   arguments.points = static_cast<int>(arguments.points_in_reference.size());
+  const std::vector<bool> starved = StarvedSets(problem);
   arguments.point_observations.reserve(problem.corners.size());
   for (const CornerObservation& corner : problem.corners) {
     mrcal_observation_point_t observation{};
     observation.icam.intrinsics = 0;
     observation.icam.extrinsics = corner.set;
     observation.i_point = corner.point;
-    observation.px = Seen(corner);
+    observation.px = Seen(corner, starved);
     arguments.point_observations.push_back(observation);
   }
 }
@@ -153,8 +170,7 @@ MrcalArguments MakeArguments(const CalibrationProblem& problem, const Calibratio
   arguments.frames = static_cast<int>(arguments.reference_from_target.size());
   arguments.warp.x2 = state.warp_m.x();
   arguments.warp.y2 = state.warp_m.y();
-  arguments.selections =
-      SelectionsOf(state.lens, selection, arguments.is_grid, arguments.extrinsics > 0);
+  arguments.selections = SelectionsOf(state.lens, selection, arguments.is_grid, arguments.extrinsics > 0);
   return arguments;
 }
 
@@ -204,10 +220,9 @@ Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
           arguments.cam_from_reference.data(), arguments.reference_from_target.data(),
           arguments.points_in_reference.data(), &arguments.warp, arguments.cameras, arguments.extrinsics,
           arguments.frames, arguments.points, arguments.points, arguments.boards.data(),
-          arguments.point_observations.data(), arguments.board_count(),
-          arguments.point_observation_count(), arguments.pool.data(), &arguments.model,
-          arguments.image_sizes.data(), arguments.selections, &arguments.constants, arguments.spacing_m,
-          arguments.columns, arguments.rows, false))
+          arguments.point_observations.data(), arguments.board_count(), arguments.point_observation_count(),
+          arguments.pool.data(), &arguments.model, arguments.image_sizes.data(), arguments.selections,
+          &arguments.constants, arguments.spacing_m, arguments.columns, arguments.rows, false))
     throw std::runtime_error("calibration: libmrcal refused its optimiser's callback");
   std::vector<double> scale(static_cast<std::size_t>(states), 1.0);
   mrcal_unpack_solver_state_vector(scale.data(), arguments.cameras, arguments.extrinsics, arguments.frames,
@@ -255,8 +270,8 @@ LinearizedState LinearizeByMrcal(const CalibrationProblem& problem, const Calibr
   out.jacobian = JacobianOf(a);
   const int boards = a.board_count();
   for (int c = 0; c < a.cameras; ++c) {
-    out.intrinsics_at.push_back(mrcal_state_index_intrinsics(
-        c, a.cameras, a.extrinsics, a.frames, a.points, a.points, boards, a.selections, &a.model));
+    out.intrinsics_at.push_back(mrcal_state_index_intrinsics(c, a.cameras, a.extrinsics, a.frames, a.points,
+                                                             a.points, boards, a.selections, &a.model));
     const bool moves = a.is_grid && c > 0;
     out.cam_from_rig_at.push_back(moves ? mrcal_state_index_extrinsics(c - 1, a.cameras, a.extrinsics,
                                                                        a.frames, a.points, a.points, boards,

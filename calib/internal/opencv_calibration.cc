@@ -93,8 +93,8 @@ SolvedState SolveByOpenCv(const CalibrationProblem& problem, const CalibrationSt
   const CalibrationCamera& camera = problem.input->cameras.front();
   const std::vector<double>& parameters = start.intrinsics.front();
   Estimate estimate;
-  estimate.matrix = (cv::Mat_<double>(3, 3) << parameters[0], 0, parameters[2], 0, parameters[1],
-                     parameters[3], 0, 0, 1);
+  estimate.matrix =
+      (cv::Mat_<double>(3, 3) << parameters[0], 0, parameters[2], 0, parameters[1], parameters[3], 0, 0, 1);
   estimate.distortion = cv::Mat(std::vector<double>(parameters.begin() + 4, parameters.end()), true);
   const cv::Size size(camera.width_px, camera.height_px);
   try {

@@ -1,7 +1,9 @@
 #include "calib/internal/tag_views.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -85,6 +87,80 @@ std::set<int> FindMovedTags(const std::vector<BundleView>& views, const std::vec
   return moved;
 }
 
+// Where a view whose other tags give its pose sees a tag, by its size alone.
+Eigen::Vector3d PlaceSeen(const BundleContext& context, const BundleView& view, const PoseStart& start,
+                          const TagObservation& tag, const PoseStartOptions& options) {
+  TagObservation alone = tag;
+  const Eigen::Vector3d center = TagCenter(tag);
+  for (Eigen::Vector3d& corner : alone.corners_in_world) corner -= center;
+  // The two poses of a plane that may be confused have the same centre, all but.
+  const PoseStart of_tag = EstimatePoseStart(context.CameraOf(view), {alone}, options);
+  return start.cam_from_world.inverse() * of_tag.cam_from_world.translation();
+}
+
+struct Sighting {
+  std::string view;
+  Eigen::Vector3d center_in_world;
+  double distance_m = 0;
+};
+
+// The sightings of one tag that contradict its survey, from views that two other tags and more have placed.
+std::map<int, std::vector<Sighting>> Contradictions(const BundleContext& context,
+                                                    const std::vector<BundleView>& views,
+                                                    const std::vector<PoseStart>& starts,
+                                                    const PoseStartOptions& options) {
+  std::map<int, std::vector<Sighting>> sightings;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const PoseStart& start = starts[v];
+    if (start.status != PoseStartStatus::kOk ||
+        std::count(start.agrees.begin(), start.agrees.end(), true) < 2)
+      continue;
+    for (std::size_t i = 0; i < start.agrees.size(); ++i) {
+      if (start.agrees[i]) continue;
+      const TagObservation& tag = views[v].tags[i];
+      const Eigen::Vector3d place = PlaceSeen(context, views[v], start, tag, options);
+      if (place.allFinite())
+        sightings[tag.id].push_back({views[v].name, place, (start.cam_from_world * place).norm()});
+    }
+  }
+  return sightings;
+}
+
+// The views of two sightings or more that see the tag in the same other place.
+std::vector<std::string> ViewsOfOnePlace(const std::vector<Sighting>& sightings) {
+  std::vector<std::string> views{sightings.front().view};
+  for (std::size_t i = 1; i < sightings.size(); ++i) {
+    const double apart_m = (sightings[i].center_in_world - sightings.front().center_in_world).norm();
+    constexpr double kPart = 0.05;  // of the distance: what a tag's size tells of its place
+    if (apart_m < kPart * (sightings[i].distance_m + sightings.front().distance_m))
+      views.push_back(sightings[i].view);
+  }
+  return views;
+}
+
+std::string PlaceText(const Eigen::Vector3d& place) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << "(" << place.x() << ", " << place.y() << ", " << place.z()
+       << ")";
+  return text.str();
+}
+
+// Tags that hang where the survey says and in a second place too.
+void NameCopies(const BundleContext& context, const std::vector<BundleView>& views,
+                const std::vector<PoseStart>& starts, const std::set<int>& moved,
+                const PoseStartOptions& options, std::vector<RegistrationNote>& notes) {
+  for (const auto& [id, sightings] : Contradictions(context, views, starts, options)) {
+    if (moved.count(id) > 0) continue;
+    const std::vector<std::string> in = ViewsOfOnePlace(sightings);
+    if (in.size() < 2) continue;  // one bad detection is no second tag
+    notes.push_back({"", id, "tag_duplicated",
+                     "Tag " + std::to_string(id) + " hangs in two places: where the survey says, and (in " +
+                         Join(in) + ") at about " + PlaceText(sightings.front().center_in_world) +
+                         "; it is left out there.",
+                     "Hang each tag id once, or take the copy down."});
+  }
+}
+
 RegistrationNote StartNote(const BundleView& view, const PoseStart& start) {
   if (start.status == PoseStartStatus::kAmbiguous) {
     return {
@@ -149,6 +225,7 @@ void StartViews(const BundleContext& context, std::vector<BundleView>& views,
   std::vector<PoseStart> starts = StartsOf(context, views, options);
   const std::set<int> moved = FindMovedTags(views, starts);
   for (const int id : moved) notes.push_back(TagDisagrees(id));
+  NameCopies(context, views, starts, moved, options, notes);
   for (std::size_t v = 0; v < views.size(); ++v) {
     BundleView& view = views[v];
     const std::size_t before = view.tags.size();

@@ -20,7 +20,8 @@ std::vector<BundleView> ViewsOf(const BundleContext& context, const std::map<int
                                 const std::vector<ViewDetections>& detections,
                                 std::vector<RegistrationNote>& notes);
 
-// A pose for every view whose tags give one; `used` says which agree with it.
+// A pose for every view whose tags give one; `used` says which agree with it. A tag that hangs in two places
+// (an id used twice) is used where it agrees with the survey.
 void StartViews(const BundleContext& context, std::vector<BundleView>& views,
                 std::vector<RegistrationNote>& notes);
 

@@ -13,8 +13,8 @@ using RowMajor36 = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor2N = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kCoefficientPx = 1e-3;   // of residual for a distortion coefficient of 1
-constexpr double kControlPointPx = 5;     // and for a control point of 1
+constexpr double kCoefficientPx = 1e-3;  // of residual for a distortion coefficient of 1
+constexpr double kControlPointPx = 5;    // and for a control point of 1
 
 // Parameters: lens, rig_from_target, and cam_from_rig of all but the first camera; two residuals.
 class CornerCost : public ceres::CostFunction {
@@ -82,7 +82,8 @@ class DistortionPrior : public ceres::CostFunction {
 // Parameter blocks and the problem over them.
 class Adjustment {
  public:
-  Adjustment(const CalibrationProblem& problem, const CalibrationState& state, const SolveSelection& selection)
+  Adjustment(const CalibrationProblem& problem, const CalibrationState& state,
+             const SolveSelection& selection)
       : state_(state) {
     for (const Eigen::Isometry3d& pose : state.cam_from_rig) cam_from_rig_.push_back(Blocked(pose));
     for (const Eigen::Isometry3d& pose : state.rig_from_target) rig_from_target_.push_back(Blocked(pose));
@@ -109,7 +110,8 @@ class Adjustment {
 
   CalibrationState State() const {
     CalibrationState out = state_;
-    for (std::size_t c = 1; c < cam_from_rig_.size(); ++c) out.cam_from_rig[c] = PoseOf(cam_from_rig_[c].data());
+    for (std::size_t c = 1; c < cam_from_rig_.size(); ++c)
+      out.cam_from_rig[c] = PoseOf(cam_from_rig_[c].data());
     for (std::size_t s = 0; s < rig_from_target_.size(); ++s)
       out.rig_from_target[s] = PoseOf(rig_from_target_[s].data());
     return out;
@@ -169,8 +171,8 @@ class Adjustment {
     }
     if (!held.empty()) problem_.SetManifold(parameters.data(), new ceres::SubsetManifold(count, held));
     const bool is_splined = state_.lens.kind.lens == LensModel::kSplined;
-    problem_.AddResidualBlock(new DistortionPrior(count, is_splined ? kControlPointPx : kCoefficientPx), nullptr,
-                              parameters.data());
+    problem_.AddResidualBlock(new DistortionPrior(count, is_splined ? kControlPointPx : kCoefficientPx),
+                              nullptr, parameters.data());
   }
 
   CalibrationState state_;

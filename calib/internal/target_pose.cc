@@ -37,8 +37,7 @@ NormalEquations Accumulate(const LensFunction& lens, const std::vector<SeenPoint
   for (const SeenPoint& seen : points) {
     const Eigen::Vector3d turned = pose.linear() * seen.point;
     const Eigen::Vector3d p_in_rig = turned + pose.translation();
-    const LensPoint image =
-        ProjectByLens(lens, seen.parameters->data(), seen.cam_from_rig * p_in_rig, false);
+    const LensPoint image = ProjectByLens(lens, seen.parameters->data(), seen.cam_from_rig * p_in_rig, false);
     if (!image.pixel.allFinite() || !image.d_point.allFinite()) {
       out.cost += lost;
       continue;
@@ -100,8 +99,8 @@ Eigen::Isometry3d PoseOf(const cv::Mat& rodrigues, const cv::Mat& translation) {
   const Eigen::Vector3d r(rodrigues.at<double>(0), rodrigues.at<double>(1), rodrigues.at<double>(2));
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   if (r.norm() > 0) pose.linear() = Eigen::AngleAxisd(r.norm(), r.normalized()).toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(translation.at<double>(0), translation.at<double>(1),
-                                       translation.at<double>(2));
+  pose.translation() =
+      Eigen::Vector3d(translation.at<double>(0), translation.at<double>(1), translation.at<double>(2));
   return pose;
 }
 
@@ -167,8 +166,8 @@ std::vector<Eigen::Isometry3d> PoseStarts(const Camera& camera, const std::vecto
     const std::vector<cv::Point3d> inlier_points = Kept(normalized.points, mask);
     if (mask.size() != normalized.points.size() || inlier_points.size() < kLeastPoints) return {};
     std::vector<cv::Mat> rs, ts;
-    cv::solvePnPGeneric(inlier_points, Kept(normalized.images, mask), cv::Matx33d::eye(), cv::noArray(), rs, ts,
-                        false, normalized.is_planar ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_SQPNP);
+    cv::solvePnPGeneric(inlier_points, Kept(normalized.images, mask), cv::Matx33d::eye(), cv::noArray(), rs,
+                        ts, false, normalized.is_planar ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_SQPNP);
     std::vector<Eigen::Isometry3d> starts;
     for (std::size_t i = 0; i < rs.size(); ++i) {
       const Eigen::Isometry3d pose = PoseOf(rs[i], ts[i]);
