@@ -1,5 +1,6 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 
+luxfit_test(apps calibration_sets_test LINK luxfit_apps)
 luxfit_test(apps csv_table_test LINK luxfit_apps)
 luxfit_test(apps line_chart_svg_test LINK luxfit_apps)
 luxfit_test(apps name_pattern_test LINK luxfit_apps)
@@ -13,6 +14,8 @@ luxfit_test(apps cli_bad_input_test LINK opencv_core opencv_imgcodecs nlohmann_j
 add_dependencies(apps_cli_bad_input_test luxfit)
 luxfit_test(apps formfactors_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_formfactors_test luxfit)
+luxfit_test(apps calibrate_test LINK luxfit::calib opencv_core opencv_calib3d nlohmann_json::nlohmann_json)
+add_dependencies(apps_calibrate_test luxfit)
 luxfit_test(apps chart_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_chart_test luxfit)
 luxfit_test(apps run_test WHOLE LINK truth_comparison nlohmann_json::nlohmann_json)

@@ -204,6 +204,19 @@ class RigJoiner {
   std::vector<std::optional<Eigen::Isometry3d>> cam_from_rig_;
 };
 
+// Whether the poses of a rig explain what its cameras see of the sets: half of the corners at least.
+bool IsBorneOut(const CalibrationProblem& problem, const std::vector<GuessedCamera>& guesses,
+                const CalibrationState& state) {
+  if (guesses.size() < 2) return true;
+  const Eigen::Matrix2Xd residuals = Residuals(problem, state);
+  std::size_t near = 0;
+  for (std::size_t k = 0; k < problem.corners.size(); ++k) {
+    const double gate_px = guesses[static_cast<std::size_t>(problem.corners[k].camera)].gate_px;
+    near += residuals.col(static_cast<Eigen::Index>(k)).norm() < gate_px ? 1 : 0;
+  }
+  return 2 * near > problem.corners.size();
+}
+
 struct FamilySeed {
   CalibrationState state;
   double cost_px2 = 0;
@@ -242,6 +255,7 @@ FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<Image
     most[set] = images[i].points.size();
     seed.state.rig_from_target[set] = (*poses)[camera].inverse() * placed[i].cam_from_target;
   }
+  seed.is_joined = IsBorneOut(problem, guesses, seed.state);
   return seed;
 }
 
@@ -267,7 +281,7 @@ CalibrationSeed SeedCalibration(const CalibrationProblem& problem, double focal_
   const FamilySeed pinhole = SeedFamily(problem, images, pinhole_px, false);
   const FamilySeed wide = SeedFamily(problem, images, wide_px, true);
   if (!pinhole.is_joined && !wide.is_joined) {
-    seed.message = "a camera of the rig shares no set of images with the others";
+    seed.message = "the cameras share no sets of images, or do not stand still against each other";
     seed.remedy = "photograph the board where two cameras see it at once, and check how images are paired";
     return seed;
   }
