@@ -29,7 +29,9 @@ BoardType TypeFrom(const std::string& name) {
 }
 
 // The name of the flag that sets a member of Board or BoardStyle, for messages that name the member.
-std::string WithFlagNames(std::string message) {
+std::string WithFlagNames(std::string message, const std::string& type) {
+  if (type == "charuco" && message.rfind("tag_size_m", 0) == 0)
+    return "--marker-size" + message.substr(std::string("tag_size_m").size());
   constexpr std::array<std::pair<const char*, const char*>, 10> kFlags = {
       {{"tag_size_m", "--tag-size"},
        {"square_size_m", "--square-size"},
@@ -186,7 +188,7 @@ int BoardCommand(const BoardCommandOptions& options) {
   try {
     options.type == "tags" ? WriteTags(options, paper) : WriteBoard(options, paper);
   } catch (const std::invalid_argument& error) {
-    throw std::runtime_error(WithFlagNames(error.what()));
+    throw std::runtime_error(WithFlagNames(error.what(), options.type));
   }
   return 0;
 }

@@ -13,7 +13,8 @@ constexpr double kRimMm = 6;     // printers leave as much white
 constexpr double kFootMm = 12;   // scale bar and caption
 constexpr double kTextMm = 2.8;  // font
 constexpr double kBarMm = 100;   // scale bar, where the page is wide enough
-constexpr double kLabelMm = 9;   // below a tag: its text and arrow
+constexpr double kBarTextMm = 55;
+constexpr double kLabelMm = 9;  // below a tag: its text and arrow
 constexpr double kMmPerM = 1000;
 
 Eigen::Vector2d SizeMm(const BoardDrawing& drawing) {
@@ -28,7 +29,7 @@ void Place(const BoardDrawing& drawing, const Eigen::Vector2d& at_mm, PrintPage&
 }
 
 void AddFoot(const std::string& caption, PrintPage& page) {
-  const double bar_mm = page.size_mm.x() >= kBarMm + 2 * kRimMm ? kBarMm : 50;
+  const double bar_mm = page.size_mm.x() >= kBarMm + kBarTextMm + 2 * kRimMm ? kBarMm : 50;
   const double y_mm = page.size_mm.y() - kRimMm - 5;
   page.lines.push_back({{kRimMm, y_mm}, {kRimMm + bar_mm, y_mm}});
   for (int i = 0; i <= static_cast<int>(bar_mm / 10); ++i) {

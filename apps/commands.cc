@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "apps/earlier_result.h"
 #include "apps/plan_svg.h"
@@ -24,13 +26,14 @@ void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 }  // namespace
 
 int RunCommand(const CommandOptions& options) {
-  const Session session = ReadSession(options.session);
+  Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
   std::string plan;
   {
     const StageTimer total(context, "total", "");
     const Room room = LoadRoom(session, context);
+    session = LinearizeSession(std::move(session), context);
     const RegisteredSession registered = RegisterSession(session, context);
     const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
     const SessionFit fit = FitSession(session, room, observations, context);
@@ -66,6 +69,17 @@ int ChartCommand(const CommandOptions& options) {
   return 0;
 }
 
+int LinearizeCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  if (session.photos.empty())
+    throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
+  session = LinearizeSession(std::move(session), context);
+  const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
+  Print(options.json ? artifact.dump(2) + "\n" : LinearizeTable(session, artifact) + WarningText(artifact));
+  return 0;
+}
+
 int CalibrateCommand(const CommandOptions& options) {
   const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
@@ -76,9 +90,10 @@ int CalibrateCommand(const CommandOptions& options) {
 }
 
 int RegisterCommand(const CommandOptions& options) {
-  const Session session = ReadSession(options.session);
+  Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
   LoadRoom(session, context);
+  session = LinearizeSession(std::move(session), context);
   const RegisteredSession registered = RegisterSession(session, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {

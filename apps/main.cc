@@ -9,6 +9,7 @@
 #include "apps/board_command.h"
 #include "apps/commands.h"
 #include "apps/form_factors_command.h"
+#include "apps/process.h"
 #include "apps/version.h"
 #include "forward/form_factors.h"
 #include "forward/threads.h"
@@ -16,7 +17,7 @@
 namespace {
 
 // Exit statuses of docs/session-format.md.
-constexpr int kBadInput = 2, kDefect = 70;
+constexpr int kBadInput = 2, kMissingProgram = 3, kDefect = 70;
 
 std::string CommandLine(int argc, char** argv) {
   std::string line;
@@ -104,6 +105,8 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<CLI::App*, int (*)(const luxfit::CommandOptions&)>> commands = {
       add("run", "everything: register the photos, observe, fit, check against the luxmeter", true,
           luxfit::RunCommand),
+      add("linearize", "photos to luminance: exposures, response, vignetting", true,
+          luxfit::LinearizeCommand),
       add("calibrate", "intrinsics of cameras and rigs, from images of a board or of the room's tags", true,
           luxfit::CalibrateCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
@@ -147,6 +150,9 @@ int main(int argc, char** argv) {
     for (const auto& [sub, command] : commands) {
       if (sub->parsed()) return command(options);
     }
+  } catch (const luxfit::MissingProgram& e) {
+    std::fprintf(stderr, "luxfit: %s\n", e.what());
+    return kMissingProgram;
   } catch (const std::runtime_error& e) {
     std::fprintf(stderr, "luxfit: %s\n", e.what());
     return kBadInput;

@@ -40,7 +40,7 @@ json ViewsJson(const Session& session, const Registration& registration) {
                      {"camera", session.cameras[static_cast<size_t>(view.camera)].id},
                      {"position_m", Vector(world_from_cam.translation())},
                      {"R_scene_from_camera", rotation},
-                     {"method", "tags"},
+                     {"method", MethodOf(view)},
                      {"tags", view.tags_used},
                      {"reprojection_rms_px", view.reprojection_rms_px},
                      {"position_sigma_m", Vector(view.position_sigma_m)}});

@@ -72,6 +72,35 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
   return session;
 }
 
+// A start is given for views that there are.
+void CheckStartViews(const TomlCursor& registration, const std::vector<SessionPhoto>& photos) {
+  const auto start = registration.Find("start");
+  if (!start) return;
+  std::vector<std::string> views;
+  for (const SessionPhoto& photo : photos) {
+    if (std::find(views.begin(), views.end(), photo.view) == views.end()) views.push_back(photo.view);
+  }
+  for (const auto& [view, position] : start->Members()) {
+    if (std::find(views.begin(), views.end(), view) == views.end())
+      throw position.Error("expected a view of the photo table, got " + Quoted(view) +
+                           DidYouMean(view, views));
+  }
+}
+
+// What there is of a model's files.
+std::vector<std::string> ColmapModelFiles(const std::string& folder) {
+  std::vector<std::string> files;
+  if (folder.empty()) return files;
+  for (const char* name : {"cameras", "images", "points3D"}) {
+    for (const char* ending : {".bin", ".txt"}) {
+      const fs::path path = fs::path(folder) / (std::string(name) + ending);
+      std::error_code error;
+      if (fs::is_regular_file(path, error)) files.push_back(path.string());
+    }
+  }
+  return files;
+}
+
 // Every file of the session, each once, in the order of the format.
 std::vector<std::string> InputFiles(const Session& session) {
   std::vector<std::string> files{session.path};
@@ -80,8 +109,11 @@ std::vector<std::string> InputFiles(const Session& session) {
   };
   if (session.scene) add(session.scene->mesh);
   add(session.tags.map_path);
+  for (const std::string& file : ColmapModelFiles(session.registration.colmap_model)) add(file);
   for (const SessionCamera& camera : session.cameras) {
     add(camera.intrinsics);
+    add(camera.response_path);
+    add(camera.vignetting_path);
     add(camera.calibration_corners);
     for (const std::string& image : camera.calibration_images) add(image);
   }
@@ -108,7 +140,7 @@ Session ReadSession(const std::string& path) {
   if (const auto scene = root.Find("scene")) session.scene = ReadSceneSection(*scene, folder);
   if (const auto tags = root.Find("tags")) session.tags = ReadTagsSection(*tags, folder);
   if (const auto registration = root.Find("registration"))
-    session.registration_method = ReadRegistrationSection(*registration);
+    session.registration = ReadRegistrationSection(*registration, folder);
   if (const auto cameras = root.Find("camera")) {
     session.cameras = ReadCameras(*cameras, folder);
     ExpectCalibrationTargets(root, *cameras, session);
@@ -117,6 +149,7 @@ Session ReadSession(const std::string& path) {
     session.calibration = ReadCalibrationSection(*calibration);
   session.luminaires = ReadLuminaires(root, folder);
   session = WithTables(root, folder, std::move(session));
+  if (const auto registration = root.Find("registration")) CheckStartViews(*registration, session.photos);
   session.input_files = InputFiles(session);
   return session;
 }

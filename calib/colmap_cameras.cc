@@ -9,6 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "calib/internal/camera_formats.h"
+#include "calib/internal/colmap_binary.h"
+
 namespace luxfit {
 namespace {
 
@@ -59,6 +62,37 @@ Camera ToCamera(const Model& model, int width_px, int height_px, const std::vect
   return camera;
 }
 
+// One line of cameras.txt.
+class CameraLine {
+ public:
+  CameraLine(std::string place, const std::string& line) : place_(std::move(place)), words_(line) {}
+
+  std::pair<int, Camera> Read() {
+    int id = 0, width_px = 0, height_px = 0;
+    std::string name;
+    if (!(words_ >> id >> name >> width_px >> height_px))
+      Fail("expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS...; is this COLMAP's cameras.txt?");
+    const auto model =
+        std::find_if(kModels.begin(), kModels.end(), [&name](const Model& m) { return name == m.name; });
+    if (model == kModels.end()) Fail("expected a camera model of COLMAP 3.8, got \"" + name + "\"");
+    std::vector<double> parameters;
+    for (double value = 0; words_ >> value;) parameters.push_back(value);
+    if (!words_.eof() || parameters.size() != ParameterCount(*model)) {
+      Fail("expected " + std::to_string(ParameterCount(*model)) + " parameters of " + model->name + ", got " +
+           std::to_string(parameters.size()));
+    }
+    return {id, ToCamera(Served(*model, place_), width_px, height_px, parameters)};
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw std::runtime_error(place_ + ": " + message);
+  }
+
+  std::string place_;
+  std::istringstream words_;
+};
+
 std::map<int, Camera> ReadText(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read COLMAP's cameras, expected an existing file");
@@ -66,54 +100,30 @@ std::map<int, Camera> ReadText(const std::string& path) {
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
-    if (line.empty() || line[0] == '#' || line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (line[0] == '#' || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string place = path + ":" + std::to_string(number);
-    std::istringstream words(line);
-    int id = 0, width_px = 0, height_px = 0;
-    std::string name;
-    if (!(words >> id >> name >> width_px >> height_px))
-      throw std::runtime_error(place + ": expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS..., got \"" + line +
-                               "\"; is this COLMAP's cameras.txt?");
-    const auto model =
-        std::find_if(kModels.begin(), kModels.end(), [&name](const Model& m) { return name == m.name; });
-    if (model == kModels.end())
-      throw std::runtime_error(place + ": expected a camera model of COLMAP 3.8, got \"" + name + "\"");
-    std::vector<double> parameters;
-    for (double value = 0; words >> value;) parameters.push_back(value);
-    if (!words.eof() || parameters.size() != ParameterCount(*model))
-      throw std::runtime_error(place + ": expected " + std::to_string(ParameterCount(*model)) +
-                               " parameters of " + name + ", got " + std::to_string(parameters.size()));
-    const Camera camera = ToCamera(Served(*model, place), width_px, height_px, parameters);
+    const auto [id, camera] = CameraLine(place, line).Read();
     if (!cameras.emplace(id, camera).second)
       throw std::runtime_error(place + ": expected every camera once, got " + std::to_string(id) + " again");
   }
   return cameras;
 }
 
-template <typename T>
-T ReadValue(std::ifstream& file, const std::string& path) {
-  T value{};
-  if (!file.read(reinterpret_cast<char*>(&value), sizeof(T)))
-    throw std::runtime_error(path + ": expected more of COLMAP's cameras.bin, got the end of the file");
-  return value;
-}
-
 std::map<int, Camera> ReadBinary(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot read COLMAP's cameras, expected an existing file");
+  ColmapBinary file(path);
   std::map<int, Camera> cameras;
-  const auto count = ReadValue<std::uint64_t>(file, path);
+  const auto count = file.Read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto id = static_cast<int>(ReadValue<std::uint32_t>(file, path));
-    const auto model_id = ReadValue<std::int32_t>(file, path);
-    const auto width_px = static_cast<int>(ReadValue<std::uint64_t>(file, path));
-    const auto height_px = static_cast<int>(ReadValue<std::uint64_t>(file, path));
+    const auto id = static_cast<int>(file.Read<std::uint32_t>());
+    const auto model_id = file.Read<std::int32_t>();
+    const int width_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": width");
+    const int height_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": height");
     if (model_id < 0 || model_id >= static_cast<int>(kModels.size()))
       throw std::runtime_error(path + ": expected a camera model of COLMAP 3.8 (0 to 10), got " +
                                std::to_string(model_id));
     const Model& model = Served(kModels[static_cast<std::size_t>(model_id)], path);
     std::vector<double> parameters(ParameterCount(model));
-    for (double& value : parameters) value = ReadValue<double>(file, path);
+    for (double& value : parameters) value = file.Read<double>();
     cameras[id] = ToCamera(model, width_px, height_px, parameters);
   }
   return cameras;

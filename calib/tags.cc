@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -23,6 +24,13 @@ double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
   return sum_px / 4;
 }
 
+// Small tags are looked for where time allows: decimation by 2 misses a third of those below 40 px.
+double DecimationOf(const ImagePlane& grey, double asked) {
+  constexpr Eigen::Index kLargePhotoPixels = 8'000'000;
+  if (asked > 0) return asked;
+  return grey.size() > kLargePhotoPixels ? 1.5 : 1;
+}
+
 TagDetection ToHouse(const apriltag_detection_t& found) {
   TagDetection tag;
   tag.id = found.id;
@@ -38,11 +46,59 @@ TagDetection ToHouse(const apriltag_detection_t& found) {
   return tag;
 }
 
+std::vector<TagDetection> DetectIn(const ImagePlane& grey, apriltag_detector_t& detector, double gamma) {
+  std::vector<uint8_t> display = DisplayImage(grey, gamma);
+  image_u8_t view = {static_cast<int32_t>(grey.cols()), static_cast<int32_t>(grey.rows()),
+                     static_cast<int32_t>(grey.cols()), display.data()};
+  const DetectionsPtr found(apriltag_detector_detect(&detector, &view), apriltag_detections_destroy);
+  std::vector<TagDetection> tags;
+  tags.reserve(static_cast<std::size_t>(zarray_size(found.get())));
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* detection = nullptr;
+    zarray_get(found.get(), i, &detection);
+    tags.push_back(ToHouse(*detection));
+  }
+  return tags;
+}
+
+std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_detector_t& detector,
+                                           const DetectTagsOptions& options) {
+  const auto enlarged = [&](Eigen::Index pixels) {
+    return static_cast<Eigen::Index>(std::lround(static_cast<double>(pixels) * options.enlarge));
+  };
+  ImagePlane large(enlarged(grey.rows()), enlarged(grey.cols()));
+  const cv::Mat from(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
+                     const_cast<float*>(grey.data()));  // read only: cv::Mat knows no const
+  cv::Mat to(static_cast<int>(large.rows()), static_cast<int>(large.cols()), CV_32F, large.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_CUBIC);
+  const Eigen::Array2d scale(static_cast<double>(large.cols()) / static_cast<double>(grey.cols()),
+                             static_cast<double>(large.rows()) / static_cast<double>(grey.rows()));
+  std::vector<TagDetection> tags = DetectIn(large, detector, options.display_gamma);
+  for (TagDetection& tag : tags) {
+    for (Eigen::Vector2d& corner : tag.corners_px) corner = ((corner.array() + 0.5) / scale - 0.5).matrix();
+    tag.side_px = MeanSide(tag.corners_px);
+    tag.corner_sigma_px = DetectorCornerSigmaPx(tag.side_px);
+  }
+  return tags;
+}
+
 // Detections of one tag (or of one of several copies of it) in several photos.
 using Cluster = std::vector<TagDetection>;
 
 Eigen::Vector2d Center(const TagDetection& tag) {
   return (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]) / 4;
+}
+
+// `tags` and those of `others` that are at another place or of another id.
+std::vector<TagDetection> WithOthers(std::vector<TagDetection> tags,
+                                     const std::vector<TagDetection>& others) {
+  for (const TagDetection& other : others) {
+    const bool is_known = std::any_of(tags.begin(), tags.end(), [&](const TagDetection& tag) {
+      return tag.id == other.id && (Center(tag) - Center(other)).norm() < 0.5 * tag.side_px;
+    });
+    if (!is_known) tags.push_back(other);
+  }
+  return tags;
 }
 
 double Median(std::vector<double> values) {
@@ -157,26 +213,27 @@ std::vector<TagDetection> DetectTags(const ImagePlane& grey, const DetectTagsOpt
   const TagFamilyPtr family = MakeTagFamily(options.family);
   if (!(options.display_gamma > 0)) throw std::invalid_argument("DetectTags: display_gamma: expected > 0");
   if (grey.size() == 0) throw std::invalid_argument("DetectTags: the plane is empty");
+  if (options.decimate != 0 && !(options.decimate >= 1))
+    throw std::invalid_argument("DetectTags: decimate: expected 0 or at least 1");
+  if (!(options.enlarge >= 1)) throw std::invalid_argument("DetectTags: enlarge: expected at least 1");
 
   const DetectorPtr detector(apriltag_detector_create(), apriltag_detector_destroy);
   detector->nthreads = 1;
-  detector->quad_decimate = 1;  // decimation misses a third of the tags below 40 px
-  detector->refine_edges = true;
+  detector->quad_decimate = static_cast<float>(DecimationOf(grey, options.decimate));
+  detector->refine_edges = options.refine_edges;
   apriltag_detector_add_family(detector.get(), family.get());
 
-  std::vector<uint8_t> display = DisplayImage(grey, options.display_gamma);
-  image_u8_t view = {static_cast<int32_t>(grey.cols()), static_cast<int32_t>(grey.rows()),
-                     static_cast<int32_t>(grey.cols()), display.data()};
-  const DetectionsPtr found(apriltag_detector_detect(detector.get(), &view), apriltag_detections_destroy);
-
-  std::vector<TagDetection> tags;
-  for (int i = 0; i < zarray_size(found.get()); ++i) {
-    apriltag_detection_t* detection = nullptr;
-    zarray_get(found.get(), i, &detection);
-    const TagDetection tag = ToHouse(*detection);
-    if (tag.side_px < options.min_side_px || tag.decision_margin < options.min_decision_margin) continue;
-    tags.push_back(tag);
+  std::vector<TagDetection> tags = DetectIn(grey, *detector, options.display_gamma);
+  if (options.enlarge > 1) {
+    detector->quad_decimate = 1;
+    tags = WithOthers(std::move(tags), DetectInEnlarged(grey, *detector, options));
   }
+  tags.erase(std::remove_if(tags.begin(), tags.end(),
+                            [&](const TagDetection& tag) {
+                              return tag.side_px < options.min_side_px ||
+                                     tag.decision_margin < options.min_decision_margin;
+                            }),
+             tags.end());
   // The detector's own order depends on its hash table.
   std::sort(tags.begin(), tags.end(), [](const TagDetection& a, const TagDetection& b) {
     if (a.id != b.id) return a.id < b.id;

@@ -25,11 +25,19 @@ Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
   return weights;
 }
 
-// The one value that this version serves; any other is known to the format or names a file.
-std::string ReadOnly(const TomlCursor& table, const std::string& key, const std::string& served) {
+// `none`, "estimate" or the name of a file, whose absolute path goes with it.
+struct NameOrFile {
+  std::string name, path;
+};
+NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key, const std::string& none,
+                          const std::string& folder) {
   const auto value = table.Find(key);
-  if (!value || value->Text("\"" + served + "\"") == served) return served;
-  throw NotAvailable(*value, "\"" + served + "\"");
+  if (!value) return {none, ""};
+  const std::string name = value->Text("\"" + none + "\", \"estimate\" or a file");
+  if (name == none || name == "estimate") return {name, ""};
+  // A word without an extension is a misspelt name rather than a missing file.
+  if (ExtensionOf(name).empty()) value->OneOf({none, "estimate"});
+  return {name, AbsolutePath(FindFile(*value, folder))};
 }
 
 Eigen::Array2i ReadImageSize(const TomlCursor& value) {
@@ -55,8 +63,13 @@ SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
   if (const auto size = table.Find("image_size")) camera.image_size_px = ReadImageSize(*size);
   if (const auto intrinsics = table.Find("intrinsics"))
     camera.intrinsics = ReadIntrinsics(*intrinsics, folder);
-  camera.response = ReadOnly(table, "response", "linear");
-  camera.vignetting = ReadOnly(table, "vignetting", "none");
+  const NameOrFile response = ReadNameOrFile(table, "response", "linear", folder);
+  camera.response = response.name;
+  camera.response_path = response.path;
+  const NameOrFile vignetting = ReadNameOrFile(table, "vignetting", "none", folder);
+  camera.vignetting = vignetting.name;
+  camera.vignetting_path = vignetting.path;
+  camera.line = table.place().line;
   if (const auto black = table.Find("black_level"))
     camera.black_level_counts = black->NumberAtLeast(0, "counts");
   if (const auto scale = table.Find("cdm2_per_count_s"))

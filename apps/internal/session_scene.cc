@@ -1,8 +1,11 @@
 #include "apps/internal/session_scene.h"
 
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "apps/internal/session_files.h"
+#include "apps/suggest.h"
 #include "apps/tag_map.h"
 
 namespace luxfit {
@@ -51,30 +54,47 @@ SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder
   SessionTags tags;
   if (const auto family = section.Find("family"))
     tags.family = family->OneOf({"tag36h11", "tag36h10", "tag25h9", "tag16h5", "tagStandard41h12"});
-  if (const auto size = section.Find("size_m")) size->NumberAbove(0, "m");
+  if (const auto size = section.Find("size_m")) tags.size_m = size->NumberAbove(0, "m");
   const auto map = section.Find("map");
-  if (!map)
+  if (!map && tags.size_m == 0)
     throw InputError(
         section.place(), "tags.map",
-        "expected a tag map, got nothing: estimating where the tags hang is not available in this version; "
-        "survey them and add map = \"tags.json\"");
+        "expected a tag map, or the tags' size so that their places can be estimated, got neither; add "
+        "map = \"tags.json\" or size_m = ...");
+  if (!map) return tags;
   const std::string map_path = FindFile(*map, folder);
   tags.survey = ReadTagMap(map_path);
   tags.map_path = AbsolutePath(map_path);
   return tags;
 }
 
-std::string ReadRegistrationSection(const TomlCursor& section) {
-  section.ExpectKeys({"method", "colmap"});
+SessionRegistration ReadRegistrationSection(const TomlCursor& section, const std::string& folder) {
+  section.ExpectKeys({"method", "colmap", "start"});
+  SessionRegistration registration;
+  if (const auto method = section.Find("method"))
+    registration.method = method->OneOf({"auto", "tags", "colmap", "both"});
   if (const auto model = section.Find("colmap")) {
-    model->Text("the folder of a COLMAP model");
-    throw NotAvailable(*model, "registration by tags alone; remove the key");
+    const std::string name = model->Text("the folder of a COLMAP model");
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error))
+      throw model->Error("expected the folder of a COLMAP model, found none at " + Quoted(path.string()) +
+                         "; name it, or remove the key to have COLMAP run");
+    if (registration.method == "tags")
+      throw model->Error("expected no COLMAP model beside method = \"tags\", got " + model->Shown() +
+                         "; method = \"both\" uses it");
+    registration.colmap_model = AbsolutePath(path.string());
   }
-  const auto method = section.Find("method");
-  if (!method) return "auto";
-  std::string name = method->OneOf({"auto", "tags", "colmap", "both"});
-  if (name == "colmap" || name == "both") throw NotAvailable(*method, "\"auto\" or \"tags\"");
-  return name;
+  if (const auto start = section.Find("start")) {
+    for (const auto& [view, position] : start->Members())
+      registration.start_positions_m[view] =
+          position.Vector("where the camera roughly stood, [x, y, z] in m");
+    if (registration.start_positions_m.size() < 3)
+      throw start->Error("expected the rough places of three views or more, got " +
+                         std::to_string(registration.start_positions_m.size()) +
+                         "; write start = { v00 = [x, y, z], ... }");
+  }
+  return registration;
 }
 
 }  // namespace luxfit

@@ -21,8 +21,7 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
 
 SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder);
 
-// The method: auto | tags.
-std::string ReadRegistrationSection(const TomlCursor& section);
+SessionRegistration ReadRegistrationSection(const TomlCursor& section, const std::string& folder);
 
 }  // namespace luxfit
 

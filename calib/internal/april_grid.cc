@@ -200,7 +200,7 @@ BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
     detection.message = WhyNotThisBoard(seen, board);
     return detection;
   }
-  const GridCornerMeasurer measurer(grey, board, seen.border_bits);
+  const GridCornerMeasurer measurer(grey, board, seen.border_bits, seen.tags);
   const auto measure = [&](const SeenTag& tag) { return measurer.Measure(tag); };
   std::vector<SeenTag> measured;
   for (const SeenTag& tag : seen.tags) {

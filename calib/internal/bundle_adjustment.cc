@@ -4,94 +4,89 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <set>
-#include <utility>
 
-#include "calib/internal/reprojection_cost.h"
+#include "calib/internal/bundle_problem.h"
 
 namespace luxfit {
 namespace {
 
-Eigen::Vector3d CenterInWorld(const TagObservation& tag) {
-  const std::array<Eigen::Vector3d, 4>& p = tag.corners_in_world;
-  return (p[0] + p[1] + p[2] + p[3]) / 4;
+constexpr double kMedianOfTwo = 1.386;  // median of chi2 with two degrees of freedom, 2 ln 2
+
+double Median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
-struct Problem {
-  std::unique_ptr<ceres::Problem> problem;
-  // Shared by every residual and every pose block; owned here, as the problem is told.
-  std::unique_ptr<ceres::LossFunction> loss;
-  std::unique_ptr<ceres::Manifold> manifold;
+// A point's residual and what the fit of the point itself leaves of its square: 2n - 3 of 2n for n views.
+struct PointError {
+  double squared_px = 0;
+  double left = 1;
 };
 
-Problem BuildProblem(const BundleContext& context, BundleAdjustment& adjustment) {
-  Problem built;
-  ceres::Problem::Options problem_options;
-  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  built.loss = std::make_unique<ceres::HuberLoss>(context.options.huber_sigmas);
-  built.manifold = std::make_unique<ceres::EigenQuaternionManifold>();
-  built.problem = std::make_unique<ceres::Problem>(problem_options);
-  const double survey_sigma_m = context.options.survey_sigma_m;
-
-  std::set<int> ids;
-  for (BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    double* const q = view.world_from_cam.coeffs().data();
-    double* const c = view.center_in_world.data();
-    for (std::size_t i = 0; i < view.tags.size(); ++i) {
-      if (!view.used[i]) continue;
-      const TagObservation& tag = view.tags[i];
-      Eigen::Vector3d& displacement_m =
-          adjustment.displacement_m.emplace(tag.id, Eigen::Vector3d::Zero()).first->second;
-      ids.insert(tag.id);
-      for (std::size_t corner = 0; corner < 4; ++corner) {
-        built.problem->AddResidualBlock(
-            new ReprojectionCost(context.cameras[static_cast<std::size_t>(view.camera)],
-                                 tag.corners_in_world[corner], CenterInWorld(tag), tag.corners_px[corner],
-                                 tag.sigma_px),
-            built.loss.get(), q, c, displacement_m.data(), &adjustment.size_error);
-      }
-    }
-    built.problem->SetManifold(q, built.manifold.get());
-  }
-  for (const int id : ids) {
-    double* const displacement_m = adjustment.displacement_m.at(id).data();
-    if (survey_sigma_m > 0) {
-      built.problem->AddResidualBlock(new ZeroPrior<3>(survey_sigma_m), nullptr, displacement_m);
-    } else {
-      built.problem->SetParameterBlockConstant(displacement_m);
-    }
-  }
-  if (context.options.tag_size_sigma > 0) {
-    built.problem->AddResidualBlock(new ZeroPrior<1>(context.options.tag_size_sigma), nullptr,
-                                    &adjustment.size_error);
-  } else {
-    built.problem->SetParameterBlockConstant(&adjustment.size_error);
-  }
-  return built;
-}
-
-void Rescale(const BundleContext& context, BundleAdjustment& adjustment) {
-  std::vector<double> squared;
-  double unknowns = 0;
+std::vector<PointError> PointErrors(const BundleContext& context, const BundleAdjustment& adjustment) {
+  std::vector<int> seen_by(adjustment.points.size(), 0);
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
-    unknowns += 6;
+    for (const PointObservation& seen : view.points)
+      seen_by[static_cast<std::size_t>(seen.point)] += seen.used;
+  }
+  std::vector<PointError> errors;
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (const PointObservation& seen : view.points) {
+      const int views = seen_by[static_cast<std::size_t>(seen.point)];
+      if (!seen.used || views < 2) continue;
+      errors.push_back({std::pow(PointErrorPx(context, adjustment, view, seen), 2), 1 - 1.5 / views});
+    }
+  }
+  return errors;
+}
+
+// The median tells which residuals to count, the mean square of those the sigma. The fit takes 6 unknowns a
+// view out of the residuals besides, shared between points and corners as their numbers are.
+void RescalePoints(const BundleContext& context, BundleAdjustment& adjustment, double unknowns_of_views,
+                   double corners) {
+  const std::vector<PointError> errors = PointErrors(context, adjustment);
+  std::vector<double> normalised;
+  normalised.reserve(errors.size());
+  double free = 0;
+  for (const PointError& error : errors) {
+    normalised.push_back(error.squared_px / error.left);
+    free += 2 * error.left;
+  }
+  if (free <= unknowns_of_views) return;
+  const double gate = kBundleRejectedSigmas * kBundleRejectedSigmas * Median(normalised) / kMedianOfTwo;
+  double sum = 0, counted = 0;
+  for (const PointError& error : errors) {
+    if (error.squared_px > gate) continue;
+    sum += error.squared_px;
+    counted += 2 * error.left;
+  }
+  const double spare = counted * (1 - unknowns_of_views / (free + 2 * corners));
+  constexpr double kLeastSigmaPx = 0.02;  // rendered or imported without noise
+  adjustment.point_sigma_px = std::max(kLeastSigmaPx, std::sqrt(sum / std::max(1.0, spare)));
+}
+
+void RescaleCorners(const BundleContext& context, BundleAdjustment& adjustment, double unknowns_of_views,
+                    double spare_of_points) {
+  std::vector<double> squared;
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
     for (const BundleCornerError& error : BundleViewErrors(context, adjustment, view)) {
       squared.push_back(error.sigmas * error.sigmas);
     }
   }
   adjustment.scale = adjustment.reduced_chi2 = 1;
-  const double spare = 2 * static_cast<double>(squared.size()) - unknowns;
+  const double measured = 2 * static_cast<double>(squared.size());
+  const double unknowns = unknowns_of_views * measured / std::max(1.0, measured + spare_of_points);
+  const double spare = measured - unknowns;
   if (spare <= 0) return;
   // What the fit has taken out of the residuals.
-  const double correction = 2 * static_cast<double>(squared.size()) / spare;
-  const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
-  std::nth_element(squared.begin(), middle, squared.end());
-  constexpr double kMedianOfTwo = 1.386;  // median of chi2 with two degrees of freedom, 2 ln 2
-  adjustment.scale = std::sqrt(std::max(1.0, *middle / kMedianOfTwo * correction));
+  const double correction = measured / spare;
+  adjustment.scale = std::sqrt(std::max(1.0, Median(squared) / kMedianOfTwo * correction));
   double sum = 0, count = 0;
   for (const double value : squared) {
     if (value > std::pow(kBundleRejectedSigmas * adjustment.scale, 2)) continue;
@@ -103,20 +98,54 @@ void Rescale(const BundleContext& context, BundleAdjustment& adjustment) {
 
 }  // namespace
 
+Eigen::Isometry3d BundleView::CamFromWorld() const {
+  Eigen::Isometry3d world_from_cam = Eigen::Isometry3d::Identity();
+  world_from_cam.linear() = Eigen::Quaterniond(pose.head<4>()).toRotationMatrix();
+  world_from_cam.translation() = pose.tail<3>();
+  return world_from_cam.inverse();
+}
+
+void BundleView::SetCamFromWorld(const Eigen::Isometry3d& cam_from_world) {
+  const Eigen::Isometry3d world_from_cam = cam_from_world.inverse();
+  pose << Eigen::Quaterniond(world_from_cam.linear()).normalized().coeffs(), world_from_cam.translation();
+}
+
+std::vector<bool> UsedPoints(const BundleAdjustment& adjustment) {
+  std::vector<int> seen(adjustment.points.size(), 0);
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (const PointObservation& observation : view.points)
+      seen[static_cast<std::size_t>(observation.point)] += observation.used ? 1 : 0;
+  }
+  std::vector<bool> used(seen.size());
+  std::transform(seen.begin(), seen.end(), used.begin(), [](int n) { return n >= 2; });
+  return used;
+}
+
+std::array<Eigen::Vector3d, 4> AdjustedCorners(const BundleAdjustment& adjustment,
+                                               const TagObservation& tag) {
+  const auto found = adjustment.tags.find(tag.id);
+  const BundleTag hung = found == adjustment.tags.end() ? BundleTag() : found->second;
+  const Eigen::Vector3d center = TagCenter(tag);
+  std::array<Eigen::Vector3d, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    corners[i] = center + hung.displacement_m +
+                 (1 + adjustment.size_error) * (hung.turn * (tag.corners_in_world[i] - center));
+  }
+  return corners;
+}
+
 std::vector<BundleCornerError> BundleTagErrors(const BundleContext& context,
                                                const BundleAdjustment& adjustment, const BundleView& view,
                                                std::size_t tag_index) {
   const TagObservation& tag = view.tags[tag_index];
   const Eigen::Isometry3d cam_from_world = view.CamFromWorld();
-  const Eigen::Vector3d displacement_m = adjustment.displacement_m.at(tag.id);
-  const Eigen::Vector3d center = CenterInWorld(tag);
+  const std::array<Eigen::Vector3d, 4> corners = AdjustedCorners(adjustment, tag);
   std::vector<BundleCornerError> errors;
+  errors.reserve(4);
   for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector2d pixel =
-        Project(context.cameras[static_cast<std::size_t>(view.camera)],
-                cam_from_world * (tag.corners_in_world[i] + displacement_m +
-                                  adjustment.size_error * (tag.corners_in_world[i] - center)));
-    const Eigen::Vector2d error_px = pixel - tag.corners_px[i];
+    const Eigen::Vector2d error_px =
+        Project(context.CameraOf(view), cam_from_world * corners[i]) - tag.corners_px[i];
     errors.push_back({error_px, error_px.norm() / tag.sigma_px});
   }
   return errors;
@@ -139,6 +168,29 @@ double BundleRmsSigmas(const std::vector<BundleCornerError>& errors) {
   return errors.empty() ? 0 : std::sqrt(sum / (2 * static_cast<double>(errors.size())));
 }
 
+double PointErrorPx(const BundleContext& context, const BundleAdjustment& adjustment, const BundleView& view,
+                    const PointObservation& observation) {
+  const Eigen::Vector2d pixel = Project(
+      context.CameraOf(view),
+      view.CamFromWorld() * adjustment.points[static_cast<std::size_t>(observation.point)].p_in_world);
+  return pixel.allFinite() ? (pixel - observation.pixel).norm() : std::numeric_limits<double>::infinity();
+}
+
+void RescaleBundle(const BundleContext& context, BundleAdjustment& adjustment) {
+  double unknowns = 0, corners = 0, seen_points = 0;
+  const std::vector<bool> used = UsedPoints(adjustment);
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    unknowns += 6;
+    corners += 4 * static_cast<double>(std::count(view.used.begin(), view.used.end(), true));
+    for (const PointObservation& seen : view.points)
+      seen_points += seen.used && used[static_cast<std::size_t>(seen.point)] ? 1 : 0;
+  }
+  const double points = static_cast<double>(std::count(used.begin(), used.end(), true));
+  RescaleCorners(context, adjustment, unknowns, std::max(0.0, 2 * seen_points - 3 * points));
+  RescalePoints(context, adjustment, unknowns, corners);
+}
+
 void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   const bool any = std::any_of(adjustment.views.begin(), adjustment.views.end(),
                                [](const BundleView& v) { return v.active; });
@@ -147,58 +199,31 @@ void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
     adjustment.message = "no view could be registered";
     return;
   }
-  const Problem built = BuildProblem(context, adjustment);
-  ceres::Solver::Options solver_options;
-  solver_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  solver_options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  solver_options.max_num_iterations = 200;
-  solver_options.function_tolerance = 1e-8;
-  solver_options.parameter_tolerance = 1e-10;
-  solver_options.num_threads = 1;
-  solver_options.logging_type = ceres::SILENT;
+  const BundleProblem built = BuildBundleProblem(context, adjustment);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  if (!built.points.empty()) {
+    options.linear_solver_type = ceres::SPARSE_SCHUR;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (double* const point : built.points) options.linear_solver_ordering->AddElementToGroup(point, 0);
+    std::vector<double*> blocks;
+    built.problem->GetParameterBlocks(&blocks);
+    for (double* const block : blocks) {
+      if (options.linear_solver_ordering->GroupId(block) < 0)
+        options.linear_solver_ordering->AddElementToGroup(block, 1);
+    }
+  }
+  options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  options.max_num_iterations = 200;
+  options.function_tolerance = 1e-8;
+  options.parameter_tolerance = 1e-10;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options, built.problem.get(), &summary);
+  ceres::Solve(options, built.problem.get(), &summary);
   adjustment.converged = summary.termination_type == ceres::CONVERGENCE && summary.IsSolutionUsable();
   adjustment.message = summary.message;
-  Rescale(context, adjustment);
-}
-
-BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdjustment& adjustment) {
-  const Problem built = BuildProblem(context, adjustment);
-  ceres::Covariance::Options covariance_options;
-  covariance_options.algorithm_type = ceres::SPARSE_QR;
-  covariance_options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  ceres::Covariance solver(covariance_options);
-  std::vector<std::pair<const double*, const double*>> blocks;
-  for (const BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    const double* const q = view.world_from_cam.coeffs().data();
-    const double* const c = view.center_in_world.data();
-    blocks.insert(blocks.end(), {{q, q}, {q, c}, {c, c}});
-  }
-  const double* const size_error = &adjustment.size_error;
-  const bool with_size = context.options.tag_size_sigma > 0;
-  if (with_size) blocks.emplace_back(size_error, size_error);
-  BundleCovariance covariance;
-  covariance.determined = solver.Compute(blocks, built.problem.get());
-  if (!covariance.determined) return covariance;
-  if (with_size) {
-    double variance = 0;
-    solver.GetCovarianceBlock(size_error, size_error, &variance);
-    covariance.size_error_sigma = std::sqrt(adjustment.reduced_chi2 * variance);
-  }
-  // The manifold's tangent is half a rotation vector.
-  Eigen::Matrix<double, 6, 1> to_rotation_vector;
-  to_rotation_vector << 2, 2, 2, 1, 1, 1;
-  for (const BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    Eigen::Matrix<double, 6, 6, Eigen::RowMajor> tangent;
-    solver.GetCovarianceMatrixInTangentSpace(
-        {view.world_from_cam.coeffs().data(), view.center_in_world.data()}, tangent.data());
-    covariance.of_views.emplace_back(adjustment.reduced_chi2 * (to_rotation_vector.asDiagonal() * tangent *
-                                                                to_rotation_vector.asDiagonal()));
-  }
-  return covariance;
+  RescaleBundle(context, adjustment);
 }
 
 }  // namespace luxfit

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "calib/internal/homography.h"
 #include "calib/internal/plane_sample.h"
@@ -25,11 +26,12 @@ Eigen::Vector2d FromCorner(std::size_t corner, double along_x, double along_y) {
   return {x + (x > 0 ? -along_x : along_x), y + (y > 0 ? -along_y : along_y)};
 }
 
+// A lens bends a single tag little.
 Camera PinholeFor(const ImagePlane& grey) {
   Camera camera;
   camera.width_px = static_cast<int>(grey.cols());
   camera.height_px = static_cast<int>(grey.rows());
-  camera.fx_px = camera.fy_px = std::max(camera.width_px, camera.height_px);
+  camera.fx_px = camera.fy_px = 4 * std::max(camera.width_px, camera.height_px);
   camera.cx_px = 0.5 * (camera.width_px - 1);
   camera.cy_px = 0.5 * (camera.height_px - 1);
   return camera;
@@ -43,13 +45,15 @@ double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
 
 }  // namespace
 
-GridCornerMeasurer::GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits)
-    : grey_(grey), spacing_(board.spacing), first_id_(board.first_id), camera_(PinholeFor(grey)) {
+GridCornerMeasurer::GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits,
+                                       const std::vector<SeenTag>& tags)
+    : grey_(grey), spacing_(board.spacing), first_id_(board.first_id) {
   const TagFamilyPtr family = MakeTagFamily(board.family);
   border_ = CellsOf(*family, board.first_id, border_bits).border;
   refine_.family = board.family;
   refine_.border_bits = border_bits;
   refine_.max_shift_cells = 1;  // the start comes from a reduced photo
+  exponent_ = BestExponent(tags);
 }
 
 // Nothing where the photo does not show the fields about the corner.
@@ -77,18 +81,78 @@ void GridCornerMeasurer::MeasureSaddle(const Eigen::Matrix3d& pixel_from_tag, st
   tag.sigma_px[corner] = saddle->sigma_px;
 }
 
-void GridCornerMeasurer::MeasurePlain(const std::array<bool, 4>& is_plain, SeenTag& tag) const {
+std::optional<TagDetection> GridCornerMeasurer::FitTag(const SeenTag& tag, double exponent, double floor_px,
+                                                       int max_pixels) const {
+  Eigen::Array2d low = tag.corners_px[0], high = low;
+  for (const Eigen::Vector2d& corner : tag.corners_px) {
+    low = low.min(corner.array());
+    high = high.max(corner.array());
+  }
+  constexpr double kRim = 0.3;  // of the tag, for its white rim
+  const Eigen::Array2d rim = kRim * (high - low) + 2;
+  const Eigen::Array2i size(static_cast<int>(grey_.cols()), static_cast<int>(grey_.rows()));
+  const Eigen::Array2i begin = (low - rim).floor().cast<int>().max(0);
+  const Eigen::Array2i end = ((high + rim).ceil().cast<int>() + 1).min(size);
+  if ((end <= begin).any()) return std::nullopt;
+  ImagePlane about = grey_.block(begin.y(), begin.x(), end.y() - begin.y(), end.x() - begin.x());
+  if (exponent != 1) about = about.max(0.0f).pow(static_cast<float>(exponent));
   TagDetection detection;
   detection.id = first_id_ + tag.number;
   detection.corners_px = tag.corners_px;
+  for (Eigen::Vector2d& corner : detection.corners_px) corner -= begin.cast<double>().matrix();
   detection.side_px = MeanSide(tag.corners_px);
   detection.corner_sigma_px = kDetectorSigmaPx;
-  const TagDetection refined = RefineTagCorners(grey_, camera_, {detection}, refine_).front();
-  if (refined.corner_sigma_px == kDetectorSigmaPx) return;  // as it came
+  RefineTagCornersOptions options = refine_;
+  options.min_corner_sigma_px = floor_px;
+  options.max_pixels = max_pixels;
+  TagDetection refined = RefineTagCorners(about, PinholeFor(about), {detection}, options).front();
+  if (refined.corner_sigma_px == kDetectorSigmaPx) return std::nullopt;  // as it came
+  for (Eigen::Vector2d& corner : refined.corners_px) corner += begin.cast<double>().matrix();
+  return refined;
+}
+
+std::array<bool, 4> GridCornerMeasurer::PlainCorners(const Eigen::Matrix3d& pixel_from_tag) const {
+  std::array<bool, 4> is_plain{};
+  for (std::size_t k = 0; k < 4; ++k) is_plain[k] = !IsSaddle(pixel_from_tag, k).value_or(true);
+  return is_plain;
+}
+
+double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& all) const {
+  std::vector<SeenTag> tags;
+  for (const SeenTag& tag : all) {
+    const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
+    if (!pixel_from_tag) continue;
+    const std::array<bool, 4> is_plain = PlainCorners(*pixel_from_tag);
+    if (std::count(is_plain.begin(), is_plain.end(), true) == 4) tags.push_back(tag);
+  }
+  constexpr std::size_t kTags = 4;
+  constexpr int kPixels = 1000;  // a share of each tag will do
+  const std::size_t stride = std::max<std::size_t>(1, tags.size() / kTags);
+  double best = 1, least = std::numeric_limits<double>::infinity();
+  for (const double exponent : {1.0, 1.5, 1.9, 2.2, 2.5}) {
+    // The fit's own sigmas grow with what the model does not explain.
+    double sum = 0;
+    int fitted = 0;
+    for (std::size_t i = stride / 2; i < tags.size(); i += stride) {
+      const auto fit = FitTag(tags[i], exponent, 0, kPixels);
+      if (!fit) continue;
+      sum += std::log(fit->corner_sigma_px);
+      ++fitted;
+    }
+    if (fitted == 0 || sum / fitted >= least) continue;
+    least = sum / fitted;
+    best = exponent;
+  }
+  return best;
+}
+
+void GridCornerMeasurer::MeasurePlain(const std::array<bool, 4>& is_plain, SeenTag& tag) const {
+  const auto fit = FitTag(tag, exponent_, refine_.min_corner_sigma_px, refine_.max_pixels);
+  if (!fit) return;
   for (std::size_t k = 0; k < 4; ++k) {
     if (!is_plain[k]) continue;
-    tag.corners_px[k] = refined.corners_px[k];
-    tag.sigma_px[k] = refined.corner_sigma_px;
+    tag.corners_px[k] = fit->corners_px[k];
+    tag.sigma_px[k] = fit->corner_sigma_px;
   }
 }
 
@@ -96,12 +160,10 @@ std::optional<SeenTag> GridCornerMeasurer::Measure(const SeenTag& tag) const {
   SeenTag measured = tag;
   const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
   if (!pixel_from_tag) return std::nullopt;
-  std::array<bool, 4> is_plain{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::optional<bool> is_saddle = IsSaddle(*pixel_from_tag, k);
-    is_plain[k] = is_saddle.has_value() && !*is_saddle;
-    if (is_saddle.value_or(false)) MeasureSaddle(*pixel_from_tag, k, measured);
+    if (IsSaddle(*pixel_from_tag, k).value_or(false)) MeasureSaddle(*pixel_from_tag, k, measured);
   }
+  const std::array<bool, 4> is_plain = PlainCorners(*pixel_from_tag);
   if (std::find(is_plain.begin(), is_plain.end(), true) != is_plain.end()) MeasurePlain(is_plain, measured);
   const bool is_any = std::any_of(measured.sigma_px.begin(), measured.sigma_px.end(),
                                   [](double sigma_px) { return sigma_px > 0; });

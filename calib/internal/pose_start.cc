@@ -135,8 +135,10 @@ bool IsBetter(const Consensus& a, const Consensus& b) {
 Consensus BestPair(const Camera& camera, const std::vector<TagObservation>& tags,
                    const PoseStartOptions& options) {
   Consensus best;
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    for (std::size_t j = i + 1; j < tags.size(); ++j) {
+  // Where all agree no other pair can do better; the pose is fitted again to all of them anyway.
+  const auto all = static_cast<int>(tags.size());
+  for (std::size_t i = 0; i < tags.size() && best.count < all; ++i) {
+    for (std::size_t j = i + 1; j < tags.size() && best.count < all; ++j) {
       for (const Candidate& candidate : PoseCandidates(camera, {tags[i], tags[j]}, options)) {
         const Consensus consensus = CountAgreeing(camera, candidate.cam_from_world, tags, options);
         if (IsBetter(consensus, best)) best = consensus;
@@ -156,6 +158,11 @@ std::vector<TagObservation> Selected(const std::vector<TagObservation>& tags,
 }
 
 }  // namespace
+
+Eigen::Vector3d TagCenter(const TagObservation& tag) {
+  const std::array<Eigen::Vector3d, 4>& p = tag.corners_in_world;
+  return (p[0] + p[1] + p[2] + p[3]) / 4;
+}
 
 double TagRmsPx(const Camera& camera, const Eigen::Isometry3d& cam_from_world, const TagObservation& tag) {
   double sum = 0;

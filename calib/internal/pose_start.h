@@ -50,6 +50,8 @@ struct PoseStartOptions {
 PoseStart EstimatePoseStart(const Camera& camera, const std::vector<TagObservation>& tags,
                             const PoseStartOptions& options);
 
+Eigen::Vector3d TagCenter(const TagObservation& tag);  // in world
+
 // rms over the corners of |Project(pose * corner) - corner_px|, px; infinity if one is behind the camera.
 double TagRmsPx(const Camera& camera, const Eigen::Isometry3d& cam_from_world, const TagObservation& tag);
 

@@ -12,6 +12,7 @@ namespace {
 constexpr int kMaxIterations = 30;
 constexpr double kConvergedPx = 1e-3;
 constexpr double kLeastCondition = 0.02;  // of the normal matrix: less is an edge, not a corner
+constexpr double kMostAsymmetry = 0.15;   // of the patch's variance: an occluder, or all noise
 constexpr double kFloorPx = 0.02;         // aliasing, print, flatness
 
 // The sums over the window, offsets relative to its middle, and what the gradients mean for them.
@@ -57,6 +58,8 @@ class Window {
     covariance(0, 1) = covariance(1, 0) = d_x.cwiseProduct(d_y).sum();
     return covariance;
   }
+
+  double Variance() const { return (patch_.array() - patch_.mean()).square().mean(); }
 
   // Variance of a pixel about the picture that looks the same turned by 180 degrees, as every saddle does.
   double Asymmetry() const {
@@ -116,7 +119,7 @@ std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d
   const Eigen::MatrixXd patch = Patch(grey, at, half);
   const Window window(patch, half);
   const Eigen::Matrix2d gg = window.Sums().gg;
-  if (!IsCorner(gg)) return std::nullopt;
+  if (!IsCorner(gg) || !(window.Asymmetry() < kMostAsymmetry * window.Variance())) return std::nullopt;
   const Eigen::Matrix2d covariance = gg.inverse() * window.NoiseOfSums() * gg.inverse();
   const double variance = window.Asymmetry() * covariance.trace() / 2 + kFloorPx * kFloorPx;
   if (!std::isfinite(variance)) return std::nullopt;

@@ -25,7 +25,8 @@ struct Saddle {
   double sigma_px = 0;  // per axis
 };
 
-// Nothing where the window leaves the plane, holds pixels that are not finite, or the corner wanders off.
+// Nothing where the window leaves the plane, holds pixels that are not finite or no saddle, or the corner
+// wanders off.
 std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d& start,
                                    double half_window_px);
 

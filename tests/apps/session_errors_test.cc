@@ -89,7 +89,15 @@ TEST_F(SessionErrorsTest, PhotoRowsAreChecked) {
   EXPECT_EQ(ErrorAfter("photos.csv", "v0,all,0.05", "v0,Z,0.2"), "") << "a bracket";
 }
 
-TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
+TEST_F(SessionErrorsTest, AViewHasOneCameraAndSettingsArePositive) {
+  const auto error_after_row = [&](const std::string& row) {
+    Reset();
+    folder_.Write("photos.csv",
+                  "file,camera,view,state,exposure_s,iso\n"
+                  "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all," +
+                      row + "\n");
+    return Error();
+  };
   folder_.Replace("session.toml", "[photos]",
                   "[[camera]]\nid = \"cam1\"\nintrinsics = \"cam0.yaml\"\n[photos]");
   folder_.Replace("photos.csv", "all.png,cam0", "all.png,cam1");
@@ -99,10 +107,11 @@ TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
   folder_.Write("photos.csv",
                 "file,camera,view,state,exposure_s,iso\n"
                 "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all,0.05,200\n");
-  EXPECT_THAT(Error(), Holds("photos.csv:3: iso: ", "not available in this version",
-                             "expected \"100\" as in line 2, got \"200\""));
-  folder_.Replace("photos.csv", "0.05,200", "0.05,100");
   EXPECT_EQ(Error(), "");
+  EXPECT_THAT(error_after_row("0.05,-200"),
+              Holds("photos.csv:3: iso: expected > 0, got \"-200\"", "leave it empty"));
+  EXPECT_EQ(error_after_row("0.05,"), "");
+  EXPECT_EQ(error_after_row(",100"), "");  // the photo's own metadata may say it
 }
 
 TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
@@ -266,26 +275,26 @@ TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
 
 // What the format knows and this version cannot serve yet.
 TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
-  EXPECT_THAT(
-      ErrorAfter("response = \"linear\"", "response = \"estimate\""),
-      HasSubstr(At("response") +
-                "camera[0].response: \"estimate\" is not available in this version; expected \"linear\""));
-  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
-              HasSubstr("\"curve.csv\" is not available"));
-  EXPECT_THAT(ErrorAfter("\"none\"", "\"estimate\""),
-              HasSubstr("camera[0].vignetting: \"estimate\" is not available"));
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
-  EXPECT_THAT(
-      ErrorAfter("method = \"tags\"", "method = \"colmap\""),
-      HasSubstr(
-          "registration.method: \"colmap\" is not available in this version; expected \"auto\" or \"tags\""));
-  EXPECT_THAT(ErrorAfter("method = \"tags\"", "colmap = \"sparse/0\""),
-              HasSubstr("registration.colmap: \"sparse/0\" is"));
-  EXPECT_THAT(ErrorAfter("map = \"tags.json\"", "size_m = 0.2"),
-              Holds("tags.map: expected a tag map", "not available in this version"));
   EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
               HasSubstr("luminaires.count: \"estimate\" is not available"));
+}
+
+TEST_F(SessionErrorsTest, RegistrationIsChecked) {
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "method = \"sfm\""),
+              Holds("registration.method: expected", "got \"sfm\""));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "colmap = \"sparse/0\""),
+              Holds("registration.colmap: expected the folder of a COLMAP model", "sparse/0"));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "method = \"tags\"\ncolmap = \".\""),
+              HasSubstr("registration.colmap: expected no COLMAP model beside method = \"tags\""));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "start = { v00 = [1, 2, 3] }"),
+              HasSubstr("registration.start: expected the rough places of three views or more, got 1"));
+  EXPECT_THAT(ErrorAfter("method = \"tags\"", "start = { a = [1, 2, 3], b = [1, 2, 3], c = [1, 2, 3] }"),
+              Holds("registration.start.a: expected a view of the photo table", "got \"a\""));
+  EXPECT_EQ(ErrorAfter("map = \"tags.json\"", "size_m = 0.2"), "");
+  EXPECT_THAT(ErrorAfter("map = \"tags.json\"", ""),
+              HasSubstr("tags.map: expected a tag map, or the tags' size"));
 }
 
 TEST_F(SessionErrorsTest, SensitivityCurvesAreChecked) {
@@ -321,9 +330,16 @@ TEST_F(SessionErrorsTest, PhotometricFilesMustBeThere) {
               HasSubstr("luminaire[0].cosine_exponent: expected it beside photometry = \"cosine_power\""));
 }
 
-TEST_F(SessionErrorsTest, KeysOfLaterFeaturesAreCheckedForType) {
+TEST_F(SessionErrorsTest, ResponseAndVignettingAreNamesOrFiles) {
+  EXPECT_EQ(ErrorAfter("response = \"linear\"", "response = \"estimate\""), "");
+  EXPECT_EQ(ErrorAfter("\"none\"", "\"estimate\""), "");
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = 1"),
-              HasSubstr("camera[0].response: expected \"linear\", got 1"));
+              HasSubstr("camera[0].response: expected \"linear\", \"estimate\" or a file, got 1"));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
+              HasSubstr(At("response") + "camera[0].response: expected an existing file, got \"curve.csv\""));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"estimat\""), HasSubstr("mean \"estimate\"?"));
+  EXPECT_THAT(ErrorAfter("\"none\"", "\"flat.png\""),
+              HasSubstr("camera[0].vignetting: expected an existing file"));
 }
 
 }  // namespace

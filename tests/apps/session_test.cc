@@ -29,7 +29,7 @@ TEST_F(SessionTest, ReadsScene) {
   EXPECT_EQ(session.scene->known_albedo_rgb.at("wall"), Eigen::Vector3d(0.7, 0.6, 0.5));
   EXPECT_EQ(session.tags.family, "tag36h11");
   EXPECT_EQ(session.tags.survey.size(), 1u);
-  EXPECT_EQ(session.registration_method, "tags");
+  EXPECT_EQ(session.registration.method, "tags");
 }
 
 TEST_F(SessionTest, ReadsCamerasAndPhotos) {

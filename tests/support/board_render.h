@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "calib/board_drawing.h"
 #include "calib/camera.h"
 #include "calib/image.h"
+#include "tests/support/blur.h"
 
 namespace luxfit::support {
 
@@ -70,67 +72,79 @@ struct BoardRenderOptions {
   double gamma = 1;   // the exponent of the file: grey^(1 / gamma)
 };
 
-inline ImagePlane Blurred(const ImagePlane& sharp, double sigma_px) {
-  if (!(sigma_px > 0)) return sharp;
-  const int reach = static_cast<int>(std::ceil(4 * sigma_px));
-  Eigen::ArrayXf kernel(2 * reach + 1);
-  for (int i = -reach; i <= reach; ++i)
-    kernel[i + reach] = static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
-  kernel /= kernel.sum();
-  ImagePlane rows = ImagePlane::Zero(sharp.rows(), sharp.cols()), out = rows;
-  for (int i = -reach; i <= reach; ++i) {
-    for (Eigen::Index u = 0; u < sharp.cols(); ++u)
-      rows.col(u) += kernel[i + reach] * sharp.col(std::clamp<Eigen::Index>(u + i, 0, sharp.cols() - 1));
-  }
-  for (int i = -reach; i <= reach; ++i) {
-    for (Eigen::Index v = 0; v < sharp.rows(); ++v)
-      out.row(v) += kernel[i + reach] * rows.row(std::clamp<Eigen::Index>(v + i, 0, sharp.rows() - 1));
-  }
-  return out;
-}
-
-inline ImagePlane RenderBoard(const Camera& camera, const Eigen::Isometry3d& cam_from_board,
-                              const BoardDrawing& drawing, std::mt19937_64& rng,
-                              const BoardRenderOptions& options = {}) {
-  const Sheet sheet(drawing);
-  const Eigen::Isometry3d board_from_cam = cam_from_board.inverse();
-  const int n = options.samples_per_axis;
-  ImagePlane plane(camera.height_px, camera.width_px);
-  for (int v = 0; v < camera.height_px; ++v) {
-    for (int u = 0; u < camera.width_px; ++u) {
-      double sum = 0;
-      // The rays of one pixel are a linear map of its area to far better than the sampling.
-      const Eigen::Vector3d middle = Unproject(camera, Eigen::Vector2d(u, v));
-      const Eigen::Vector3d right = Unproject(camera, Eigen::Vector2d(u + 0.5, v)) - middle;
-      const Eigen::Vector3d down = Unproject(camera, Eigen::Vector2d(u, v + 0.5)) - middle;
-      for (int i = 0; i < n * n; ++i) {
-        const Eigen::Vector3d ray =
-            middle + 2 * ((i % n + 0.5) / n - 0.5) * right + 2 * ((i / n + 0.5) / n - 0.5) * down;
-        const Eigen::Vector3d direction = board_from_cam.linear() * ray, start = board_from_cam.translation();
-        const double depth = -start.z() / direction.z();
-        double grey = options.wall;
-        if (depth > 0 && start.z() < 0) {
-          const Eigen::Vector2d place_m = (start + depth * direction).head<2>();
-          if (sheet.Holds(place_m)) grey = sheet.IsBlack(place_m) ? options.black : options.white;
-        }
-        sum += grey;
-      }
-      plane(v, u) = static_cast<float>(sum / (n * n));
+// Renders boards through one camera, whose rays it keeps.
+class BoardRenderer {
+ public:
+  explicit BoardRenderer(const Camera& camera) : width_(camera.width_px), height_(camera.height_px) {
+    // One ray more than pixels each way, at the pixels' corners: inside a pixel rays are linear to far better
+    // than the sampling.
+    rays_.reserve(static_cast<std::size_t>((width_ + 1) * (height_ + 1)));
+    for (int v = 0; v <= height_; ++v) {
+      for (int u = 0; u <= width_; ++u) rays_.push_back(Unproject(camera, Eigen::Vector2d(u - 0.5, v - 0.5)));
     }
   }
-  plane = Blurred(plane, options.blur_px);
-  std::normal_distribution<float> noise(0, 1);
-  for (Eigen::Index i = 0; i < plane.size(); ++i) {
-    float& grey = plane.data()[i];
-    grey = grey * static_cast<float>(options.exposure);
-    if (options.noise_sigma > 0) grey += static_cast<float>(options.noise_sigma) * noise(rng);
-    grey = std::clamp(grey, 0.0f, 1.0f);
-    if (options.gamma != 1) grey = std::pow(grey, static_cast<float>(1 / options.gamma));
-    if (options.levels > 0)
-      grey = std::round(grey * static_cast<float>(options.levels)) / static_cast<float>(options.levels);
+
+  ImagePlane Render(const Eigen::Isometry3d& cam_from_board, const BoardDrawing& drawing,
+                    std::mt19937_64& rng, const BoardRenderOptions& options = {}) const {
+    const Sheet sheet(drawing);
+    const Eigen::Isometry3d board_from_cam = cam_from_board.inverse();
+    ImagePlane plane(height_, width_);
+    for (int v = 0; v < height_; ++v) {
+      for (int u = 0; u < width_; ++u) {
+        const std::array<Eigen::Vector2d, 4> corners_m = {
+            Place(board_from_cam, u, v), Place(board_from_cam, u + 1, v), Place(board_from_cam, u, v + 1),
+            Place(board_from_cam, u + 1, v + 1)};
+        plane(v, u) = static_cast<float>(Grey(sheet, corners_m, options));
+      }
+    }
+    return Developed(Blurred(plane, options.blur_px), rng, options);
   }
-  return plane;
-}
+
+ private:
+  // Where the ray through a corner of a pixel meets the board; NaN where it does not, or from behind.
+  Eigen::Vector2d Place(const Eigen::Isometry3d& board_from_cam, int u, int v) const {
+    const Eigen::Vector3d direction =
+        board_from_cam.linear() * rays_[static_cast<std::size_t>(v * (width_ + 1) + u)];
+    const Eigen::Vector3d start = board_from_cam.translation();
+    const double depth = -start.z() / direction.z();
+    if (!(depth > 0) || !(start.z() < 0)) return Eigen::Vector2d::Constant(std::nan(""));
+    return (start + depth * direction).head<2>();
+  }
+
+  static double Grey(const Sheet& sheet, const std::array<Eigen::Vector2d, 4>& corners_m,
+                     const BoardRenderOptions& options) {
+    if (std::none_of(corners_m.begin(), corners_m.end(), [&](const auto& p) { return sheet.Holds(p); }))
+      return options.wall;
+    const int n = options.samples_per_axis;
+    double sum = 0;
+    for (int i = 0; i < n * n; ++i) {
+      const double x = (i % n + 0.5) / n, y = (i / n + 0.5) / n;
+      const Eigen::Vector2d place_m = (1 - y) * ((1 - x) * corners_m[0] + x * corners_m[1]) +
+                                      y * ((1 - x) * corners_m[2] + x * corners_m[3]);
+      double grey = options.wall;
+      if (sheet.Holds(place_m)) grey = sheet.IsBlack(place_m) ? options.black : options.white;
+      sum += grey;
+    }
+    return sum / (n * n);
+  }
+
+  static ImagePlane Developed(ImagePlane plane, std::mt19937_64& rng, const BoardRenderOptions& options) {
+    std::normal_distribution<float> noise(0, 1);
+    for (Eigen::Index i = 0; i < plane.size(); ++i) {
+      float& grey = plane.data()[i];
+      grey = grey * static_cast<float>(options.exposure);
+      if (options.noise_sigma > 0) grey += static_cast<float>(options.noise_sigma) * noise(rng);
+      grey = std::clamp(grey, 0.0f, 1.0f);
+      if (options.gamma != 1) grey = std::pow(grey, static_cast<float>(1 / options.gamma));
+      if (options.levels > 0)
+        grey = std::round(grey * static_cast<float>(options.levels)) / static_cast<float>(options.levels);
+    }
+    return plane;
+  }
+
+  int width_ = 0, height_ = 0;
+  std::vector<Eigen::Vector3d> rays_;
+};
 
 }  // namespace luxfit::support
 

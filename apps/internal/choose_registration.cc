@@ -1,0 +1,132 @@
+#include "apps/internal/choose_registration.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "apps/colmap_run.h"
+#include "apps/internal/view_features.h"
+#include "apps/process.h"
+
+namespace luxfit {
+namespace {
+
+// What is known of the session's views, and what is made of it.
+class RegistrationJob {
+ public:
+  RegistrationJob(const Session& session, const std::vector<Camera>& cameras, const ViewPhotos& views,
+                  RunContext& context)
+      : session_(session), cameras_(cameras), views_(views), context_(context) {
+    detections_ = HasTags() ? DetectViews(session, cameras, views) : ViewsWithoutTags(views);
+    if (HasTags()) ExpectTags();
+  }
+
+  bool HasTags() const { return !session_.tags.survey.empty() || session_.tags.size_m > 0; }
+  bool HasModel() const { return !session_.registration.colmap_model.empty(); }
+
+  Registration ByTags() const {
+    return RegisterViews(cameras_, session_.tags.survey, detections_, Options());
+  }
+
+  // `tags`: what they alone gave, for COLMAP to start from.
+  Registration ByBoth(const Registration& tags) const {
+    return RegisterViews(cameras_, session_.tags.survey, detections_, Features(tags), Options());
+  }
+
+  size_t ViewCount() const { return detections_.size(); }
+
+  void Choose(const std::string& chosen, const std::vector<std::string>& among,
+              const std::string& because) const {
+    context_.choices.push_back({"registration", chosen, among, because});
+  }
+
+  void Warn(const std::string& code, const std::string& message, const std::string& remedy) const {
+    context_.warnings.push_back({code, message, remedy});
+  }
+
+ private:
+  RegisterViewsOptions Options() const {
+    RegisterViewsOptions options;
+    if (session_.tags.survey.empty()) options.tag_size_m = session_.tags.size_m;
+    return options;
+  }
+
+  void ExpectTags() const {
+    size_t tags = 0;
+    for (const ViewDetections& view : detections_) tags += view.tags.size();
+    if (tags > 0) return;
+    throw std::runtime_error(
+        fmt::format("{}: tags: expected tags of family \"{}\" in the photos, found no tag in any view; "
+                    "check tags.family and that tags are at least 16 px wide, sharp and unsaturated",
+                    session_.path, session_.tags.family));
+  }
+
+  FeatureModel Features(const Registration& tags) const {
+    if (HasModel()) return ReadFeatures(session_, cameras_, views_);
+    FeatureModel features =
+        RunFeatures(session_, cameras_, views_, detections_, tags, context_.out + "/stages/colmap");
+    if (features.views.empty())
+      Warn("colmap_no_model", "COLMAP found too few matches between the photos for a model.",
+           "Take photos that overlap by two thirds, or hang more tags; OUT/stages/colmap/colmap.log has "
+           "COLMAP's "
+           "own words.");
+    return features;
+  }
+
+  const Session& session_;
+  const std::vector<Camera>& cameras_;
+  const ViewPhotos& views_;
+  RunContext& context_;
+  std::vector<ViewDetections> detections_;
+};
+
+Registration Auto(const RegistrationJob& job) {
+  const std::vector<std::string> among{"tags", "both"};
+  Registration tags = job.ByTags();
+  if (tags.views.size() == job.ViewCount()) {
+    job.Choose("tags", among, "tags register every view: nothing more is needed");
+    return tags;
+  }
+  const std::string left_out =
+      fmt::format("tags register {} of {} views", tags.views.size(), job.ViewCount());
+  if (!job.HasModel() && !IsInstalled("colmap")) {
+    job.Choose("tags", among, left_out + ", and COLMAP is not installed");
+    job.Warn("colmap_missing", "COLMAP is not installed: views that the tags leave out stay out.",
+             "Install the package colmap, or give [registration] colmap = the folder of a model.");
+    return tags;
+  }
+  Registration both;
+  try {
+    both = job.ByBoth(tags);
+  } catch (const ColmapFailed& error) {
+    job.Choose("tags", among, left_out + ", and COLMAP failed");
+    job.Warn("colmap_failed", error.what(), "See COLMAP's log; method = \"tags\" does without it.");
+    return tags;
+  }
+  if (both.views.size() > tags.views.size()) {
+    job.Choose("both", among, fmt::format("{}, with features {}", left_out, both.views.size()));
+    return both;
+  }
+  job.Choose("tags", among, left_out + ", features no more");
+  return tags;
+}
+
+}  // namespace
+
+Registration ChooseRegistration(const Session& session, const std::vector<Camera>& cameras,
+                                const ViewPhotos& views, RunContext& context) {
+  const RegistrationJob job(session, cameras, views, context);
+  const std::string& method = session.registration.method;
+  if (!job.HasTags())
+    throw std::runtime_error(
+        session.path +
+        ": tags.map: expected a tag map or the tags' size, got neither; add [tags] with map = "
+        "\"tags.json\"");
+  if (method == "auto") return Auto(job);
+  job.Choose(method, {method}, "asked for by registration.method");
+  const Registration tags = job.ByTags();
+  return method == "tags" ? tags : job.ByBoth(tags);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,28 @@
+// The photos of each view, and the tags they show.
+#ifndef LUXFIT_APPS_INTERNAL_VIEW_TAGS_H_
+#define LUXFIT_APPS_INTERNAL_VIEW_TAGS_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/session.h"
+#include "calib/camera.h"
+#include "calib/registration.h"
+
+namespace luxfit {
+
+// By view; those with the most luminaires on first (evenly lit tags), at most six.
+using ViewPhotos = std::map<std::string, std::vector<const SessionPhoto*>>;
+ViewPhotos PhotosByView(const Session& session);
+
+// Detected in every photo of a view, refined, and combined; one entry a view, in that order.
+std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
+                                        const ViewPhotos& views);
+
+// The same entries without looking for tags.
+std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_INTERNAL_VIEW_TAGS_H_
