@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
 
+#include "calib/internal/homography.h"
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_image_model.h"
+#include "calib/internal/tag_pixels.h"
 
 namespace luxfit {
 namespace {
@@ -39,21 +40,9 @@ struct LocalFrame {
 // H with H(2, 2) = 1 from four correspondences xy -> st.
 std::optional<Eigen::Matrix3d> HomographyFrom(const std::array<Eigen::Vector2d, 4>& xy,
                                               const std::array<Eigen::Vector2d, 4>& st) {
-  Eigen::Matrix<double, 8, 8> a;
-  Eigen::Matrix<double, 8, 1> b;
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    const Eigen::Vector2d& p = xy[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d& q = st[static_cast<std::size_t>(i)];
-    a.row(2 * i) << p.x(), p.y(), 1, 0, 0, 0, -p.x() * q.x(), -p.y() * q.x();
-    a.row(2 * i + 1) << 0, 0, 0, p.x(), p.y(), 1, -p.x() * q.y(), -p.y() * q.y();
-    b.segment<2>(2 * i) = q;
-  }
-  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> lu(a);
-  if (!lu.isInvertible()) return std::nullopt;
-  const Eigen::Matrix<double, 8, 1> h = lu.solve(b);
-  Eigen::Matrix3d homography;
-  homography << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1;
-  return homography;
+  const auto homography = FitHomography({xy.begin(), xy.end()}, {st.begin(), st.end()});
+  if (!homography || (*homography)(2, 2) == 0) return std::nullopt;
+  return *homography / (*homography)(2, 2);
 }
 
 struct Mapped {
@@ -259,48 +248,29 @@ Eigen::Vector2d CornerPixel(const Camera& camera, const LocalFrame& frame, const
   return Project(camera, frame.ToRay(Map(homography.inverse(), st).st));
 }
 
-// Whether a pixel is of a random share of all. The choice is the same in every run; a lattice would miss
-// edges that run along its rows.
-bool IsOfShare(Eigen::Index u, Eigen::Index v, double share) {
-  uint32_t hash = static_cast<uint32_t>(u) * 0x9e3779b1U ^ static_cast<uint32_t>(v) * 0x85ebca77U;
-  hash = (hash ^ (hash >> 15)) * 0x2c1b3c6dU;
-  hash = (hash ^ (hash >> 12)) * 0x297a2d39U;
-  return (hash ^ (hash >> 15)) * 0x1p-32 < share;
-}
-
-// Pixels that lie, with their whole footprint, on the tag's picture.
+// Of the chosen pixels those that lie, with their whole footprint, on the tag's picture.
 std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera, const LocalFrame& frame,
-                                    const Eigen::Matrix3d& homography, const Eigen::Vector2d& center_px,
-                                    double radius_px, int total_cells, double share) {
+                                    const Eigen::Matrix3d& homography, int total_cells,
+                                    const std::vector<Eigen::Array2i>& chosen) {
   std::vector<TagPixel> pixels;
-  const auto first = [](double x) {
-    return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::floor(x)));
-  };
-  const Eigen::Index last_v =
-      std::min<Eigen::Index>(grey.rows() - 1, static_cast<Eigen::Index>(center_px.y() + radius_px));
-  const Eigen::Index last_u =
-      std::min<Eigen::Index>(grey.cols() - 1, static_cast<Eigen::Index>(center_px.x() + radius_px));
-  for (Eigen::Index v = first(center_px.y() - radius_px); v <= last_v; ++v) {
-    for (Eigen::Index u = first(center_px.x() - radius_px); u <= last_u; ++u) {
-      if (!std::isfinite(grey(v, u)) || !IsOfShare(u, v, share)) continue;
-      const Eigen::Vector2d middle(static_cast<double>(u), static_cast<double>(v));
-      const Eigen::Vector3d ray = Unproject(camera, middle);
-      if (!ray.allFinite()) continue;
-      TagPixel pixel;
-      pixel.xy = frame.FromRay(ray);
-      pixel.d_pixel =
-          (frame.unit *
-           ProjectWithJacobian(camera, ray.hnormalized().homogeneous()).d_pixel_d_point.leftCols<2>())
-              .inverse();
-      const Mapped mapped = Map(homography, pixel.xy);
-      if (!(mapped.inverse_w > 0)) continue;
-      // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
-      const Eigen::Vector2d reach =
-          0.5 * (mapped.d_xy * pixel.d_pixel).cwiseAbs().rowwise().sum().array() + 0.2;
-      if ((mapped.st - reach).minCoeff() < 0 || (mapped.st + reach).maxCoeff() > total_cells) continue;
-      pixel.grey = static_cast<double>(grey(v, u));
-      pixels.push_back(pixel);
-    }
+  pixels.reserve(chosen.size());
+  for (const Eigen::Array2i& place : chosen) {
+    const Eigen::Vector3d ray = Unproject(camera, place.cast<double>().matrix());
+    if (!ray.allFinite()) continue;
+    TagPixel pixel;
+    pixel.xy = frame.FromRay(ray);
+    pixel.d_pixel =
+        (frame.unit *
+         ProjectWithJacobian(camera, ray.hnormalized().homogeneous()).d_pixel_d_point.leftCols<2>())
+            .inverse();
+    const Mapped mapped = Map(homography, pixel.xy);
+    if (!(mapped.inverse_w > 0)) continue;
+    // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
+    const Eigen::Vector2d reach =
+        0.5 * (mapped.d_xy * pixel.d_pixel).cwiseAbs().rowwise().sum().array() + 0.2;
+    if ((mapped.st - reach).minCoeff() < 0 || (mapped.st + reach).maxCoeff() > total_cells) continue;
+    pixel.grey = static_cast<double>(grey(place.y(), place.x()));
+    pixels.push_back(pixel);
   }
   return pixels;
 }
@@ -354,9 +324,9 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
   if (!start) return std::nullopt;
 
   const double cells_per_px = (picture.border_end - picture.border_begin) / detection.side_px;
-  const double share = options.max_pixels * std::pow(cells_per_px / picture.total_cells(), 2);
-  const TagFitter fitter(picture, CollectPixels(grey, camera, frame, *start, center_px, radius_px,
-                                                picture.total_cells(), share));
+  const TagFitter fitter(
+      picture, CollectPixels(grey, camera, frame, *start, picture.total_cells(),
+                             ChooseTagPixels(grey, picture, detection.corners_px, options.max_pixels)));
   if (fitter.pixel_count() < std::size_t{5} * kUnknowns) return std::nullopt;
   Fit fit;
   fit.homography = *start;

@@ -30,7 +30,7 @@ struct RefineTagCornersOptions {
   std::string family = "tag36h11";
   int border_bits = 1;  // width of the black border in cells; Kalibr prints 2
   int max_iterations = 20;
-  int max_pixels = 2000;  // of a large tag that are looked at, spread at random: more gain nothing but time
+  int max_pixels = 1500;  // of a large tag that are looked at, most about edges: more gain nothing but time
   double max_shift_cells = 0.5;  // further from the detector's corner (1 px at least) the fit has gone astray
   double max_residual = 0.25;  // robust residual per unit of contrast; beyond it the pixels are not this tag
   double min_corner_sigma_px = 0.03;  // the model's own floor: aliasing, flatness, print, lens model

@@ -125,8 +125,8 @@ double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& all) const {
     const std::array<bool, 4> is_plain = PlainCorners(*pixel_from_tag);
     if (std::count(is_plain.begin(), is_plain.end(), true) == 4) tags.push_back(tag);
   }
-  constexpr std::size_t kTags = 4;
-  constexpr int kPixels = 1000;  // a share of each tag will do
+  constexpr std::size_t kTags = 3;
+  constexpr int kPixels = 700;  // a share of each tag will do
   const std::size_t stride = std::max<std::size_t>(1, tags.size() / kTags);
   double best = 1, least = std::numeric_limits<double>::infinity();
   for (const double exponent : {1.0, 1.5, 1.9, 2.2, 2.5}) {

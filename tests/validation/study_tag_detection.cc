@@ -175,7 +175,7 @@ bool StudyStability(const std::string& folder, bool is_quick) {
       std::mt19937_64 rng(20260727);
       Conditions conditions;
       sweep.set(conditions, value);
-      const std::vector<Score> scores = ScoreAt(conditions, is_quick ? 4 : 40, rng);
+      const std::vector<Score> scores = ScoreAt(conditions, is_quick ? 4 : 30, rng);
       for (std::size_t m = 0; m < scores.size(); ++m) {
         const std::string name = Methods()[m].first;
         found[name].points.emplace_back(value, scores[m].FoundPercent());
