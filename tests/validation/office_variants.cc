@@ -1,11 +1,14 @@
 // The office as worse cameras would have photographed it:
 //   office_variants OFFICE_FOLDER VARIANT OUT_FOLDER
-// VARIANT
-//   vignetting  corners lose two fifths of their light (cos^4 and a mechanical loss); vignetting = "estimate"
-//   jpeg        four exposures a photo, two stops apart, in 8 bits with the sRGB encoding; response =
-//   "estimate" ambient     the light of luminaire D stands in for daylight: it is added to the photos and
-//   readings of A, B and
-//               C, and photographed and measured alone as the state off
+//
+// vignetting: corners lose two fifths of their light (cos^4 and a mechanical loss); vignetting = "estimate".
+//
+// eight_bits: four exposures a photo, two stops apart, in 8 bits with the encoding of sRGB (PNG: without the
+// losses of JPEG); response = "estimate".
+//
+// ambient: the light of luminaire D stands in for daylight. It is added to the photos and readings of A, B
+// and C, and photographed and measured alone as the state off.
+//
 // Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and RESULT/result.json against the office's truth.json.
 #include <algorithm>
 #include <cmath>
@@ -175,9 +178,9 @@ std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& 
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
-      {"vignetting", Vignetting}, {"jpeg", EightBits}, {"ambient", Ambient}};
+      {"vignetting", Vignetting}, {"eight_bits", EightBits}, {"ambient", Ambient}};
   if (argc != 4 || variants.count(argv[2]) == 0) {
-    std::fprintf(stderr, "usage: office_variants OFFICE_FOLDER vignetting|jpeg|ambient OUT_FOLDER\n");
+    std::fprintf(stderr, "usage: office_variants OFFICE_FOLDER vignetting|eight_bits|ambient OUT_FOLDER\n");
     return 2;
   }
   const fs::path office = argv[1], out = argv[3];
