@@ -40,6 +40,7 @@ std::vector<std::string> OwnPhotos(const Session& session, int camera) {
     if (photo.camera == camera) file_of_view.emplace(photo.view, photo.file);
   }
   std::vector<std::string> files;
+  files.reserve(file_of_view.size());
   for (const auto& [view, file] : file_of_view) files.push_back(file);
   return files;
 }
@@ -160,6 +161,7 @@ CalibrationGroup GroupOf(const Session& session, const std::vector<int>& cameras
 void AddGroups(const Session& session, const std::vector<int>& alike, const std::vector<CameraImages>& images,
                std::vector<CalibrationGroup>& groups) {
   std::vector<std::vector<std::string>> files;
+  files.reserve(images.size());
   for (const CameraImages& own : images) files.push_back(own.files);
   const ImageSets sets = PairImages(files, session.calibration.rig);
   if (sets.is_rig) {

@@ -77,11 +77,9 @@ CameraResponse EstimateForCamera(const Session& session, size_t index, RunContex
         fmt::format("{}{} {:.3g}", scores.empty() ? "" : ", ", score.method, score.held_out_error_counts);
     artifact["held_out_error_counts"][score.method] = score.held_out_error_counts;
   }
-  artifact["held_out_error_counts"]["linear"] = estimate.linear_error_counts;
-  choice.because = fmt::format(
-      "within one standard error of the least error on exposures held out, counts: {}; a linear response "
-      "{:.3g}",
-      scores, estimate.linear_error_counts);
+  choice.because =
+      "simplest whose error on exposures held out is the best's within its standard error (counts: " +
+      scores + ")";
   context.choices.push_back(choice);
   const std::string path = fmt::format("{}/response_{}.csv", context.out, camera.id);
   WriteText(path, ResponseCsv(*estimate.response));

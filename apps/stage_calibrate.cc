@@ -85,7 +85,7 @@ void Report(const CalibratedGroup& calibrated, RunContext& context) {
        is_bent ? fmt::format("bent by {:.3f} and {:.3f} mm in its middle, sigma {:.3f} and {:.3f}",
                              1e3 * c.board_bend_m.x(), 1e3 * c.board_bend_m.y(),
                              1e3 * c.board_bend_sigma_m.x(), 1e3 * c.board_bend_sigma_m.y())
-               : "no bend above two sigma was found"});
+               : "no bend above three sigma was found"});
 }
 
 std::vector<CalibratedGroup> CalibrateThese(const Session& session, const std::vector<int>& cameras,

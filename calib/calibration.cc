@@ -33,6 +33,18 @@ double Median(const Eigen::MatrixXd& values) {
   return sorted[sorted.size() / 2];
 }
 
+std::string PlacesAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
+  Eigen::Array<bool, 3, 3> marked;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const auto ninth =
+          sigma_px.block(row * kMapRows / 3, column * kMapColumns / 3, kMapRows / 3, kMapColumns / 3);
+      marked(row, column) = !(ninth.array() <= limit_px).all();
+    }
+  }
+  return ThirdsInWords(marked);
+}
+
 void CheckOptions(const CalibrateCamerasOptions& options) {
   if (options.folds < 2 || !(options.outlier_sigmas > 0) || !(options.focal_start_px >= 0))
     throw std::invalid_argument(
@@ -147,6 +159,7 @@ class ResultWriter {
                                                         kMapRows, std::numeric_limits<double>::infinity());
     camera.uncertain_share = ShareAbove(sigma_px, options_.gates.max_sigma_px);
     camera.median_sigma_px = Median(sigma_px);
+    camera.uncertain_places = PlacesAbove(sigma_px, options_.gates.max_sigma_px);
     out.cameras.push_back(std::move(camera));
   }
 
@@ -168,9 +181,9 @@ class ResultWriter {
   bool warp_;
 };
 
-// Whether the bend that was fitted is more than its own uncertainty explains (two sigma).
+// Whether the bend that was fitted is more than its own uncertainty explains (three sigma).
 bool IsBent(const Calibration& result) {
-  return (result.board_bend_m.array().abs() > 2 * result.board_bend_sigma_m.array()).any();
+  return (result.board_bend_m.array().abs() > 3 * result.board_bend_sigma_m.array()).any();
 }
 
 std::vector<LensScore> ScoresOf(const LensChoice& choice) {
@@ -224,14 +237,15 @@ void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates,
     notes.push_back(
         {"uncertain_projection", true,
          fmt::format("{}: projections are uncertain by more than {:g} px over {:.0f} % of the image "
-                     "(median {:.2g} px)",
-                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.median_sigma_px),
+                     "(median {:.2g} px), in {}",
+                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.median_sigma_px,
+                     camera.uncertain_places),
          photograph});
   } else if (camera.uncertain_share > 0) {
     notes.push_back(
         {"uncertain_corners", false,
-         fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the image",
-                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share),
+         fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the image, in {}",
+                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.uncertain_places),
          "do not rely on these parts of the image (see the uncertainty map), or " + photograph});
   }
   const bool is_covered = camera.coverage.covered_share >= gates.min_covered_share;

@@ -14,6 +14,8 @@
 // error of that difference over sets and the square of the best lens' own projection uncertainty at the
 // corners.
 //
+// (weighted as above, so of the median corner; it compares with the noise, not with the plain rms.)
+//
 // A small residual alone proves nothing (boards in the middle of the image fit any lens): held-out error,
 // uncertainty of projections and coverage have gates, and what fails them is a note that says so, with the
 // remedy; the cameras are then not usable, though returned.
@@ -77,8 +79,9 @@ struct CalibratedCamera {
   Eigen::Matrix<double, 6, 1> cam_from_rig_sigma = Eigen::Matrix<double, 6, 1>::Zero();
   ProjectionCovariance uncertainty;
   CalibrationCoverage coverage;
-  double uncertain_share = 1;  // of the image, with sigma of a direction above the gate
-  double median_sigma_px = 0;  // of a direction, over the image
+  double uncertain_share = 1;    // of the image, with sigma of a direction above the gate
+  double median_sigma_px = 0;    // of a direction, over the image
+  std::string uncertain_places;  // ninths of the image with such a place, in words
 };
 
 struct ImageCalibration {
@@ -113,7 +116,7 @@ struct Calibration {
   double rms_px = 0, rms_2d_px = 0, noise_px = 0;  // of corners in use; noise: per axis, freedom taken off
   double held_out_px = std::numeric_limits<double>::quiet_NaN();  // per axis
   double outlier_share = 0;
-  // In the middle of a grid, along x and y; 0: flat, as no more than two sigma of bend was found.
+  // In the middle of a grid, along x and y; 0: flat, as no more than three sigma of bend was found.
   Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d board_bend_sigma_m = Eigen::Vector2d::Zero();
   std::vector<CalibrationNote> notes;

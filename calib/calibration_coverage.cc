@@ -25,44 +25,21 @@ std::string Joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-// "the upper left third", "the left third" where a whole column is empty.
-std::vector<std::string> EmptyThirds(const Eigen::MatrixXi& counts) {
-  Eigen::Array33i thirds;
+// Ninths of the image without a corner.
+Eigen::Array<bool, kThirds, kThirds> EmptyThirds(const Eigen::MatrixXi& counts) {
+  Eigen::Array<bool, kThirds, kThirds> empty;
   constexpr int kSide = kCells / kThirds;
   for (int row = 0; row < kThirds; ++row) {
     for (int column = 0; column < kThirds; ++column)
-      thirds(row, column) = counts.block(kSide * row, kSide * column, kSide, kSide).sum();
-  }
-  const std::array<std::string, 3> rows = {"upper", "middle", "lower"}, columns = {"left", "middle", "right"};
-  Eigen::Array33i named = Eigen::Array33i::Zero();
-  std::vector<std::string> empty;
-  for (int k = 0; k < kThirds; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if ((thirds.row(k) == 0).all()) {
-      empty.push_back("the " + rows[i] + " third");
-      named.row(k).setOnes();
-    }
-    if ((thirds.col(k) == 0).all()) {
-      empty.push_back("the " + columns[i] + " third");
-      named.col(k).setOnes();
-    }
-  }
-  for (int row = 0; row < kThirds; ++row) {
-    for (int column = 0; column < kThirds; ++column) {
-      if (thirds(row, column) > 0 || named(row, column) != 0) continue;
-      const std::string where = row == 1 && column == 1 ? "middle"
-                                                        : rows[static_cast<std::size_t>(row)] + " " +
-                                                              columns[static_cast<std::size_t>(column)];
-      empty.push_back("the " + where + " third");
-    }
+      empty(row, column) = counts.block(kSide * row, kSide * column, kSide, kSide).sum() == 0;
   }
   return empty;
 }
 
 std::vector<std::string> Lacks(const CalibrationCoverage& coverage) {
   std::vector<std::string> lacks;
-  const std::vector<std::string> empty = EmptyThirds(coverage.corner_counts);
-  if (!empty.empty()) lacks.push_back("no corner in " + Joined(empty) + " of the image");
+  const std::string empty = ThirdsInWords(EmptyThirds(coverage.corner_counts));
+  if (!empty.empty()) lacks.push_back("no corner in " + empty + " of the image");
   const auto shown = [](double value) { return std::to_string(static_cast<int>(std::lround(value))); };
   if (coverage.is_flat && coverage.max_tilt_deg < kLeastTiltDeg)
     lacks.push_back("the board was never tilted more than " + shown(std::ceil(coverage.max_tilt_deg)) +
@@ -73,6 +50,30 @@ std::vector<std::string> Lacks(const CalibrationCoverage& coverage) {
 }
 
 }  // namespace
+
+std::string ThirdsInWords(const Eigen::Array<bool, 3, 3>& marked) {
+  const std::array<std::string, 3> rows = {"upper", "middle", "lower"}, columns = {"left", "middle", "right"};
+  if (marked.all()) return "every third";
+  Eigen::Array<bool, 3, 3> left = marked;
+  std::vector<std::string> words;
+  for (int k = 0; k < kThirds; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (marked.row(k).all()) words.push_back("the " + rows[i] + " third");
+    if (marked.col(k).all()) words.push_back("the " + columns[i] + " third");
+    if (marked.row(k).all()) left.row(k).setConstant(false);
+    if (marked.col(k).all()) left.col(k).setConstant(false);
+  }
+  for (int row = 0; row < kThirds; ++row) {
+    for (int column = 0; column < kThirds; ++column) {
+      if (!left(row, column)) continue;
+      const std::string& across = columns[static_cast<std::size_t>(column)];
+      words.push_back(row == 1 && column == 1
+                          ? "the middle third"
+                          : "the " + rows[static_cast<std::size_t>(row)] + " " + across + " third");
+    }
+  }
+  return Joined(words);
+}
 
 CalibrationCoverage CoverageOf(const CalibrationTarget& target, const CalibrationCamera& camera,
                                const std::vector<CoveringImage>& images) {

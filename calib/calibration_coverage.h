@@ -32,6 +32,10 @@ struct CoveringImage {
   Eigen::Isometry3d cam_from_target;
 };
 
+// Marked ninths of an image in words: "the left third and the upper middle third"; whole rows and columns are
+// named as such. Empty where none is marked.
+std::string ThirdsInWords(const Eigen::Array<bool, 3, 3>& marked);
+
 CalibrationCoverage CoverageOf(const CalibrationTarget& target, const CalibrationCamera& camera,
                                const std::vector<CoveringImage>& images);
 

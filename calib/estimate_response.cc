@@ -3,115 +3,46 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <tuple>
 #include <utility>
 
+#include "calib/internal/held_out_exposures.h"
 #include "calib/internal/response_levels.h"
 #include "calib/internal/response_noise.h"
 
 namespace luxfit {
 namespace {
 
-using Solver = std::function<CameraResponse(const std::vector<BracketSamples>&)>;
-
-BracketSamples WithoutExposure(const BracketSamples& bracket, Eigen::Index left_out) {
-  const Eigen::Index others = bracket.exposure_s.size() - 1;
-  BracketSamples rest;
-  rest.exposure_s.resize(others);
-  for (Eigen::MatrixXd& counts : rest.counts) counts.resize(bracket.counts[0].rows(), others);
-  for (Eigen::Index j = 0, at = 0; j <= others; ++j) {
-    if (j == left_out) continue;
-    rest.exposure_s[at] = bracket.exposure_s[j];
-    for (size_t c = 0; c < 3; ++c) rest.counts[c].col(at) = bracket.counts[c].col(j);
-    ++at;
-  }
-  return rest;
+// One curve for all channels: shares of full scale -> shares of full exposure.
+CameraResponse FixedResponse(const ResponseOptions& options, double (*decoded)(double)) {
+  const Eigen::VectorXd share = Eigen::VectorXd::LinSpaced(kResponseLevels, 0, 1);
+  const Eigen::VectorXd curve = share.unaryExpr(decoded);
+  return {options.full_scale_counts * share, {curve, curve, curve}};
 }
 
-// Errors in counts of one exposure predicted from the others.
-struct ErrorSum {
-  double sum = 0, count = 0;
-  double Mean() const { return count > 0 ? sum / count : 0; }
-};
+double LinearDecoded(double share) { return share; }
 
-// Their means fold by fold: errors within a fold are no independent evidence.
-struct HeldOutErrors {
-  Eigen::VectorXd of_fold;
-  double Mean() const { return of_fold.size() > 0 ? of_fold.mean() : 0; }
-  double StandardError() const {
-    const double folds = static_cast<double>(of_fold.size());
-    return folds > 1 ? std::sqrt((of_fold.array() - Mean()).square().sum() / (folds - 1) / folds) : 0;
-  }
-};
-
-ErrorSum PredictionError(const CameraResponse& response, const BracketSamples& bracket, Eigen::Index left_out,
-                         const ResponseOptions& options) {
-  ErrorSum error;
-  for (size_t c = 0; c < 3; ++c) {
-    const Eigen::MatrixXd& counts = bracket.counts[c];
-    for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-      if (!IsInRange(counts(i, left_out), options)) continue;
-      double top = 0, bottom = 0;
-      for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-        if (j == left_out || !IsInRange(counts(i, j), options)) continue;
-        // Equal noise of counts: the weight of ln E is the inverse square of d ln f / d count.
-        const double exposure = response.Exposure(c, counts(i, j));
-        const double slope = response.Slope(c, counts(i, j)) / exposure;
-        top += std::log(exposure / bracket.exposure_s[j]) / (slope * slope);
-        bottom += 1 / (slope * slope);
-      }
-      if (!(bottom > 0)) continue;
-      const double predicted = response.Counts(c, std::exp(top / bottom) * bracket.exposure_s[left_out]);
-      error.sum += std::abs(predicted - counts(i, left_out));
-      error.count += 1;
-    }
-  }
-  return error;
+// IEC 61966-2-1.
+double SrgbDecoded(double share) {
+  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-// Exposures between the shortest and the longest of a bracket; all where there are three.
-std::vector<Eigen::Index> InnerExposures(const BracketSamples& bracket) {
-  Eigen::Index shortest = 0, longest = 0;
-  bracket.exposure_s.minCoeff(&shortest);
-  bracket.exposure_s.maxCoeff(&longest);
-  std::vector<Eigen::Index> inner;
-  for (Eigen::Index j = 0; j < bracket.exposure_s.size(); ++j) {
-    if (bracket.exposure_s.size() < 4 || (j != shortest && j != longest)) inner.push_back(j);
+// From what assumes most to what assumes least.
+std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOptions& options) {
+  std::vector<std::pair<std::string, ResponseSolver>> candidates{
+      {"linear", [&options](const auto&) { return FixedResponse(options, LinearDecoded); }},
+      {"sRGB", [&options](const auto&) { return FixedResponse(options, SrgbDecoded); }}};
+  for (const double smoothing : {1e3, 1.0, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4}) {
+    std::array<char, 64> name{};
+    std::snprintf(name.data(), name.size(), "debevec, smoothing %g", smoothing);
+    candidates.push_back({name.data(), [&options, smoothing](const std::vector<BracketSamples>& training) {
+                            return SolveDebevec(training, options, {smoothing});
+                          }});
   }
-  return inner;
-}
-
-HeldOutErrors HeldOut(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
-                      const Solver& solve) {
-  size_t folds = 0;
-  for (const BracketSamples& bracket : brackets) folds = std::max(folds, InnerExposures(bracket).size());
-  HeldOutErrors errors;
-  errors.of_fold.resize(static_cast<Eigen::Index>(folds));
-  for (size_t fold = 0; fold < folds; ++fold) {
-    std::vector<BracketSamples> training;
-    training.reserve(brackets.size());
-    for (const BracketSamples& bracket : brackets) {
-      const std::vector<Eigen::Index> inner = InnerExposures(bracket);
-      training.push_back(inner.empty() ? bracket : WithoutExposure(bracket, inner[fold % inner.size()]));
-    }
-    const CameraResponse response = solve(training);
-    ErrorSum total;
-    for (const BracketSamples& bracket : brackets) {
-      const std::vector<Eigen::Index> inner = InnerExposures(bracket);
-      if (inner.empty()) continue;
-      const ErrorSum error = PredictionError(response, bracket, inner[fold % inner.size()], options);
-      total.sum += error.sum;
-      total.count += error.count;
-    }
-    errors.of_fold[static_cast<Eigen::Index>(fold)] = total.Mean();
-  }
-  return errors;
-}
-
-CameraResponse LinearResponse(const ResponseOptions& options) {
-  const Eigen::Vector2d counts(0, options.full_scale_counts), exposure(0, 1);
-  return {counts, {exposure, exposure, exposure}};
+  candidates.push_back({"robertson", [&options](const std::vector<BracketSamples>& training) {
+                          return SolveRobertson(training, options);
+                        }});
+  return candidates;
 }
 
 // Why these samples determine no response; empty where they do.
@@ -142,35 +73,16 @@ ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
   ResponseEstimate estimate;
   estimate.message = Lack(brackets, options);
   if (!estimate.message.empty()) return estimate;
-  std::vector<std::pair<std::string, Solver>> solvers;
-  for (const double smoothing : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
-    std::array<char, 64> name{};
-    std::snprintf(name.data(), name.size(), "debevec, smoothing %g", smoothing);
-    solvers.push_back({name.data(), [&options, smoothing](const std::vector<BracketSamples>& training) {
-                         return SolveDebevec(training, options, {smoothing});
-                       }});
+  const auto candidates = Candidates(options);
+  std::vector<Eigen::ArrayXd> errors;
+  errors.reserve(candidates.size());
+  estimate.scores.reserve(candidates.size());
+  for (const auto& [name, solve] : candidates) {
+    errors.push_back(HeldOutErrors(brackets, options, solve));
+    estimate.scores.push_back({name, MeanError(errors.back())});
   }
-  solvers.push_back({"robertson", [&options](const std::vector<BracketSamples>& training) {
-                       return SolveRobertson(training, options);
-                     }});
-  estimate.scores.reserve(solvers.size());
-  std::vector<HeldOutErrors> errors;
-  errors.reserve(solvers.size());
-  for (const auto& [name, solve] : solvers) {
-    errors.push_back(HeldOut(brackets, options, solve));
-    estimate.scores.push_back({name, errors.back().Mean()});
-  }
-  estimate.linear_error_counts = HeldOut(brackets, options, [&](const std::vector<BracketSamples>&) {
-                                   return LinearResponse(options);
-                                 }).Mean();
-  const auto best =
-      std::min_element(errors.begin(), errors.end(),
-                       [](const HeldOutErrors& a, const HeldOutErrors& b) { return a.Mean() < b.Mean(); });
-  const double limit = best->Mean() + best->StandardError();
-  estimate.chosen = static_cast<size_t>(
-      std::find_if(errors.begin(), errors.end(), [&](const HeldOutErrors& e) { return e.Mean() <= limit; }) -
-      errors.begin());
-  const CameraResponse response = solvers[estimate.chosen].second(brackets);
+  estimate.chosen = SimplestOfBest(errors);
+  const CameraResponse response = candidates[estimate.chosen].second(brackets);
   estimate.response = response.WithRelativeSigma(RelativeSigma(brackets, response, options));
   return estimate;
 }

@@ -17,11 +17,13 @@
 // above saturation_fraction of full scale are left out. Assumes that exposures are right up to a common
 // exponent: times t^a and a response f^a fit the same pictures.
 //
-// Which of the two, and lambda: by exposures held out. Each inner exposure in turn is predicted, in counts,
-// from the response and the E_i of the others; the first within one standard error (over the exposures) of
-// the least mean absolute error is taken, from the smoothest Debevec-Malik to Robertson's. Smoothness is
-// needed beyond what held-out exposures ask: exposures one stop apart leave every ripple of g whose period is
-// one stop undetermined, and predict each other with it.
+// Which is taken, and lambda: by exposures held out. Candidates are a linear response and the encoding of
+// sRGB as they are, Debevec-Malik from a power law (a large lambda) to rough curves, and Robertson's. Each
+// inner exposure of each bracket in turn is predicted, in counts, from the response and the E_i of the
+// others; the first candidate within one standard error (over brackets and exposures) of the least mean
+// absolute error is taken. It is not the difference's standard error, which would be smaller: held-out
+// exposures cannot ask for all the smoothness that is needed, for exposures one stop apart leave every ripple
+// of g whose period is one stop undetermined, and predict each other with it.
 //
 // Sources: Debevec and Malik (1997), sec. 2.1; Robertson, Borman, Stevenson (2003), eq. 9 to 11.
 #ifndef LUXFIT_CALIB_ESTIMATE_RESPONSE_H_
@@ -71,7 +73,6 @@ struct ResponseEstimate {
   std::string message;
   size_t chosen = 0;  // index into scores
   std::vector<ResponseScore> scores;
-  double linear_error_counts = 0;  // of a linear response on the same exposures
 };
 
 // Not determined: fewer than three exposures, no two exposures of one pixel within range, or a spread of

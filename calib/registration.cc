@@ -11,9 +11,12 @@
 
 #include "calib/internal/bundle_adjustment.h"
 #include "calib/internal/bundle_covariance.h"
+#include "calib/internal/feature_alignment.h"
 #include "calib/internal/feature_views.h"
+#include "calib/internal/free_frame.h"
 #include "calib/internal/leave_out.h"
 #include "calib/internal/survey_diagnosis.h"
+#include "calib/internal/tag_mapping.h"
 #include "calib/internal/tag_views.h"
 
 namespace luxfit {
@@ -23,7 +26,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 void CheckOptions(const RegisterViewsOptions& options) {
   if (!(options.survey_sigma_m >= 0) || !(options.tag_size_sigma >= 0) || !(options.huber_sigmas > 0) ||
-      !(options.max_view_rms_sigmas > 0) || !(options.max_rotation_sigma_rad > 0)) {
+      !(options.max_view_rms_sigmas > 0) || !(options.tag_size_m >= 0) ||
+      !(options.max_rotation_sigma_rad > 0)) {
     throw std::invalid_argument(
         "RegisterViews: options: expected survey_sigma_m >= 0, tag_size_sigma >= 0, huber_sigmas > 0, "
         "max_view_rms_sigmas > 0, max_rotation_sigma_rad > 0");
@@ -130,6 +134,66 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Regis
   if (measured > 0) registration.reprojection_rms_px = std::sqrt(total / measured);
 }
 
+// From views that have been started.
+void Adjust(const BundleContext& context, const FeatureModel& features, BundleAdjustment& adjustment,
+            Registration& registration) {
+  if (!features.views.empty()) JoinFeatures(context, features, adjustment, registration.notes);
+  SolveLeavingOut(context, adjustment, registration.notes);
+  if (adjustment.fixed_tag >= 0) SettleFrame(adjustment);
+  Summarise(context, adjustment, registration);
+}
+
+// Places of the tags after the adjustment, for those that a registered view uses.
+std::vector<SurveyedTag> PlacedTags(const BundleAdjustment& adjustment) {
+  std::map<int, SurveyedTag> placed;
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (std::size_t i = 0; i < view.tags.size(); ++i) {
+      if (view.used[i])
+        placed[view.tags[i].id] = TagOfCorners(view.tags[i].id, AdjustedCorners(adjustment, view.tags[i]));
+    }
+  }
+  std::vector<SurveyedTag> tags;
+  tags.reserve(placed.size());
+  for (const auto& [id, tag] : placed) tags.push_back(tag);
+  return tags;
+}
+
+// Views that made the map keep the poses they have there; the others are started as with a survey.
+void StartFromMap(const BundleContext& context, const TagMap& map, std::vector<BundleView>& views,
+                  std::vector<RegistrationNote>& notes) {
+  StartViews(context, views, notes);
+  for (BundleView& view : views) {
+    const auto pose = map.cam_from_world.find(view.name);
+    if (pose == map.cam_from_world.end()) continue;
+    view.active = true;
+    view.used = AgreeingTags(context, view, pose->second);
+    view.SetCamFromWorld(pose->second);
+    DropStartNotes(view.name, notes);
+  }
+}
+
+Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterViewsOptions options,
+                                const std::vector<ViewDetections>& detections, const FeatureModel& features) {
+  options.survey_sigma_m = 0.02;  // what the first map is off; tags are free from there
+  const BundleContext context{cameras, options};
+  Registration registration;
+  const TagMap map = MapTags(context, detections, features);
+  if (map.frame_tag < 0) {
+    registration.message = "no view tells the pose of any tag";
+    return registration;
+  }
+  BundleAdjustment adjustment;
+  adjustment.fixed_tag = map.frame_tag;
+  adjustment.views = ViewsOf(context, IndexSurvey(map.tags), OnlyPlaced(map, detections, registration.notes),
+                             registration.notes);
+  StartFromMap(context, map, adjustment.views, registration.notes);
+  Adjust(context, features, adjustment, registration);
+  registration.frame = "tag " + std::to_string(map.frame_tag);
+  registration.placed_tags = PlacedTags(adjustment);
+  return registration;
+}
+
 }  // namespace
 
 Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
@@ -143,6 +207,8 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
                            const RegisterViewsOptions& options) {
   CheckOptions(options);
   const BundleContext context{cameras, options};
+  if (survey.empty() && options.tag_size_m > 0)
+    return RegisterWithoutMap(cameras, options, detections, features);
   Registration registration;
   BundleAdjustment adjustment;
   const std::map<int, SurveyedTag> survey_by_id = IndexSurvey(survey);
@@ -154,9 +220,7 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
     return registration;
   }
   StartViews(context, adjustment.views, registration.notes);
-  if (!features.views.empty()) JoinFeatures(context, features, adjustment, registration.notes);
-  SolveLeavingOut(context, adjustment, registration.notes);
-  Summarise(context, adjustment, registration);
+  Adjust(context, features, adjustment, registration);
   return registration;
 }
 

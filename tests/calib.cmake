@@ -17,14 +17,19 @@ luxfit_test(calib real_boards_test LINK luxfit::calib)
 luxfit_test(calib reprojection_cost_test LINK luxfit::calib Ceres::ceres)
 luxfit_test(calib registration_test LINK luxfit::calib)
 luxfit_test(calib registration_faults_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib unsurveyed_tags_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib joint_registration_test LINK luxfit::calib opencv_core opencv_calib3d)
 
-# The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
-add_executable(memorial_radiance validation/memorial_radiance.cc)
-target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
 luxfit_test(calib calibration_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib calibration_accuracy_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib calibration_coverage_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib projection_uncertainty_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib corners_file_test LINK luxfit::calib)
+
+# The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
+add_executable(memorial_radiance validation/memorial_radiance.cc)
+target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
+# The office as worse cameras would have photographed it, for `luxfit run`.
+add_executable(office_variants validation/office_variants.cc)
+target_link_libraries(office_variants PRIVATE luxfit_build luxfit::calib opencv_core opencv_imgcodecs)

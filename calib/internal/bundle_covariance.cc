@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calib/internal/bundle_problem.h"
+#include "calib/internal/free_frame.h"
 
 namespace luxfit {
 namespace {
@@ -73,7 +74,9 @@ Eigen::MatrixXd InverseIfRegular(const Eigen::MatrixXd& normal) {
 }  // namespace
 
 BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdjustment& adjustment) {
-  const BundleProblem built = BuildBundleProblem(context, adjustment);
+  const bool has_frame_tag = adjustment.fixed_tag >= 0;
+  const BundleProblem built =
+      BuildBundleProblem(context, adjustment, has_frame_tag ? Frame::kFree : Frame::kHeld);
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = built.poses;
   options.parameter_blocks.insert(options.parameter_blocks.end(), built.tag_parts.begin(),
@@ -86,7 +89,14 @@ BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdj
   ceres::CRSMatrix jacobian;
   BundleCovariance covariance;
   if (!built.problem->Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return covariance;
-  const Eigen::MatrixXd inverse = InverseIfRegular(ReducedNormalMatrix(jacobian, kept));
+  Eigen::MatrixXd normal = ReducedNormalMatrix(jacobian, kept);
+  if (has_frame_tag) {
+    const auto first = static_cast<int>(6 * built.poses.size());
+    const Eigen::MatrixXd rows = FrameRows(adjustment, built.tag_ids, first, kept);
+    constexpr double kHard = 1e3;  // against the best known unknown
+    normal += kHard * normal.diagonal().maxCoeff() * rows.transpose() * rows;
+  }
+  const Eigen::MatrixXd inverse = InverseIfRegular(normal);
   covariance.determined = inverse.size() > 0;
   if (!covariance.determined) return covariance;
   const double scale = built.points.empty() ? adjustment.reduced_chi2 : 1;

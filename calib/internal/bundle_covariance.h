@@ -4,8 +4,9 @@
 //
 // C is block-diagonal, 3 x 3 a point, so points cost no more than their observations; the dense inverse has 6
 // rows a view and 3 a tag. Without points the whole is scaled by the reduced chi2; with points, corners and
-// points have each been weighted by their own residuals already.
-// Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis", 6.1 and 9.
+// points have each been weighted by their own residuals already. Where no tag is surveyed the frame is that
+// of all tags together, see calib/internal/free_frame.h. Source: Triggs et al. (2000), "Bundle adjustment: a
+// modern synthesis", 6.1 and 9.
 #ifndef LUXFIT_CALIB_INTERNAL_BUNDLE_COVARIANCE_H_
 #define LUXFIT_CALIB_INTERNAL_BUNDLE_COVARIANCE_H_
 

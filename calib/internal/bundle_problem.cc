@@ -35,16 +35,19 @@ void AddPoints(const BundleContext& context, BundleAdjustment& adjustment, Bundl
 // A surveyed tag may hang off its place but not turned; one that was not surveyed is where the photos put
 // it, but for the one that is the frame.
 void SettleTags(const BundleContext& context, BundleAdjustment& adjustment, const std::set<int>& ids,
-                BundleProblem& built) {
+                Frame frame, BundleProblem& built) {
   const bool is_surveyed = adjustment.fixed_tag < 0;
   const double sigma_m = context.options.survey_sigma_m;
   for (const int id : ids) {
     BundleTag& tag = adjustment.tags.at(id);
     double* const displacement_m = tag.displacement_m.data();
     double* const turn = tag.turn.coeffs().data();
-    const bool may_move = is_surveyed ? sigma_m > 0 : id != adjustment.fixed_tag;
+    const bool may_move = is_surveyed ? sigma_m > 0 : id != adjustment.fixed_tag || frame == Frame::kFree;
     const bool may_turn = !is_surveyed && may_move;
-    if (may_move) built.tag_parts.push_back(displacement_m);
+    if (may_move) {
+      built.tag_ids.push_back(id);
+      built.tag_parts.push_back(displacement_m);
+    }
     if (may_move && is_surveyed)
       built.problem->AddResidualBlock(new ZeroPrior<3>(sigma_m), nullptr, displacement_m);
     if (!may_move) built.problem->SetParameterBlockConstant(displacement_m);
@@ -79,7 +82,7 @@ void SettlePoints(BundleAdjustment& adjustment, const std::vector<bool>& used, B
 
 }  // namespace
 
-BundleProblem BuildBundleProblem(const BundleContext& context, BundleAdjustment& adjustment) {
+BundleProblem BuildBundleProblem(const BundleContext& context, BundleAdjustment& adjustment, Frame frame) {
   BundleProblem built;
   ceres::Problem::Options options;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -100,7 +103,7 @@ BundleProblem BuildBundleProblem(const BundleContext& context, BundleAdjustment&
       if (view.used[i]) ids.insert(view.tags[i].id);
     }
   }
-  SettleTags(context, adjustment, ids, built);
+  SettleTags(context, adjustment, ids, frame, built);
   SettlePoints(adjustment, used, built);
   return built;
 }

@@ -21,13 +21,18 @@ struct BundleProblem {
   std::unique_ptr<ceres::Manifold> pose_manifold, turn_manifold;
   std::unique_ptr<ceres::Problem> problem;
   // What is free, by kind.
-  std::vector<double*> poses;  // of the active views, in their order
-  std::vector<double*> tag_parts;
+  std::vector<double*> poses;      // of the active views, in their order
+  std::vector<double*> tag_parts;  // displacement and, of tags that nobody surveyed, turn of each
+  std::vector<int> tag_ids;        // of the tags that have a part
   std::vector<double*> points;
   double* size_error = nullptr;  // null: held
 };
 
-BundleProblem BuildBundleProblem(const BundleContext& context, BundleAdjustment& adjustment);
+// Whether the tag that is the frame is held where no tag is surveyed.
+enum class Frame { kHeld, kFree };
+
+BundleProblem BuildBundleProblem(const BundleContext& context, BundleAdjustment& adjustment,
+                                 Frame frame = Frame::kHeld);
 
 }  // namespace luxfit
 

@@ -204,6 +204,34 @@ class RigJoiner {
   std::vector<std::optional<Eigen::Isometry3d>> cam_from_rig_;
 };
 
+// Corners of an image that a pose explains.
+std::size_t CornersNear(const GuessedCamera& guess, const ImageCorners& image,
+                        const Eigen::Isometry3d& pose) {
+  std::size_t near = 0;
+  for (const SeenPoint& seen : image.points) {
+    const Eigen::Vector2d pixel =
+        ProjectByLens(guess.lens, guess.parameters.data(), pose * seen.point, false).pixel;
+    near += (pixel - seen.pixel).norm() < guess.gate_px ? 1 : 0;
+  }
+  return near;
+}
+
+// Whether the rig explains the corners that each image's own pose does. Of two cameras one gave the set's
+// pose, so half of them prove nothing.
+bool IsBorneOut(const std::vector<GuessedCamera>& guesses, const std::vector<ImageCorners>& images,
+                const std::vector<PlacedImage>& placed, const CalibrationState& state) {
+  constexpr double kLeastShare = 0.8;
+  std::size_t own = 0, by_rig = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto camera = static_cast<std::size_t>(images[i].camera),
+               set = static_cast<std::size_t>(images[i].set);
+    own += CornersNear(guesses[camera], images[i], placed[i].cam_from_target);
+    by_rig +=
+        CornersNear(guesses[camera], images[i], state.cam_from_rig[camera] * state.rig_from_target[set]);
+  }
+  return static_cast<double>(by_rig) >= kLeastShare * static_cast<double>(own);
+}
+
 struct FamilySeed {
   CalibrationState state;
   double cost_px2 = 0;
@@ -242,6 +270,7 @@ FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<Image
     most[set] = images[i].points.size();
     seed.state.rig_from_target[set] = (*poses)[camera].inverse() * placed[i].cam_from_target;
   }
+  seed.is_joined = IsBorneOut(guesses, images, placed, seed.state);
   return seed;
 }
 
@@ -267,7 +296,7 @@ CalibrationSeed SeedCalibration(const CalibrationProblem& problem, double focal_
   const FamilySeed pinhole = SeedFamily(problem, images, pinhole_px, false);
   const FamilySeed wide = SeedFamily(problem, images, wide_px, true);
   if (!pinhole.is_joined && !wide.is_joined) {
-    seed.message = "a camera of the rig shares no set of images with the others";
+    seed.message = "the cameras share no sets of images, or do not stand still against each other";
     seed.remedy = "photograph the board where two cameras see it at once, and check how images are paired";
     return seed;
   }

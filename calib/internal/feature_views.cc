@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "calib/internal/feature_alignment.h"
+#include "calib/internal/tag_views.h"
 
 namespace luxfit {
 namespace {
@@ -18,10 +19,6 @@ RegistrationNote Unaligned(const FeatureModel& features) {
               " points) does not fit the surveyed tags under any similarity; it is left out.",
           "Let two of its views show a common surveyed tag, and see whether it shows this room with this "
           "camera."};
-}
-
-bool IsOfTheStart(const std::string& code) {
-  return code == "no_tags" || code == "pose_ambiguous" || code == "view_disagrees";
 }
 
 RegistrationNote Disagrees(const BundleView& view) {
@@ -47,11 +44,7 @@ std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in
       taken[v] = false;
       continue;
     }
-    notes.erase(std::remove_if(notes.begin(), notes.end(),
-                               [&view](const RegistrationNote& note) {
-                                 return note.view == view.name && IsOfTheStart(note.code);
-                               }),
-                notes.end());
+    DropStartNotes(view.name, notes);
     view.active = true;
     view.used = agrees;
     view.SetCamFromWorld(cam_from_world);

@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Candidate {
-  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
-  double chi2 = kInfinity;
-};
-
 // What a corner may be off: its own error, the survey's seen from here, and the lens model's.
 double CornerSigmaPx(const TagObservation& tag, const PoseStartOptions& options) {
   const double survey_px = options.survey_sigma_m / tag.size_m * tag.side_px;
@@ -33,14 +28,18 @@ double Chi2(const Camera& camera, const Eigen::Isometry3d& cam_from_world,
   return chi2;
 }
 
-// Points closer to a plane than 1/200 of their extent carry no more information across it than noise does.
-bool AreCoplanar(const std::vector<cv::Point3d>& points) {
+// The methods that points of this flatness are fit for. Closer to a plane than 1/200 of their extent they
+// carry no more information across it than noise does; up to 1/20 the two poses of the plane are tried, too.
+std::vector<cv::SolvePnPMethod> MethodsFor(const std::vector<cv::Point3d>& points) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const cv::Point3d& p : points)
     scatter += Eigen::Vector3d(p.x, p.y, p.z) * Eigen::RowVector3d(p.x, p.y, p.z);
   const Eigen::Vector3d spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  return spread[0] < std::pow(0.005, 2) * spread[2];
+  const double flatness = std::sqrt(std::max(0.0, spread[0]) / spread[2]);
+  if (flatness < 0.005) return {cv::SOLVEPNP_IPPE};
+  if (flatness < 0.05) return {cv::SOLVEPNP_SQPNP, cv::SOLVEPNP_IPPE};
+  return {cv::SOLVEPNP_SQPNP};
 }
 
 Eigen::Isometry3d ToIsometry(const cv::Mat& rotation_vector, const cv::Mat& translation,
@@ -60,49 +59,23 @@ bool IsSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() < kSameAngle;
 }
 
-// Every distinct local solution, best first.
-std::vector<Candidate> PoseCandidates(const Camera& camera, const std::vector<TagObservation>& tags,
-                                      const PoseStartOptions& options) {
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  for (const TagObservation& tag : tags) {
-    for (const Eigen::Vector3d& p : tag.corners_in_world)
-      centroid += p / (4.0 * static_cast<double>(tags.size()));
-  }
-  std::vector<cv::Point3d> points;
-  std::vector<cv::Point2d> rays;
-  for (const TagObservation& tag : tags) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector3d p = tag.corners_in_world[i] - centroid;
-      const Eigen::Vector3d ray = Unproject(camera, tag.corners_px[i]);
-      if (!ray.allFinite() || !(ray.z() > 0)) return {};
-      points.emplace_back(p.x(), p.y(), p.z());
-      rays.emplace_back(ray.x() / ray.z(), ray.y() / ray.z());
-    }
-  }
+// The method's solutions, each refined; `centroid` is what the points were moved by.
+std::vector<Eigen::Isometry3d> Solve(const std::vector<cv::Point3d>& points,
+                                     const std::vector<cv::Point2d>& rays, const Eigen::Vector3d& centroid,
+                                     cv::SolvePnPMethod method) {
   const cv::Mat identity = cv::Mat::eye(3, 3, CV_64F);
   std::vector<cv::Mat> rotations, translations;
-  std::vector<Candidate> candidates;
+  std::vector<Eigen::Isometry3d> poses;
   try {
-    const int method = AreCoplanar(points) ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_SQPNP;
-    cv::solvePnPGeneric(points, rays, identity, cv::noArray(), rotations, translations, false,
-                        static_cast<cv::SolvePnPMethod>(method));
+    cv::solvePnPGeneric(points, rays, identity, cv::noArray(), rotations, translations, false, method);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
       cv::solvePnPRefineLM(points, rays, identity, cv::noArray(), rotations[i], translations[i]);
-      Candidate candidate;
-      candidate.cam_from_world = ToIsometry(rotations[i], translations[i], centroid);
-      candidate.chi2 = Chi2(camera, candidate.cam_from_world, tags, options);
-      const bool seen =
-          std::any_of(candidates.begin(), candidates.end(), [&candidate](const Candidate& other) {
-            return IsSamePose(other.cam_from_world, candidate.cam_from_world);
-          });
-      if (!seen && std::isfinite(candidate.chi2)) candidates.push_back(candidate);
+      poses.push_back(ToIsometry(rotations[i], translations[i], centroid));
     }
   } catch (const cv::Exception&) {
     return {};  // degenerate points (all on a line): no solution rather than a wrong one
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.chi2 < b.chi2; });
-  return candidates;
+  return poses;
 }
 
 double TolerancePx(const TagObservation& tag, const PoseStartOptions& options) {
@@ -139,7 +112,7 @@ Consensus BestPair(const Camera& camera, const std::vector<TagObservation>& tags
   const auto all = static_cast<int>(tags.size());
   for (std::size_t i = 0; i < tags.size() && best.count < all; ++i) {
     for (std::size_t j = i + 1; j < tags.size() && best.count < all; ++j) {
-      for (const Candidate& candidate : PoseCandidates(camera, {tags[i], tags[j]}, options)) {
+      for (const PoseCandidate& candidate : PoseCandidates(camera, {tags[i], tags[j]}, options)) {
         const Consensus consensus = CountAgreeing(camera, candidate.cam_from_world, tags, options);
         if (IsBetter(consensus, best)) best = consensus;
       }
@@ -158,6 +131,39 @@ std::vector<TagObservation> Selected(const std::vector<TagObservation>& tags,
 }
 
 }  // namespace
+
+std::vector<PoseCandidate> PoseCandidates(const Camera& camera, const std::vector<TagObservation>& tags,
+                                          const PoseStartOptions& options) {
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const TagObservation& tag : tags) {
+    for (const Eigen::Vector3d& p : tag.corners_in_world)
+      centroid += p / (4.0 * static_cast<double>(tags.size()));
+  }
+  std::vector<cv::Point3d> points;
+  std::vector<cv::Point2d> rays;
+  for (const TagObservation& tag : tags) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3d p = tag.corners_in_world[i] - centroid;
+      const Eigen::Vector3d ray = Unproject(camera, tag.corners_px[i]);
+      if (!ray.allFinite() || !(ray.z() > 0)) return {};
+      points.emplace_back(p.x(), p.y(), p.z());
+      rays.emplace_back(ray.x() / ray.z(), ray.y() / ray.z());
+    }
+  }
+  std::vector<PoseCandidate> candidates;
+  for (const cv::SolvePnPMethod method : MethodsFor(points)) {
+    for (const Eigen::Isometry3d& pose : Solve(points, rays, centroid, method)) {
+      const bool seen =
+          std::any_of(candidates.begin(), candidates.end(),
+                      [&pose](const PoseCandidate& other) { return IsSamePose(other.cam_from_world, pose); });
+      const double chi2 = seen ? kInfinity : Chi2(camera, pose, tags, options);
+      if (std::isfinite(chi2)) candidates.push_back({pose, chi2});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(),
+            [](const PoseCandidate& a, const PoseCandidate& b) { return a.chi2 < b.chi2; });
+  return candidates;
+}
 
 Eigen::Vector3d TagCenter(const TagObservation& tag) {
   const std::array<Eigen::Vector3d, 4>& p = tag.corners_in_world;
@@ -191,7 +197,7 @@ PoseStart EstimatePoseStart(const Camera& camera, const std::vector<TagObservati
   if (consensus.count < std::min<int>(2, static_cast<int>(tags.size()))) return start;
 
   // The pose of a pair is too rough far from it: fit to all that agree, and see once more who does.
-  std::vector<Candidate> candidates;
+  std::vector<PoseCandidate> candidates;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
     candidates = PoseCandidates(camera, Selected(tags, consensus.agrees), options);

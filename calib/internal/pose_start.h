@@ -47,6 +47,15 @@ struct PoseStartOptions {
   double ambiguity_chi2 = 16;        // 4 sigma
 };
 
+struct PoseCandidate {
+  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+  double chi2 = 0;
+};
+
+// Every distinct local solution for these tags, best first: two where one plane allows two.
+std::vector<PoseCandidate> PoseCandidates(const Camera& camera, const std::vector<TagObservation>& tags,
+                                          const PoseStartOptions& options);
+
 PoseStart EstimatePoseStart(const Camera& camera, const std::vector<TagObservation>& tags,
                             const PoseStartOptions& options);
 

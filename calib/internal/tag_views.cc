@@ -241,4 +241,14 @@ void StartViews(const BundleContext& context, std::vector<BundleView>& views,
   }
 }
 
+void DropStartNotes(const std::string& view, std::vector<RegistrationNote>& notes) {
+  notes.erase(std::remove_if(notes.begin(), notes.end(),
+                             [&view](const RegistrationNote& note) {
+                               return note.view == view &&
+                                      (note.code == "no_tags" || note.code == "pose_ambiguous" ||
+                                       note.code == "view_disagrees");
+                             }),
+              notes.end());
+}
+
 }  // namespace luxfit

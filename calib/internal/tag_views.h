@@ -6,6 +6,7 @@
 #define LUXFIT_CALIB_INTERNAL_TAG_VIEWS_H_
 
 #include <map>
+#include <string>
 #include <vector>
 
 #include "calib/internal/bundle_adjustment.h"
@@ -24,6 +25,9 @@ std::vector<BundleView> ViewsOf(const BundleContext& context, const std::map<int
 // (an id used twice) is used where it agrees with the survey.
 void StartViews(const BundleContext& context, std::vector<BundleView>& views,
                 std::vector<RegistrationNote>& notes);
+
+// Takes back what StartViews said of a view that has a pose after all.
+void DropStartNotes(const std::string& view, std::vector<RegistrationNote>& notes);
 
 }  // namespace luxfit
 

@@ -91,8 +91,25 @@ TEST(EstimateResponseTest, TheBetterOnHeldOutExposuresIsTakenAndBeatsALinearOne)
     EXPECT_GE(1.03 * score.held_out_error_counts, estimate.scores[estimate.chosen].held_out_error_counts);
   // Rounding to whole counts alone is 0.25 on average.
   EXPECT_LT(estimate.scores[estimate.chosen].held_out_error_counts, 0.6);
-  EXPECT_GT(estimate.linear_error_counts, 10);
+  EXPECT_EQ(estimate.scores[0].method, "linear");
+  EXPECT_GT(estimate.scores[0].held_out_error_counts, 10);
   EXPECT_LT(WorstError(*estimate.response, FilmDecoded, 255), 0.02);
+}
+
+TEST(EstimateResponseTest, WhatIsSimpleIsTakenAsSuch) {
+  auto rng = support::TestRng();
+  const auto chosen = [&](const CameraModel& camera) {
+    // Two stops apart, as cameras bracket: estimated curves are loose there.
+    const ResponseEstimate estimate = EstimateResponse(
+        {Shots(camera, 500, {4, 1, 0.25, 0.0625}, rng), Shots(camera, 500, {4, 1, 0.25, 0.0625}, rng)}, {});
+    return estimate.scores.at(estimate.chosen).method;
+  };
+  CameraModel camera = FilmCamera();
+  EXPECT_THAT(chosen(camera), testing::AnyOf(testing::HasSubstr("debevec"), "robertson"));
+  camera.response = support::SrgbEncoded;
+  EXPECT_EQ(chosen(camera), "sRGB");
+  camera.response = nullptr;
+  EXPECT_EQ(chosen(camera), "linear");
 }
 
 TEST(EstimateResponseTest, SixteenBitCurvesAreFoundToo) {

@@ -76,7 +76,8 @@ TEST(ProjectionUncertainty, IsTheScatterOfCalibrationsFromFreshNoise) {
     const double expected = std::sqrt(
         ProjectionCovarianceAt(reference.cameras[0].camera, predicted, pixel, ranges_m[k / pixels.size()])
             .trace());
-    // The root of a sum of 80 squares scatters by 8 % (11 % where one direction has all of it): three of these.
+    // The root of a sum of 80 squares scatters by 8 % (11 % where one direction has all of it): three of
+    // these.
     EXPECT_NEAR(std::sqrt(sums[k] / kSamples), expected, 0.25 * expected) << pixel.transpose();
   }
 }

@@ -215,8 +215,7 @@ int main(int argc, char** argv) {
     std::printf("%ld samples; held-out error, counts:\n", static_cast<long>(samples[0].counts[0].rows()));
     for (const luxfit::ResponseScore& score : estimate.scores)
       std::printf("  %-28s %.3f\n", score.method.c_str(), score.held_out_error_counts);
-    std::printf("  %-28s %.3f\nchosen: %s\n", "linear", estimate.linear_error_counts,
-                estimate.scores[estimate.chosen].method.c_str());
+    std::printf("chosen: %s\n", estimate.scores[estimate.chosen].method.c_str());
     Compare(frames, *estimate.response, published, inside);
     std::printf("robertson:\n");
     Compare(frames, luxfit::SolveRobertson(samples, {}), published, inside);

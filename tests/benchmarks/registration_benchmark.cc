@@ -1,0 +1,130 @@
+// Registration after detection: 100 views of 12 tags, and joint problems of views and points.
+//
+// `luxfit_joint` adjusts the same views and points as COLMAP's bundle_adjuster, see docs/calib.md.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "calib/colmap_cameras.h"
+#include "calib/colmap_model.h"
+#include "calib/registration.h"
+#include "tests/support/feature_room.h"
+
+namespace luxfit {
+namespace {
+
+struct Problem {
+  support::FeatureRoom room;
+  std::vector<ViewDetections> detections;
+  FeatureModel features;
+};
+
+// Views that see about twelve tags each: 40 on the walls.
+Problem MakeProblem(int views, int points) {
+  std::mt19937_64 rng(1);
+  Problem problem;
+  problem.room = support::MakeFeatureRoom(views, 40, points, rng);
+  double tags = 0;
+  for (std::size_t v = 0; v < problem.room.poses.size(); ++v) {
+    problem.detections.push_back(support::DetectTagsOf(problem.room, problem.room.tags, v, 0.05, rng));
+    if (problem.detections.back().tags.size() > 12) problem.detections.back().tags.resize(12);
+    tags += static_cast<double>(problem.detections.back().tags.size());
+  }
+  problem.features = support::FeaturesOfRoom(problem.room, {0.3, 0, 0.005}, support::AnySimilarity(), rng);
+  return problem;
+}
+
+void Report(benchmark::State& state, const Problem& problem, const Registration& registration) {
+  double tags = 0, observations = 0, error_m = 0;
+  for (const ViewDetections& view : problem.detections) tags += static_cast<double>(view.tags.size());
+  for (const FeatureTrack& track : problem.features.tracks)
+    observations += static_cast<double>(track.seen.size());
+  for (std::size_t i = 0; i < registration.views.size(); ++i) {
+    const auto v = static_cast<std::size_t>(std::stoi(registration.views[i].view.substr(1)));
+    error_m += support::PoseError(registration.views[i], problem.room.poses[v]).tail<3>().norm() /
+               static_cast<double>(registration.views.size());
+  }
+  state.counters["views"] = static_cast<double>(registration.views.size());
+  state.counters["tags_a_view"] = tags / static_cast<double>(problem.detections.size());
+  state.counters["observations"] = observations;
+  state.counters["error_mm"] = 1000 * error_m;
+}
+
+void Tags(benchmark::State& state) {
+  const Problem problem = MakeProblem(static_cast<int>(state.range(0)), 0);
+  Registration registration;
+  for (auto _ : state)
+    registration = RegisterViews({problem.room.camera}, problem.room.tags, problem.detections);
+  Report(state, problem, registration);
+}
+BENCHMARK(Tags)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond);
+
+void TagsAndPoints(benchmark::State& state) {
+  const Problem problem = MakeProblem(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  Registration registration;
+  for (auto _ : state) {
+    registration =
+        RegisterViews({problem.room.camera}, problem.room.tags, problem.detections, problem.features);
+  }
+  Report(state, problem, registration);
+}
+BENCHMARK(TagsAndPoints)
+    ->Args({10, 1000})
+    ->Args({30, 3000})
+    ->Args({100, 3000})
+    ->Unit(benchmark::kMillisecond);
+
+// COLMAP's own adjustment of the same views and points, its start included as a process, one thread.
+void ColmapBundleAdjuster(benchmark::State& state) {
+  namespace fs = std::filesystem;
+  if (std::system("command -v colmap > /dev/null 2>&1") != 0) {
+    state.SkipWithError("colmap is not installed");
+    return;
+  }
+  const Problem problem = MakeProblem(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+  const fs::path folder = fs::temp_directory_path() / "luxfit_colmap_benchmark";
+  fs::create_directories(folder / "out");
+  ColmapModel model;
+  model.cameras[1] = problem.room.camera;
+  for (std::size_t v = 0; v < problem.features.views.size(); ++v) {
+    model.images[static_cast<int>(v) + 1] = {
+        problem.features.views[v].view, 1, problem.features.views[v].cam_from_model, {}};
+  }
+  for (const FeatureTrack& track : problem.features.tracks) {
+    ColmapPoint point;
+    point.p_in_model = track.p_in_model;
+    for (const FeatureObservation& seen : track.seen) {
+      std::vector<Eigen::Vector2d>& keypoints = model.images[seen.view + 1].keypoints_px;
+      point.track.push_back({seen.view + 1, static_cast<int>(keypoints.size())});
+      keypoints.push_back(seen.pixel);
+    }
+    model.points[static_cast<std::int64_t>(model.points.size()) + 1] = point;
+  }
+  std::ofstream(folder / "cameras.txt") << ColmapCamerasText(model.cameras);
+  std::ofstream(folder / "images.txt") << ColmapImagesText(model);
+  std::ofstream(folder / "points3D.txt") << ColmapPointsText(model);
+  const std::string command =
+      "OMP_NUM_THREADS=1 taskset -c 0 colmap bundle_adjuster --input_path " + folder.string() +
+      " --output_path " + (folder / "out").string() +
+      " --BundleAdjustment.refine_focal_length 0 --BundleAdjustment.refine_extra_params 0"
+      " > /dev/null 2>&1";
+  for (auto _ : state) {
+    if (std::system(command.c_str()) != 0) state.SkipWithError("colmap bundle_adjuster failed");
+  }
+  fs::remove_all(folder);
+}
+BENCHMARK(ColmapBundleAdjuster)
+    ->Args({10, 1000})
+    ->Args({30, 3000})
+    ->Args({100, 3000})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace luxfit
