@@ -192,9 +192,10 @@ double DetectorCornerSigmaPx(double side_px) {
   // Measured on area-integrated renders with lens blur 0.7 px; below 16 px extrapolated as 1 / side.
   constexpr std::array<std::pair<double, double>, 5> kTable = {
       {{16, 0.22}, {24, 0.14}, {40, 0.055}, {80, 0.045}, {160, 0.04}}};
-  // Photos sharper than the pixel grid are aliased, and gamma moves edges: 0.1 px more, independent of the
-  // size.
-  constexpr double kAliasingPx = 0.1;
+  // The detector sees the photo with a display gamma, which moves edges towards the black by 0.36 px at a
+  // lens blur of 0.7 px (docs/calib.md, "Boards and tags"), whatever the size; photos sharper than the pixel
+  // grid are aliased.
+  constexpr double kDisplayPx = 0.35;
   double blurred_px = kTable.back().second;
   if (side_px <= kTable.front().first) {
     blurred_px = kTable.front().second * kTable.front().first / std::max(side_px, 1.0);
@@ -206,7 +207,7 @@ double DetectorCornerSigmaPx(double side_px) {
       break;
     }
   }
-  return std::hypot(blurred_px, kAliasingPx);
+  return std::hypot(blurred_px, kDisplayPx);
 }
 
 std::vector<TagDetection> DetectTags(const ImagePlane& grey, const DetectTagsOptions& options) {

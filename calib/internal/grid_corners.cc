@@ -53,6 +53,7 @@ GridCornerMeasurer::GridCornerMeasurer(const ImagePlane& grey, const Board& boar
   refine_.family = board.family;
   refine_.border_bits = border_bits;
   refine_.max_shift_cells = 1;  // the start comes from a reduced photo
+  refine_.max_pixels = 1000;    // a board has many tags
   exponent_ = BestExponent(tags);
 }
 
@@ -129,7 +130,7 @@ double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& all) const {
   constexpr int kPixels = 700;  // a share of each tag will do
   const std::size_t stride = std::max<std::size_t>(1, tags.size() / kTags);
   double best = 1, least = std::numeric_limits<double>::infinity();
-  for (const double exponent : {1.0, 1.5, 1.9, 2.2, 2.5}) {
+  for (const double exponent : {1.0, 1.7, 2.2}) {
     // The fit's own sigmas grow with what the model does not explain.
     double sum = 0;
     int fitted = 0;

@@ -343,10 +343,12 @@ void StudySpeed(const std::string& folder, bool is_quick) {
     auto series = std::find_if(chart.series.begin(), chart.series.end(),
                                [&](const LineSeries& s) { return s.name == point.series; });
     if (series == chart.series.end())
-      series = chart.series.insert(chart.series.end(), LineSeries{point.series, {}, {}, true});
+      series = chart.series.insert(chart.series.end(), LineSeries{point.series, {}, {}, false});
     series->points.emplace_back(point.cpu_s, point.score.RmsPx());
-    series->labels.push_back(fmt::format("{}{}{:.0f} %", point.label, point.label.empty() ? "" : ": ",
-                                         point.score.FoundPercent()));
+    // One series with labels tells them all: the others lie above and below it.
+    const bool has_label = point.series == "edges as found" || point.label.size() > 3;
+    series->labels.push_back(has_label ? fmt::format("{}: {:.0f} %", point.label, point.score.FoundPercent())
+                                       : "");
   }
   WriteText(folder + "/calib_tag_speed.csv", csv);
   WriteText(folder + "/calib_tag_speed.svg", LineChartSvg(chart));
