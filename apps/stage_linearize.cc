@@ -12,7 +12,7 @@ namespace luxfit {
 namespace {
 
 Photo ReadCounts(const SessionCamera& settings, const std::string& file) {
-  const Photo counts = ReadPhoto(file);
+  Photo counts = ReadPhoto(file);
   if (counts.bits_per_channel == 8 && settings.response == "linear") {
     throw std::runtime_error(fmt::format(
         "{}: expected linear counts (camera \"{}\" has response = \"linear\"), got an 8-bit "

@@ -28,9 +28,9 @@ std::string Joined(const std::vector<std::string>& parts) {
 // Ninths of the image without a corner.
 Eigen::Array<bool, kThirds, kThirds> EmptyThirds(const Eigen::MatrixXi& counts) {
   Eigen::Array<bool, kThirds, kThirds> empty;
-  constexpr int kSide = kCells / kThirds;
-  for (int row = 0; row < kThirds; ++row) {
-    for (int column = 0; column < kThirds; ++column)
+  constexpr Eigen::Index kSide = kCells / kThirds;
+  for (Eigen::Index row = 0; row < kThirds; ++row) {
+    for (Eigen::Index column = 0; column < kThirds; ++column)
       empty(row, column) = counts.block(kSide * row, kSide * column, kSide, kSide).sum() == 0;
   }
   return empty;

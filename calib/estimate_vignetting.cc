@@ -35,7 +35,7 @@ std::vector<Row> RowsOf(const std::vector<VignettingSample>& samples, int photos
     rows.push_back({sample.photo, surface, 0, r2, std::log(sample.value), sample.relative_sigma});
   }
   // Whole surfaces are held out, unless there are too few of them (a flat field is one).
-  const bool by_surface = surfaces.size() >= 2 * kFolds;
+  const bool by_surface = static_cast<int>(surfaces.size()) >= 2 * kFolds;
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].fold = (by_surface ? rows[i].surface : static_cast<int>(i)) % kFolds;
   std::stable_sort(rows.begin(), rows.end(),

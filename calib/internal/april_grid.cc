@@ -40,9 +40,10 @@ struct Numbering {
 
 TagGrid Layout(const Board& board, const Numbering& numbering) {
   const std::vector<Eigen::Vector3d> corners = BoardCorners(board);
+  const int tags = board.rows * board.columns;
   TagGrid grid;
-  grid.reserve(static_cast<std::size_t>(board.rows * board.columns));
-  for (int i = 0; i < board.rows * board.columns; ++i) {
+  grid.reserve(static_cast<std::size_t>(tags));
+  for (int i = 0; i < tags; ++i) {
     const int along = i % board.columns, up = i / board.columns, across = 2 * board.columns;
     const int row = numbering.is_from_bottom ? board.rows - 1 - up : up;
     const int column = numbering.is_from_left ? along : board.columns - 1 - along;
@@ -172,10 +173,10 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
 
 std::vector<TagCells> AllCells(const Board& board, int border_bits) {
   const TagFamilyPtr family = MakeTagFamily(board.family);
+  const int tags = board.rows * board.columns;
   std::vector<TagCells> cells;
-  cells.reserve(static_cast<std::size_t>(board.rows * board.columns));
-  for (int i = 0; i < board.rows * board.columns; ++i)
-    cells.push_back(CellsOf(*family, board.first_id + i, border_bits));
+  cells.reserve(static_cast<std::size_t>(tags));
+  for (int i = 0; i < tags; ++i) cells.push_back(CellsOf(*family, board.first_id + i, border_bits));
   return cells;
 }
 

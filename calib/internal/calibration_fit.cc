@@ -184,8 +184,8 @@ LensFit FitLens(CalibrationProblem problem, const CalibrationSeed& seed, const L
   const SolvedState solved = SolveCalibration(problem, family, {false, false}, CalibrationBackEnd::kMrcal);
   const CalibrationState core = solved.ok ? solved.state : family;
   MarkOutliers(problem, Residuals(problem, core), kGateOfDiagonal * DiagonalPx(problem));
-  return FitFrom(std::move(problem), from_pinhole ? FromSimpler(core, kind) : FromWide(problem, core, kind),
-                 options);
+  const CalibrationState start = from_pinhole ? FromSimpler(core, kind) : FromWide(problem, core, kind);
+  return FitFrom(std::move(problem), start, options);
 }
 
 }  // namespace luxfit

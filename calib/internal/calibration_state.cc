@@ -51,8 +51,9 @@ CalibrationProblem MakeProblem(const CalibrationInput& input) {
 Eigen::Vector3d TargetPoint(const CalibrationTarget& target, int point, const Eigen::Vector2d& warp_m) {
   Eigen::Vector3d p = target.points[static_cast<std::size_t>(point)];
   if (!target.IsGrid()) return p;
-  const double x = static_cast<double>(point % target.columns) / (target.columns - 1);
-  const double y = static_cast<double>(point / target.columns) / (target.rows - 1);
+  const int column = point % target.columns, row = point / target.columns;
+  const double x = static_cast<double>(column) / (target.columns - 1);
+  const double y = static_cast<double>(row) / (target.rows - 1);
   p.z() += 4 * warp_m.x() * x * (1 - x) + 4 * warp_m.y() * y * (1 - y);
   return p;
 }

@@ -22,7 +22,8 @@ struct CornerGrid {
   std::vector<Eigen::Vector2d> pixels;  // row by row
 
   const Eigen::Vector2d& At(int column, int row) const {
-    return pixels[static_cast<std::size_t>(row * columns + column)];
+    const int index = row * columns + column;
+    return pixels[static_cast<std::size_t>(index)];
   }
 };
 
@@ -80,7 +81,7 @@ bool IsFirstSquareBlack(const ImagePlane& grey, const CornerGrid& grid) {
     }
   }
   const int squares = (grid.columns - 1) * (grid.rows - 1);
-  const double blacks = (squares + 1) / 2, whites = squares / 2;
+  const int blacks = (squares + 1) / 2, whites = squares / 2;
   return black / blacks < white / whites;
 }
 
