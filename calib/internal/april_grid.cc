@@ -41,7 +41,7 @@ struct Numbering {
 TagGrid Layout(const Board& board, const Numbering& numbering) {
   const std::vector<Eigen::Vector3d> corners = BoardCorners(board);
   TagGrid grid;
-  grid.reserve(static_cast<std::size_t>(board.rows * board.columns));
+  grid.reserve(static_cast<std::size_t>(board.rows) * static_cast<std::size_t>(board.columns));
   for (int i = 0; i < board.rows * board.columns; ++i) {
     const int along = i % board.columns, up = i / board.columns, across = 2 * board.columns;
     const int row = numbering.is_from_bottom ? board.rows - 1 - up : up;
@@ -173,7 +173,7 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
 std::vector<TagCells> AllCells(const Board& board, int border_bits) {
   const TagFamilyPtr family = MakeTagFamily(board.family);
   std::vector<TagCells> cells;
-  cells.reserve(static_cast<std::size_t>(board.rows * board.columns));
+  cells.reserve(static_cast<std::size_t>(board.rows) * static_cast<std::size_t>(board.columns));
   for (int i = 0; i < board.rows * board.columns; ++i)
     cells.push_back(CellsOf(*family, board.first_id + i, border_bits));
   return cells;
