@@ -191,6 +191,14 @@ std::string MissingTags(const SeenGrid& seen, const Board& board) {
          " tags were found; hidden, outside the photo or too small: " + ids;
 }
 
+std::vector<SeenTag> Measured(const GridCornerMeasurer& measurer, const std::vector<SeenTag>& tags) {
+  std::vector<SeenTag> measured;
+  for (const SeenTag& tag : tags) {
+    if (const auto its = measurer.Measure(tag)) measured.push_back(*its);
+  }
+  return measured;
+}
+
 }  // namespace
 
 BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
@@ -200,15 +208,13 @@ BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
     detection.message = WhyNotThisBoard(seen, board);
     return detection;
   }
-  const GridCornerMeasurer measurer(grey, board, seen.border_bits, seen.tags);
-  const auto measure = [&](const SeenTag& tag) { return measurer.Measure(tag); };
-  std::vector<SeenTag> measured;
-  for (const SeenTag& tag : seen.tags) {
-    if (const auto its = measure(tag)) measured.push_back(*its);
-  }
-  seen.tags = std::move(measured);
+  const GridCornerMeasurer first(grey, board, seen.border_bits);
+  seen.tags = Measured(first, seen.tags);
   detection.message = WhyNotThisBoard(seen, board);
   if (!detection.message.empty()) return detection;
+  const GridCornerMeasurer tuned = first.Tuned(seen.grid, seen.tags);
+  seen.tags = Measured(tuned, seen.tags);
+  const auto measure = [&](const SeenTag& tag) { return tuned.Measure(tag); };
   seen.tags =
       WithPredictedTags(grey, seen.grid, AllCells(board, seen.border_bits), std::move(seen.tags), measure);
   for (const SeenTag& tag : seen.tags) {
