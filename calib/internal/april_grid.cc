@@ -163,6 +163,10 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
       static_cast<double>(seen.tags.size()) < kLeastAgreeing * static_cast<double>(seen.found))
     return std::to_string(seen.found) + " tags were found, but only " + std::to_string(seen.tags.size()) +
            " where a grid of " + grid + " has them; check columns, rows and first_id";
+  return "";
+}
+
+std::string WhyNotThisSpacing(const SeenGrid& seen, const Board& board) {
   const double spacing = MeasuredSpacing(seen, board);
   if (std::abs(spacing - board.spacing) > kMostSpacingError)
     return "the gaps between tags measure " + Text(spacing) + " tag sizes, the board says " +
@@ -204,13 +208,13 @@ std::vector<SeenTag> Measured(const GridCornerMeasurer& measurer, const std::vec
 BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
   BoardDetection detection;
   SeenGrid seen = FindGrid(grey, board);
-  if (seen.tags.empty()) {
-    detection.message = WhyNotThisBoard(seen, board);
-    return detection;
-  }
+  detection.message = WhyNotThisBoard(seen, board);
+  if (!detection.message.empty()) return detection;
   const GridCornerMeasurer first(grey, board, seen.border_bits);
   seen.tags = Measured(first, seen.tags);
-  detection.message = WhyNotThisBoard(seen, board);
+  detection.message = seen.tags.empty()
+                          ? "tags were found, but their corners are too small or blurred to be measured"
+                          : WhyNotThisSpacing(seen, board);
   if (!detection.message.empty()) return detection;
   const GridCornerMeasurer tuned = first.Tuned(seen.grid, seen.tags);
   seen.tags = Measured(tuned, seen.tags);

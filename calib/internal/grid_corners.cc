@@ -170,6 +170,7 @@ void GridCornerMeasurer::MeasurePlain(const std::array<bool, 4>& is_plain, SeenT
 
 std::optional<SeenTag> GridCornerMeasurer::Measure(const SeenTag& tag) const {
   SeenTag measured = tag;
+  measured.sigma_px = {0, 0, 0, 0};  // of an earlier measurement
   const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
   if (!pixel_from_tag) return std::nullopt;
   for (std::size_t k = 0; k < 4; ++k) {
