@@ -8,6 +8,7 @@
 #include "calib/internal/find_tags.h"
 #include "calib/internal/grid_corners.h"
 #include "calib/internal/homography.h"
+#include "calib/internal/plane_lens.h"
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_grid.h"
 #include "calib/tags.h"
@@ -166,8 +167,22 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
   return "";
 }
 
-std::string WhyNotThisSpacing(const SeenGrid& seen, const Board& board) {
-  const double spacing = MeasuredSpacing(seen, board);
+// Large tags in a lens that bends them look further apart, or nearer, than they are: its bending is taken
+// out.
+std::string WhyNotThisSpacing(const ImagePlane& grey, const SeenGrid& seen, const Board& board) {
+  std::vector<Eigen::Vector2d> places_m, pixels;
+  for (const SeenTag& tag : seen.tags) {
+    const GridTag& on_board = seen.grid[static_cast<std::size_t>(tag.number)];
+    places_m.insert(places_m.end(), on_board.corners_m.begin(), on_board.corners_m.end());
+    pixels.insert(pixels.end(), tag.corners_px.begin(), tag.corners_px.end());
+  }
+  const Camera lens =
+      LensOfPlane(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), places_m, pixels);
+  SeenGrid straight = seen;
+  for (SeenTag& tag : straight.tags) {
+    for (Eigen::Vector2d& corner : tag.corners_px) corner = Straightened(lens, corner);
+  }
+  const double spacing = MeasuredSpacing(straight, board);
   if (std::abs(spacing - board.spacing) > kMostSpacingError)
     return "the gaps between tags measure " + Text(spacing) + " tag sizes, the board says " +
            Text(board.spacing) + "; check spacing";
@@ -214,7 +229,7 @@ BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
   seen.tags = Measured(first, seen.tags);
   detection.message = seen.tags.empty()
                           ? "tags were found, but their corners are too small or blurred to be measured"
-                          : WhyNotThisSpacing(seen, board);
+                          : WhyNotThisSpacing(grey, seen, board);
   if (!detection.message.empty()) return detection;
   const GridCornerMeasurer tuned = first.Tuned(seen.grid, seen.tags);
   seen.tags = Measured(tuned, seen.tags);

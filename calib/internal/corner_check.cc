@@ -1,6 +1,5 @@
 #include "calib/internal/corner_check.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -62,19 +61,15 @@ double Median(std::vector<double> values) {
 }
 
 // The corners as a lens without distortion would show them.
-std::vector<BoardCorner> Straightened(const std::vector<Placed>& places, int width_px, int height_px,
-                                      std::vector<BoardCorner> corners) {
+std::vector<BoardCorner> WithoutLens(const std::vector<Placed>& places, int width_px, int height_px,
+                                     std::vector<BoardCorner> corners) {
   std::vector<Eigen::Vector2d> places_m, pixels;
   for (const BoardCorner& corner : corners) {
     places_m.push_back(places[static_cast<std::size_t>(corner.index)].place_m);
     pixels.push_back(corner.pixel);
   }
   const Camera lens = LensOfPlane(width_px, height_px, places_m, pixels);
-  const Eigen::Vector2d middle(lens.cx_px, lens.cy_px);
-  for (BoardCorner& corner : corners) {
-    const Eigen::Vector3d ray = Unproject(lens, corner.pixel);
-    if (ray.allFinite()) corner.pixel = middle + lens.fx_px * ray.hnormalized();
-  }
+  for (BoardCorner& corner : corners) corner.pixel = Straightened(lens, corner.pixel);
   return corners;
 }
 
@@ -83,7 +78,7 @@ std::vector<BoardCorner> Straightened(const std::vector<Placed>& places, int wid
 std::vector<BoardCorner> WithoutStrayCorners(const Board& board, int width_px, int height_px,
                                              std::vector<BoardCorner> corners) {
   const std::vector<Placed> places = PlacesOf(board);
-  std::vector<BoardCorner> straight = Straightened(places, width_px, height_px, corners);
+  std::vector<BoardCorner> straight = WithoutLens(places, width_px, height_px, corners);
   const std::size_t least = corners.size() / 2;
   while (corners.size() > least) {
     std::vector<double> strays_px(straight.size());

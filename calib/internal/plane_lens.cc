@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,6 +85,12 @@ Camera LensOfPlane(int width_px, int height_px, const std::vector<Eigen::Vector2
   camera.distortion[0] = k[0];
   camera.distortion[1] = k[1];
   return camera;
+}
+
+Eigen::Vector2d Straightened(const Camera& lens, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d ray = Unproject(lens, pixel);
+  if (!ray.allFinite()) return pixel;
+  return Eigen::Vector2d(lens.cx_px, lens.cy_px) + lens.fx_px * ray.hnormalized();
 }
 
 }  // namespace luxfit

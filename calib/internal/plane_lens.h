@@ -21,6 +21,9 @@ namespace luxfit {
 Camera LensOfPlane(int width_px, int height_px, const std::vector<Eigen::Vector2d>& places_m,
                    const std::vector<Eigen::Vector2d>& pixels);
 
+// The pixel as the same camera without distortion would show it; itself where the lens has no inverse.
+Eigen::Vector2d Straightened(const Camera& lens, const Eigen::Vector2d& pixel);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_CALIB_INTERNAL_PLANE_LENS_H_
