@@ -30,7 +30,8 @@ BoardDetection DetectBoard(const ImagePlane& grey, const Board& board) {
   if (grey.size() == 0) return {{}, "the photo is empty"};
   BoardDetection detection = DetectOfType(grey, board);
   const std::size_t found = detection.corners.size();
-  detection.corners = WithoutStrayCorners(board, std::move(detection.corners));
+  detection.corners = WithoutStrayCorners(board, static_cast<int>(grey.cols()), static_cast<int>(grey.rows()),
+                                          std::move(detection.corners));
   const std::size_t strays = found - detection.corners.size();
   if (strays > 0)
     detection.message += (detection.message.empty() ? "" : "; ") + std::to_string(strays) +

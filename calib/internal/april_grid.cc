@@ -8,6 +8,7 @@
 #include "calib/internal/find_tags.h"
 #include "calib/internal/grid_corners.h"
 #include "calib/internal/homography.h"
+#include "calib/internal/plane_lens.h"
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_grid.h"
 #include "calib/tags.h"
@@ -164,7 +165,25 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
       static_cast<double>(seen.tags.size()) < kLeastAgreeing * static_cast<double>(seen.found))
     return std::to_string(seen.found) + " tags were found, but only " + std::to_string(seen.tags.size()) +
            " where a grid of " + grid + " has them; check columns, rows and first_id";
-  const double spacing = MeasuredSpacing(seen, board);
+  return "";
+}
+
+// Large tags in a lens that bends them look further apart, or nearer, than they are: its bending is taken
+// out.
+std::string WhyNotThisSpacing(const ImagePlane& grey, const SeenGrid& seen, const Board& board) {
+  std::vector<Eigen::Vector2d> places_m, pixels;
+  for (const SeenTag& tag : seen.tags) {
+    const GridTag& on_board = seen.grid[static_cast<std::size_t>(tag.number)];
+    places_m.insert(places_m.end(), on_board.corners_m.begin(), on_board.corners_m.end());
+    pixels.insert(pixels.end(), tag.corners_px.begin(), tag.corners_px.end());
+  }
+  const Camera lens =
+      LensOfPlane(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), places_m, pixels);
+  SeenGrid straight = seen;
+  for (SeenTag& tag : straight.tags) {
+    for (Eigen::Vector2d& corner : tag.corners_px) corner = Straightened(lens, corner);
+  }
+  const double spacing = MeasuredSpacing(straight, board);
   if (std::abs(spacing - board.spacing) > kMostSpacingError)
     return "the gaps between tags measure " + Text(spacing) + " tag sizes, the board says " +
            Text(board.spacing) + "; check spacing";
@@ -192,24 +211,30 @@ std::string MissingTags(const SeenGrid& seen, const Board& board) {
          " tags were found; hidden, outside the photo or too small: " + ids;
 }
 
+std::vector<SeenTag> Measured(const GridCornerMeasurer& measurer, const std::vector<SeenTag>& tags) {
+  std::vector<SeenTag> measured;
+  for (const SeenTag& tag : tags) {
+    if (const auto its = measurer.Measure(tag)) measured.push_back(*its);
+  }
+  return measured;
+}
+
 }  // namespace
 
 BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
   BoardDetection detection;
   SeenGrid seen = FindGrid(grey, board);
-  if (seen.tags.empty()) {
-    detection.message = WhyNotThisBoard(seen, board);
-    return detection;
-  }
-  const GridCornerMeasurer measurer(grey, board, seen.border_bits, seen.tags);
-  const auto measure = [&](const SeenTag& tag) { return measurer.Measure(tag); };
-  std::vector<SeenTag> measured;
-  for (const SeenTag& tag : seen.tags) {
-    if (const auto its = measure(tag)) measured.push_back(*its);
-  }
-  seen.tags = std::move(measured);
   detection.message = WhyNotThisBoard(seen, board);
   if (!detection.message.empty()) return detection;
+  const GridCornerMeasurer first(grey, board, seen.border_bits);
+  seen.tags = Measured(first, seen.tags);
+  detection.message = seen.tags.empty()
+                          ? "tags were found, but their corners are too small or blurred to be measured"
+                          : WhyNotThisSpacing(grey, seen, board);
+  if (!detection.message.empty()) return detection;
+  const GridCornerMeasurer tuned = first.Tuned(seen.grid, seen.tags);
+  seen.tags = Measured(tuned, seen.tags);
+  const auto measure = [&](const SeenTag& tag) { return tuned.Measure(tag); };
   seen.tags =
       WithPredictedTags(grey, seen.grid, AllCells(board, seen.border_bits), std::move(seen.tags), measure);
   for (const SeenTag& tag : seen.tags) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/camera.h"
 #include "calib/internal/homography.h"
+#include "calib/internal/plane_lens.h"
 
 namespace luxfit {
 namespace {
@@ -58,17 +60,33 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+// The corners as a lens without distortion would show them.
+std::vector<BoardCorner> WithoutLens(const std::vector<Placed>& places, int width_px, int height_px,
+                                     std::vector<BoardCorner> corners) {
+  std::vector<Eigen::Vector2d> places_m, pixels;
+  for (const BoardCorner& corner : corners) {
+    places_m.push_back(places[static_cast<std::size_t>(corner.index)].place_m);
+    pixels.push_back(corner.pixel);
+  }
+  const Camera lens = LensOfPlane(width_px, height_px, places_m, pixels);
+  for (BoardCorner& corner : corners) corner.pixel = Straightened(lens, corner.pixel);
+  return corners;
+}
+
 }  // namespace
 
-std::vector<BoardCorner> WithoutStrayCorners(const Board& board, std::vector<BoardCorner> corners) {
+std::vector<BoardCorner> WithoutStrayCorners(const Board& board, int width_px, int height_px,
+                                             std::vector<BoardCorner> corners) {
   const std::vector<Placed> places = PlacesOf(board);
+  std::vector<BoardCorner> straight = WithoutLens(places, width_px, height_px, corners);
   const std::size_t least = corners.size() / 2;
   while (corners.size() > least) {
-    std::vector<double> strays_px(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) strays_px[i] = StrayPx(places, corners, i);
+    std::vector<double> strays_px(straight.size());
+    for (std::size_t i = 0; i < straight.size(); ++i) strays_px[i] = StrayPx(places, straight, i);
     const auto worst = std::max_element(strays_px.begin(), strays_px.end());
     if (!(*worst > kLeastStrayPx + kMedians * Median(strays_px))) break;
     corners.erase(corners.begin() + (worst - strays_px.begin()));
+    straight.erase(straight.begin() + (worst - strays_px.begin()));
   }
   return corners;
 }

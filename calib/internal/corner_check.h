@@ -12,7 +12,8 @@ namespace luxfit {
 // tag may err together) to 0.3 px and 6 times the board's median: lenses and bent paper leave smooth
 // deviations, which neighbours share. The worst is left out first, for it spoils its neighbours'
 // homographies.
-std::vector<BoardCorner> WithoutStrayCorners(const Board& board, std::vector<BoardCorner> corners);
+std::vector<BoardCorner> WithoutStrayCorners(const Board& board, int width_px, int height_px,
+                                             std::vector<BoardCorner> corners);
 
 }  // namespace luxfit
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "calib/internal/homography.h"
+#include "calib/internal/plane_lens.h"
 #include "calib/internal/plane_sample.h"
 #include "calib/internal/saddle.h"
 #include "calib/internal/tag_family.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kWindowShare = 0.9;  // of the fields about a corner
 constexpr double kMostWindowPx = 12;  // more pixels gain nothing, and lens and perspective bend edges
 constexpr double kDetectorSigmaPx = 1;
+constexpr int kPixelsAtFirst = 600, kPixels = 1000;  // of a tag that its fit looks at: a board has many tags
 
 constexpr std::array<std::array<double, 2>, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
@@ -24,17 +26,6 @@ constexpr std::array<std::array<double, 2>, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1
 Eigen::Vector2d FromCorner(std::size_t corner, double along_x, double along_y) {
   const double x = kSquare[corner][0], y = kSquare[corner][1];
   return {x + (x > 0 ? -along_x : along_x), y + (y > 0 ? -along_y : along_y)};
-}
-
-// A lens bends a single tag little.
-Camera PinholeFor(const ImagePlane& grey) {
-  Camera camera;
-  camera.width_px = static_cast<int>(grey.cols());
-  camera.height_px = static_cast<int>(grey.rows());
-  camera.fx_px = camera.fy_px = 4 * std::max(camera.width_px, camera.height_px);
-  camera.cx_px = 0.5 * (camera.width_px - 1);
-  camera.cy_px = 0.5 * (camera.height_px - 1);
-  return camera;
 }
 
 double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
@@ -45,16 +36,39 @@ double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
 
 }  // namespace
 
-GridCornerMeasurer::GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits,
-                                       const std::vector<SeenTag>& tags)
-    : grey_(grey), spacing_(board.spacing), first_id_(board.first_id) {
+GridCornerMeasurer::GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits)
+    : grey_(grey),
+      spacing_(board.spacing),
+      first_id_(board.first_id),
+      lens_(LensOfPlane(static_cast<int>(grey.cols()), static_cast<int>(grey.rows()), {}, {})) {
   const TagFamilyPtr family = MakeTagFamily(board.family);
   border_ = CellsOf(*family, board.first_id, border_bits).border;
   refine_.family = board.family;
   refine_.border_bits = border_bits;
   refine_.max_shift_cells = 1;  // the start comes from a reduced photo
-  refine_.max_pixels = 1000;    // a board has many tags
-  exponent_ = BestExponent(tags);
+  refine_.max_pixels = kPixelsAtFirst;
+}
+
+GridCornerMeasurer GridCornerMeasurer::Tuned(const TagGrid& grid, const std::vector<SeenTag>& tags) const {
+  GridCornerMeasurer tuned = *this;
+  std::vector<SeenTag> plain;
+  std::vector<Eigen::Vector2d> places_m, pixels;
+  for (const SeenTag& tag : tags) {
+    const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
+    if (!pixel_from_tag) continue;
+    const std::array<bool, 4> is_plain = PlainCorners(*pixel_from_tag);
+    if (std::count(is_plain.begin(), is_plain.end(), true) == 4) plain.push_back(tag);
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!(tag.sigma_px[k] > 0)) continue;
+      places_m.push_back(grid[static_cast<std::size_t>(tag.number)].corners_m[k]);
+      pixels.push_back(tag.corners_px[k]);
+    }
+  }
+  if (plain.empty()) return tuned;
+  tuned.lens_ = LensOfPlane(lens_.width_px, lens_.height_px, places_m, pixels);
+  tuned.exponent_ = tuned.BestExponent(plain);
+  tuned.refine_.max_pixels = kPixels;
+  return tuned;
 }
 
 // Nothing where the photo does not show the fields about the corner.
@@ -106,7 +120,12 @@ std::optional<TagDetection> GridCornerMeasurer::FitTag(const SeenTag& tag, doubl
   RefineTagCornersOptions options = refine_;
   options.min_corner_sigma_px = floor_px;
   options.max_pixels = max_pixels;
-  TagDetection refined = RefineTagCorners(about, PinholeFor(about), {detection}, options).front();
+  Camera camera = lens_;
+  camera.width_px = static_cast<int>(about.cols());
+  camera.height_px = static_cast<int>(about.rows());
+  camera.cx_px -= begin.x();
+  camera.cy_px -= begin.y();
+  TagDetection refined = RefineTagCorners(about, camera, {detection}, options).front();
   if (refined.corner_sigma_px == kDetectorSigmaPx) return std::nullopt;  // as it came
   for (Eigen::Vector2d& corner : refined.corners_px) corner += begin.cast<double>().matrix();
   return refined;
@@ -118,16 +137,8 @@ std::array<bool, 4> GridCornerMeasurer::PlainCorners(const Eigen::Matrix3d& pixe
   return is_plain;
 }
 
-double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& all) const {
-  std::vector<SeenTag> tags;
-  for (const SeenTag& tag : all) {
-    const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
-    if (!pixel_from_tag) continue;
-    const std::array<bool, 4> is_plain = PlainCorners(*pixel_from_tag);
-    if (std::count(is_plain.begin(), is_plain.end(), true) == 4) tags.push_back(tag);
-  }
+double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& tags) const {
   constexpr std::size_t kTags = 3;
-  constexpr int kPixels = 700;  // a share of each tag will do
   const std::size_t stride = std::max<std::size_t>(1, tags.size() / kTags);
   double best = 1, least = std::numeric_limits<double>::infinity();
   for (const double exponent : {1.0, 1.7, 2.2}) {
@@ -135,7 +146,7 @@ double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& all) const {
     double sum = 0;
     int fitted = 0;
     for (std::size_t i = stride / 2; i < tags.size(); i += stride) {
-      const auto fit = FitTag(tags[i], exponent, 0, kPixels);
+      const auto fit = FitTag(tags[i], exponent, 0, kPixelsAtFirst);
       if (!fit) continue;
       sum += std::log(fit->corner_sigma_px);
       ++fitted;
@@ -159,6 +170,7 @@ void GridCornerMeasurer::MeasurePlain(const std::array<bool, 4>& is_plain, SeenT
 
 std::optional<SeenTag> GridCornerMeasurer::Measure(const SeenTag& tag) const {
   SeenTag measured = tag;
+  measured.sigma_px = {0, 0, 0, 0};  // of an earlier measurement
   const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
   if (!pixel_from_tag) return std::nullopt;
   for (std::size_t k = 0; k < 4; ++k) {

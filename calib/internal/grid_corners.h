@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "calib/board.h"
+#include "calib/camera.h"
 #include "calib/internal/tag_grid.h"
 #include "calib/tag_refine.h"
 
@@ -22,9 +23,11 @@ namespace luxfit {
 class GridCornerMeasurer {
  public:
   // The plane must outlive the measurer.
-  // The tags, as a detector found them, say how the counts are encoded.
-  GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits,
-                     const std::vector<SeenTag>& tags);
+  GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits);
+
+  // One that knows lens and encoding from these tags, measured by this one. Itself where no corner is plain:
+  // saddles need neither.
+  GridCornerMeasurer Tuned(const TagGrid& grid, const std::vector<SeenTag>& tags) const;
 
   // Corners that could not be measured keep their place and the sigma 0; nothing where none could.
   std::optional<SeenTag> Measure(const SeenTag& tag) const;
@@ -43,6 +46,7 @@ class GridCornerMeasurer {
   double border_ = 0;   // width of the black border, tag sizes
   int first_id_ = 0;
   RefineTagCornersOptions refine_;
+  Camera lens_;          // how lines bend; not a calibration
   double exponent_ = 1;  // linear = counts^exponent
 };
 

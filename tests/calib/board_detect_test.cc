@@ -132,7 +132,8 @@ TEST(BoardDetectTest, EveryKindIsFoundWhereItIsWithAnHonestSigma) {
       EXPECT_EQ(detection.message, "") << c.name;
       EXPECT_LT(errors.mean_px.norm(), 0.02) << c.name;
       EXPECT_LT(errors.rms_px, noise > 0 ? kNoisyRmsPx : kNoiselessRmsPx) << c.name;
-      EXPECT_GT(errors.normalised, 0.6) << c.name;
+      // Without noise the plain tags' fits err less than their floor of 0.03 px.
+      EXPECT_GT(errors.normalised, noise > 0 ? 0.5 : 0.2) << c.name;
       EXPECT_LT(errors.normalised, 1.4) << c.name;
     }
   }
@@ -154,6 +155,23 @@ TEST(BoardDetectTest, ADisplayCurveDoesNotMoveCorners) {
     EXPECT_LT(errors.rms_px, kNoiselessRmsPx) << c.name;
     EXPECT_LT(errors.normalised, 1.4) << c.name;
   }
+}
+
+// The default print, large tags in a lens that bends their sides by pixels: 0.9 px and sigmas nine times too
+// small if tags were taken for straight.
+TEST(BoardDetectTest, ALensThatBendsTagsDoesNotMoveTheirCorners) {
+  std::mt19937_64 rng = support::TestRng();
+  Camera camera = BentCamera();
+  camera.fx_px = camera.fy_px = 450;
+  camera.distortion = {-0.25, 0.03};
+  Board board = AprilGrid(4, 3);
+  board.tag_size_m = 0.1;
+  const Eigen::Isometry3d pose = Pose(board, 0.5, 0.1, {0.25, 0.15});
+  const ImagePlane grey = support::BoardRenderer(camera).Render(pose, DrawBoard(board), rng);
+  const Errors errors = Compare(DetectBoard(grey, board), board, camera, pose);
+  EXPECT_EQ(errors.corners, errors.expected);
+  EXPECT_LT(errors.rms_px, kNoiselessRmsPx);
+  EXPECT_LT(errors.normalised, 1.4);
 }
 
 // Every board at four turns about the viewing axis keeps its numbers; a grid cut off by the photo's edge too.
@@ -199,7 +217,9 @@ TEST(BoardDetectTest, AMislabelledGridIsRefusedWithTheReason) {
   EXPECT_THAT(message(AprilGrid(4, 5)), HasSubstr("check columns, rows and first_id"));
   Board other = board;
   other.spacing = 0.2;
-  EXPECT_THAT(message(other), HasSubstr("the gaps between tags measure 0.299 tag sizes, the board says 0.2"));
+  EXPECT_THAT(message(other),
+              testing::ContainsRegex("the gaps between tags measure 0.(29|30).* tag sizes, the "
+                                     "board says 0.2; check spacing"));
   other = board;
   other.first_id = 100;
   EXPECT_THAT(message(other), HasSubstr("no tag of the board was found (tag36h11, ids 100 to 119)"));
