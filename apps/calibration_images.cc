@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 #include "calib/board.h"
 #include "calib/corners_file.h"
 #include "calib/image.h"
+#include "calib/tag_refine.h"
 #include "calib/tags.h"
 
 namespace luxfit {
@@ -51,10 +53,7 @@ ImagePlane GreyOf(const Photo& photo, const Eigen::Vector3d& weights) {
 }
 
 // Tags in an image as corners of the survey; a tag seen twice is none that can be told apart.
-BoardDetection DetectSurveyedTags(const ImagePlane& grey, const SessionTags& tags) {
-  DetectTagsOptions options;
-  options.family = tags.family;
-  const std::vector<TagDetection> detections = DetectTags(grey, options);
+BoardDetection SurveyedCorners(const std::vector<TagDetection>& detections, const SessionTags& tags) {
   BoardDetection out;
   for (const TagDetection& tag : detections) {
     const auto same = [&](const TagDetection& other) { return other.id == tag.id; };
@@ -71,6 +70,25 @@ BoardDetection DetectSurveyedTags(const ImagePlane& grey, const SessionTags& tag
   return out;
 }
 
+std::vector<TagDetection> DetectTagsOf(const ImagePlane& grey, const SessionTags& tags) {
+  DetectTagsOptions options;
+  options.family = tags.family;
+  return DetectTags(grey, options);
+}
+
+BoardDetection DetectRefined(const Photo& photo, const SessionCamera& camera, const SessionTags& tags,
+                             const Camera& lens) {
+  const ImagePlane grey = GreyOf(photo, camera.luminance_weights);
+  // Saturated pixels say nothing about an edge's place.
+  ImagePlane unsaturated = grey;
+  for (const ImagePlane& plane : photo.rgb_counts)
+    unsaturated = (plane >= static_cast<float>(photo.saturation_counts))
+                      .select(std::numeric_limits<float>::quiet_NaN(), unsaturated);
+  RefineTagCornersOptions options;
+  options.family = tags.family;
+  return SurveyedCorners(RefineTagCorners(unsaturated, lens, DetectTagsOf(grey, tags), options), tags);
+}
+
 CameraImages Detect(const Session& session, const SessionCamera& camera, std::vector<std::string> files) {
   CameraImages images;
   images.files = std::move(files);
@@ -80,8 +98,8 @@ CameraImages Detect(const Session& session, const SessionCamera& camera, std::ve
     const Photo photo = ReadPhoto(images.files[i]);
     sizes[i] = {photo.width_px(), photo.height_px()};
     const ImagePlane grey = GreyOf(photo, camera.luminance_weights);
-    images.found[i] =
-        IsOfTags(camera) ? DetectSurveyedTags(grey, session.tags) : DetectBoard(grey, *camera.board);
+    images.found[i] = IsOfTags(camera) ? SurveyedCorners(DetectTagsOf(grey, session.tags), session.tags)
+                                       : DetectBoard(grey, *camera.board);
   });
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     if ((sizes[i] != sizes.front()).any())
@@ -197,6 +215,22 @@ std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, cons
     AddGroups(session, alike, images, groups);
   }
   return groups;
+}
+
+bool IsOfTags(const Session& session, const CalibrationGroup& group) {
+  return IsOfTags(session.cameras[static_cast<std::size_t>(group.cameras.front())]);
+}
+
+CalibrationGroup WithRefinedTags(const Session& session, CalibrationGroup group, const Camera& lens) {
+  const SessionCamera& camera = session.cameras[static_cast<std::size_t>(group.cameras.front())];
+  std::vector<CalibrationImage>& images = group.input.images;
+  tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
+    const Photo photo = ReadPhoto(images[i].name);
+    constexpr int kGammaBits = 8;
+    if (images[i].corners.empty() || photo.bits_per_channel == kGammaBits) return;
+    images[i].corners = DetectRefined(photo, camera, session.tags, lens).corners;
+  });
+  return group;
 }
 
 std::vector<CalibrationGroup> SplitRig(const CalibrationGroup& rig) {

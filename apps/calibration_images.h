@@ -12,6 +12,7 @@
 
 #include "apps/session.h"
 #include "calib/calibration_input.h"
+#include "calib/camera.h"
 
 namespace luxfit {
 
@@ -28,6 +29,13 @@ bool CanBeCalibrated(const Session& session, const SessionCamera& camera);
 
 // `cameras`: indices into the session's. Those of one board that pair up are one group.
 std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, const std::vector<int>& cameras);
+
+// Whether the group's images show surveyed tags.
+bool IsOfTags(const Session& session, const CalibrationGroup& group);
+
+// Surveyed tags found again and their corners refined against the images, which takes the lens that a first
+// calibration gave (calib/tag_refine.h). 8-bit images stay as they are: their gamma moves edges.
+CalibrationGroup WithRefinedTags(const Session& session, CalibrationGroup group, const Camera& lens);
 
 // The cameras of a rig, each for itself.
 std::vector<CalibrationGroup> SplitRig(const CalibrationGroup& rig);

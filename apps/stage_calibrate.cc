@@ -39,6 +39,11 @@ std::vector<CalibratedGroup> Calibrate(const Session& session, const Calibration
                                        RunContext& context) {
   const CalibrateCamerasOptions options = OptionsOf(session.calibration);
   Calibration calibration = CalibrateCameras(group.input, options);
+  if (IsOfTags(session, group) && calibration.converged) {
+    CalibrationGroup refined = WithRefinedTags(session, group, calibration.cameras.front().camera);
+    calibration = CalibrateCameras(refined.input, options);
+    return {{std::move(refined), std::move(calibration)}};
+  }
   if (!group.is_rig || IsBorneOut(calibration)) return {{group, std::move(calibration)}};
   context.warnings.push_back(
       {"rig_rejected",

@@ -15,6 +15,7 @@ namespace luxfit {
 namespace {
 
 constexpr int kMapColumns = 24, kMapRows = 18;
+constexpr std::size_t kLeastCornersOfImage = 6;
 constexpr int kSetsOfBend = 4;        // fewer views of a board cannot tell its bend from the lens
 constexpr double kWideFieldDeg = 90;  // from where a fisheye lens is a candidate
 
@@ -76,16 +77,21 @@ std::vector<LensKind> CandidatesOf(const CalibrationInput& input, const Calibrat
   return kinds;
 }
 
+std::string ShortName(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
 // The input without the images of which the seed could make nothing.
 CalibrationInput WithoutLost(CalibrationInput input, const CalibrationSeed& seed,
                              std::vector<CalibrationNote>& notes) {
   for (std::size_t i = 0; i < input.images.size(); ++i) {
     CalibrationImage& image = input.images[i];
     if (image.corners.empty() || seed.image_found[i]) continue;
-    notes.push_back(
-        {"image_rejected", false,
-         fmt::format("{}: its {} corners fit no view of the target", image.name, image.corners.size()),
-         "check that it shows this board, sharp and unmirrored; leave it out otherwise"});
+    const bool is_poor = image.corners.size() < kLeastCornersOfImage;
+    notes.push_back({"image_rejected", false,
+                     fmt::format("{}: its {} corners {}", ShortName(image.name), image.corners.size(),
+                                 is_poor ? "are too few for a pose" : "fit no view of the target"),
+                     is_poor
+                         ? "come nearer, or leave it out"
+                         : "check that it shows this board, sharp and unmirrored; leave it out otherwise"});
     image.corners.clear();
   }
   return input;
@@ -293,7 +299,7 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
         {"outliers", out.outlier_share > gates.max_outliers,
          fmt::format(
              "{:.1f} % of the corners were left out, most in {} ({} of {}); a good set has under {:g} %",
-             100 * out.outlier_share, input.images[static_cast<std::size_t>(worst->image)].name,
+             100 * out.outlier_share, ShortName(input.images[static_cast<std::size_t>(worst->image)].name),
              worst->outliers, worst->corners, 100 * gates.questioned_outliers),
          "look at the images with most outliers: blur, a bent board, reflections, a wrong board"});
   }
