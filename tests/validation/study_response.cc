@@ -2,16 +2,16 @@
 // fails, by exposures, their distance, noise and saturation.
 //   study_response -o FOLDER [--quick]
 // Writes FOLDER/calib_response.csv (every point), calib_response.svg (error against time) and
-// calib_response_stability.svg (share of brackets whose response is found to 3 %). Truths are closed
+// calib_response_stability.svg (error by number and distance of exposures). Truths are closed
 // formulas: a film's S-shaped curve and the encoding of sRGB in 8 bits; samples are means of 3 x 3 pixels of
 // a sensor of 20 000 electrons. The error is that of ln exposure between 4 and 96 % of full scale, root mean
 // square, after the one free factor. --quick: fewer points, and exit status 1 where a film curve is not found
 // to 2 % from 1000 samples.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -94,11 +94,11 @@ double ErrorOf(const CameraResponse& response, const Curve& curve) {
 struct Timed {
   double error_percent, time_ms;
 };
+// Processor time, which other programs on the machine do not lengthen; everything here runs in one thread.
 Timed Time(const std::function<std::optional<CameraResponse>()>& solve, const Curve& curve) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   const std::optional<CameraResponse> response = solve();
-  const double time_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double time_ms = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return {response ? ErrorOf(*response, curve) : NAN, time_ms};
 }
 
@@ -111,7 +111,7 @@ class Study {
     luxfit::LineChart chart;
     chart.title = "Response of a camera: error against time";
     chart.subtitle = "50 to 10 000 samples of 7 exposures one stop apart, 8 bits; labels: samples";
-    chart.x = {"time, ms", true, {}, {}};
+    chart.x = {"processor time, ms", true, {}, {}};
     chart.y = {"rms error of ln exposure, %", true, {}, {}};
     bool is_found = true;
     const std::vector<int> counts = is_quick_ ? std::vector<int>{100, 1000}
@@ -120,10 +120,12 @@ class Study {
       for (const std::string method : {"Debevec-Malik", "Robertson", "chosen"}) {
         luxfit::LineSeries series{method + ", " + curve.name, {}, {}, true};
         for (const int count : counts) {
-          if (method == "chosen" && count > 2000) continue;
+          if (method == "chosen" && count != 100 && count != 1000) continue;
           const Timed timed = Averaged(method, curve, {count}, "samples", count);
           series.points.push_back({timed.time_ms, timed.error_percent});
-          series.labels.push_back(std::to_string(count));
+          // Points of some series lie close together: the ends will do.
+          const bool is_end = count == counts.front() || count == counts.back();
+          series.labels.push_back(is_end ? std::to_string(count) : "");
           if (method == "chosen" && count == 1000 && !(timed.error_percent < 2)) is_found = false;
         }
         chart.series.push_back(series);
@@ -135,33 +137,33 @@ class Study {
 
   void Stability() {
     luxfit::LineChart chart;
-    chart.title = "Response of a camera: where it is found";
+    chart.title = "Response of a camera: error by bracket";
     chart.subtitle =
-        "share of brackets whose chosen response is right to 3 %; film, 600 samples, 5 brackets a point";
+        "film, 600 samples, 8 bits, mean of 4 brackets; two exposures determine nothing and are not drawn";
     chart.x = {"exposures in the bracket", false, {}, {}};
-    chart.y = {"found, %", false, -5, 105};
+    chart.y = {"rms error of ln exposure, %", true, {}, {}};
     for (const double stops : {0.5, 1.0, 2.0, 3.0}) {
       luxfit::LineSeries series{fmt::format("{:g} stops apart", stops), {}, {}, true};
-      for (const int exposures : is_quick_ ? std::vector<int>{4} : std::vector<int>{2, 3, 4, 5, 7, 9}) {
+      for (const int exposures : is_quick_ ? std::vector<int>{4} : std::vector<int>{2, 3, 4, 5, 7}) {
         Setup setup{600, exposures, stops};
         series.points.push_back(
-            {exposures, FoundPercent(setup, fmt::format("exposures, {:g} stops", stops), exposures)});
+            {exposures, MeanError(setup, fmt::format("exposures, {:g} stops", stops), exposures)});
       }
       chart.series.push_back(series);
     }
     Write("calib_response_stability.svg", LineChartSvg(chart));
     for (const double full_well :
          is_quick_ ? std::vector<double>{} : std::vector<double>{20, 100, 500, 2000, 20000})
-      FoundPercent({600, 7, 1, full_well}, "full well, electrons", full_well);
+      MeanError({600, 7, 1, full_well}, "full well, electrons", full_well);
     for (const double brightest :
          is_quick_ ? std::vector<double>{} : std::vector<double>{0.1, 0.3, 1, 10, 30, 100})
-      FoundPercent({600, 7, 1, 20000, brightest}, "brightest over saturation", brightest);
+      MeanError({600, 7, 1, 20000, brightest}, "brightest over saturation", brightest);
   }
 
   void WriteTable() const { Write("calib_response.csv", csv_); }
 
  private:
-  int Seeds() const { return is_quick_ ? 2 : 5; }
+  int Seeds() const { return is_quick_ ? 2 : 4; }
 
   static std::optional<CameraResponse> Solve(const std::string& method,
                                              const std::vector<BracketSamples>& samples) {
@@ -172,7 +174,7 @@ class Study {
 
   Timed Averaged(const std::string& method, const Curve& curve, const Setup& setup, const std::string& sweep,
                  double value) {
-    const int seeds = is_quick_ ? 1 : 3;
+    const int seeds = is_quick_ || method == "chosen" ? 1 : 3;
     Timed sum{0, 0};
     for (int seed = 0; seed < seeds; ++seed) {
       std::mt19937_64 rng(static_cast<unsigned>(1000 * seed + setup.samples));
@@ -186,7 +188,7 @@ class Study {
     return sum;
   }
 
-  double FoundPercent(const Setup& setup, const std::string& sweep, double value) {
+  double MeanError(const Setup& setup, const std::string& sweep, double value) {
     const Curve& film = Curves()[0];
     double found = 0, error_sum = 0;
     for (int seed = 0; seed < Seeds(); ++seed) {
@@ -197,7 +199,7 @@ class Study {
       if (error < 3) found += 100.0 / Seeds();
     }
     csv_ += fmt::format("\"{}\",film,chosen,{:g},{:.4f},,{:.0f}\n", sweep, value, error_sum / Seeds(), found);
-    return found;
+    return error_sum / Seeds();
   }
 
   void Write(const std::string& name, const std::string& text) const {
