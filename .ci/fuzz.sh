@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fuzzes the readers of photometric files and meshes over the fixtures, each for some seconds; nothing of the
+# Fuzzes the readers of photometric files, meshes and cameras over the fixtures, each for some seconds; nothing of the
 # repository is changed.
 #   .ci/fuzz.sh [SECONDS]        default 20
 # What breaks a reader is left in the folder that is named at the end.
@@ -7,10 +7,10 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 seconds=${1:-20}
 "$root/.ci/setup.sh" clang libclang-rt-14-dev libeigen3-dev libembree-dev libtbb-dev \
-  nlohmann-json3-dev cmake ninja-build
+  nlohmann-json3-dev libopencv-dev libmrcal-dev libyaml-cpp-dev cmake ninja-build
 work=$(mktemp -d)
 cmake -S "$root/tests/fuzz" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER=clang++ >"$work/log"
-cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
+cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camera_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
 
 mkdir "$work/ies" "$work/ldt" "$work/mesh"
 name_of() { cksum <"$1" | cut -d ' ' -f 1; }
@@ -42,6 +42,7 @@ PLY
 { printf '\001'; cat "$work/quad.ply"; } >"$work/mesh/quad.ply"
 
 cp -r "$root/tests/fuzz/seeds" "$work/gltf"
+cp -r "$root/tests/fuzz/camera_seeds" "$work/camera"
 
 # fuzz KIND MAX_BYTES MAX_MB [OPTION ...]
 fuzz() {
@@ -61,5 +62,6 @@ fuzz ldt 65536 512
 ASAN_OPTIONS=detect_leaks=0
 export ASAN_OPTIONS
 fuzz mesh 8192 2048
+fuzz camera 2048 1024
 fuzz gltf 4096 2048 -dict="$root/tests/fuzz/gltf.dict"
 rm -r "$work"

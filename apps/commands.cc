@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/earlier_result.h"
 #include "apps/plan_svg.h"
+#include "apps/stage_calibrate.h"
 #include "apps/stages.h"
 
 namespace luxfit {
@@ -34,13 +36,14 @@ void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 }  // namespace
 
 int RunCommand(const CommandOptions& options) {
-  const Session session = ReadSession(options.session);
+  Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
   std::string plan;
   {
     const StageTimer total(context, "total", "");
     const Room room = LoadRoom(session, context);
+    session = LinearizeSession(std::move(session), context);
     const RegisteredSession registered = RegisterSession(session, context);
     ExpectSceneFrame(session, registered);
     const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
@@ -77,15 +80,36 @@ int ChartCommand(const CommandOptions& options) {
   return 0;
 }
 
-int RegisterCommand(const CommandOptions& options) {
+int LinearizeCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  if (session.photos.empty())
+    throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
+  session = LinearizeSession(std::move(session), context);
+  const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
+  Print(options.json ? artifact.dump(2) + "\n" : LinearizeTable(session, artifact) + WarningText(artifact));
+  return 0;
+}
+
+int CalibrateCommand(const CommandOptions& options) {
   const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = CalibrateSession(session, context);
+  Print(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/stages/calibrate.json").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int RegisterCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
   LoadRoom(session, context);
+  session = LinearizeSession(std::move(session), context);
   const RegisteredSession registered = RegisterSession(session, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
     Print(result.dump(2) + "\n");
-    return 0;
+    return context.undetermined ? 1 : 0;
   }
   for (const nlohmann::json& view : result["views"]) {
     const nlohmann::json& sigma = view["position_sigma_m"];
@@ -99,7 +123,7 @@ int RegisterCommand(const CommandOptions& options) {
   for (const Warning& w : context.warnings)
     warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
   Print(WarningText(warnings));
-  return 0;
+  return context.undetermined ? 1 : 0;
 }
 
 int CheckCommand(const CommandOptions& options) {

@@ -28,6 +28,11 @@ int RunCommand(const CommandOptions& options);
 int SimulateCommand(const CommandOptions& options);
 // Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json.
 int ChartCommand(const CommandOptions& options);
+// Pixels to luminance: exposures, response and vignetting; writes OUT/stages/linearize.json.
+int LinearizeCommand(const CommandOptions& options);
+// Cameras from images of boards or of the room's tags: writes OUT/stages/calibrate.json and, beside it, files
+// of intrinsics (apps/stage_calibrate.h).
+int CalibrateCommand(const CommandOptions& options);
 int RegisterCommand(const CommandOptions& options);
 // Reads OUT/result.json.
 int CheckCommand(const CommandOptions& options);

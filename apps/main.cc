@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/board_command.h"
 #include "apps/commands.h"
 #include "apps/form_factors_command.h"
 #include "apps/process.h"
@@ -45,6 +46,38 @@ CLI::App* AddFormFactors(CLI::App& app, luxfit::FormFactorsCommandOptions& optio
   return sub;
 }
 
+CLI::App* AddBoard(CLI::App& app, luxfit::BoardCommandOptions& options) {
+  CLI::App* const sub =
+      app.add_subcommand("board", "calibration boards and room tags to print, at true scale");
+  const auto size = [&](const std::string& flag, double& value, const std::string& help) {
+    sub->add_option(flag, value, help)->check(CLI::PositiveNumber);
+  };
+  sub->add_option("TYPE", options.type, "aprilgrid | chessboard | charuco | tags")->required();
+  sub->add_option("-o,--out", options.file, "file to write, .pdf or .svg")->required();
+  sub->add_option("--paper", options.paper, "A0 to A5, letter, legal, tabloid, or WIDTHxHEIGHT in mm")
+      ->capture_default_str();
+  sub->add_option("--columns", options.columns,
+                  "tags, inner corners (chessboard) or squares (charuco) along a row")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--rows", options.rows, "the same along a column")->check(CLI::PositiveNumber);
+  size("--tag-size", options.tag_size_m, "aprilgrid, tags: side of a black square, m (default: what fits)");
+  size("--spacing", options.spacing, "aprilgrid: gap between black squares, in tag sizes (default: 0.3)");
+  size("--square-size", options.square_size_m,
+       "chessboard, charuco: side of a square, m (default: what fits)");
+  size("--marker-size", options.marker_size_m, "charuco: side of a marker, m (default: 0.7 squares)");
+  sub->add_option("--first-id", options.first_id, "aprilgrid, charuco")->check(CLI::NonNegativeNumber);
+  sub->add_option("--ids", options.ids, "tags: ids and ranges, 0-11,20")->capture_default_str();
+  sub->add_option("--family", options.family, "aprilgrid, tags: tag family")->capture_default_str();
+  sub->add_option("--dictionary", options.dictionary, "charuco: OpenCV's name")->capture_default_str();
+  sub->add_flag("--corner-squares", options.has_corner_squares,
+                "aprilgrid: black squares between the tags' corners, as Kalibr prints");
+  sub->add_option("--border-bits", options.border_bits,
+                  "aprilgrid: cells of a tag's black border; 2: Kalibr's")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2));
+  return sub;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -72,6 +105,10 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<CLI::App*, int (*)(const luxfit::CommandOptions&)>> commands = {
       add("run", "everything: register the photos, observe, fit, check against the luxmeter", true,
           luxfit::RunCommand),
+      add("linearize", "photos to luminance: exposures, response, vignetting", true,
+          luxfit::LinearizeCommand),
+      add("calibrate", "intrinsics of cameras and rigs, from images of a board or of the room's tags", true,
+          luxfit::CalibrateCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
       add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,
@@ -98,6 +135,8 @@ int main(int argc, char** argv) {
   luxfit::FormFactorsCommandOptions form_factors;
   form_factors.command_line = options.command_line;
   CLI::App* const form_factors_command = AddFormFactors(app, form_factors, options.threads);
+  luxfit::BoardCommandOptions board;
+  CLI::App* const board_command = AddBoard(app, board);
 
   try {
     app.parse(argc, argv);
@@ -107,6 +146,7 @@ int main(int argc, char** argv) {
   const luxfit::ThreadLimit limit(options.threads);
   try {
     if (form_factors_command->parsed()) return luxfit::FormFactorsCommand(form_factors);
+    if (board_command->parsed()) return luxfit::BoardCommand(board);
     for (const auto& [sub, command] : commands) {
       if (sub->parsed()) return command(options);
     }

@@ -94,6 +94,24 @@ std::string SimulationTable(const json& artifact) {
   return text + WarningText(artifact);
 }
 
+std::string LinearizeTable(const Session& session, const json& artifact) {
+  std::string text =
+      fmt::format("session {}: {} views and states\n", session.name, artifact["photos"].size());
+  for (const json& camera : artifact["cameras"]) {
+    text += fmt::format("camera {}: response {}", camera["camera"].get<std::string>(),
+                        camera["response"].get<std::string>());
+    if (camera.contains("file")) text += fmt::format(", written to {}", camera["file"].get<std::string>());
+    text += "\n";
+  }
+  for (const json& choice : artifact["choices"])
+    text += fmt::format("{}: {} ({})\n", choice["what"].get<std::string>(),
+                        choice["chosen"].get<std::string>(), choice["because"].get<std::string>());
+  for (const json& gain : artifact["exposure_gains"])
+    text += fmt::format("{:<40} exposure x {:.4f} +- {:.4f}\n", gain["file"].get<std::string>(),
+                        gain["factor"].get<double>(), gain["relative_sigma"].get<double>());
+  return text;
+}
+
 std::string WarningText(const json& result) {
   std::string text;
   for (const json& w : result["warnings"]) {

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "apps/internal/session_calibration.h"
 #include "apps/internal/session_camera.h"
 #include "apps/internal/session_files.h"
 #include "apps/internal/session_luminaires.h"
@@ -36,6 +37,19 @@ void ExpectSessionFile(const std::string& path) {
 std::string ReadName(const TomlCursor& root, const std::string& path) {
   if (const auto name = root.Find("name")) return name->Text("a name");
   return fs::path(AbsolutePath(path)).parent_path().filename().string();
+}
+
+// A camera without intrinsics is calibrated: from images of a board, or of the room's surveyed tags, which
+// the session's own photos show.
+void ExpectCalibrationTargets(const TomlCursor& root, const TomlCursor& cameras, const Session& session) {
+  for (const TomlCursor& table : cameras.Elements("a list of tables [[camera]]")) {
+    if (table.Find("intrinsics")) continue;
+    const bool has_images = table.Find("calibration_images") || table.Find("calibration_corners");
+    if (table.Find("calibration_corners") || (has_images && session.tags.survey.empty()))
+      table.Require("board", "what the calibration images show (a board, or surveyed tags in [tags] map)");
+    if (!has_images && (session.tags.survey.empty() || !root.Find("photos")))
+      table.Require("intrinsics", ExpectedIntrinsics());
+  }
 }
 
 // The tables need the states, and a session without [states] has the one that its tables name.
@@ -96,7 +110,13 @@ std::vector<std::string> InputFiles(const Session& session) {
   if (session.scene) add(session.scene->mesh);
   add(session.tags.map_path);
   for (const std::string& file : ColmapModelFiles(session.registration.colmap_model)) add(file);
-  for (const SessionCamera& camera : session.cameras) add(camera.intrinsics);
+  for (const SessionCamera& camera : session.cameras) {
+    add(camera.intrinsics);
+    add(camera.response_path);
+    add(camera.vignetting_path);
+    add(camera.calibration_corners);
+    for (const std::string& image : camera.calibration_images) add(image);
+  }
   add(session.photos_path);
   for (const SessionPhoto& photo : session.photos) add(photo.file);
   add(session.luxmeter.readings_path);
@@ -111,8 +131,8 @@ Session ReadSession(const std::string& path) {
   ExpectSessionFile(path);
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
-  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "photos", "states", "luminaires",
-                   "luminaire", "luxmeter"});
+  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "states",
+                   "luminaires", "luminaire", "luxmeter"});
   const std::string folder = fs::path(path).parent_path().string();
   Session session;
   session.name = ReadName(root, path);
@@ -121,7 +141,12 @@ Session ReadSession(const std::string& path) {
   if (const auto tags = root.Find("tags")) session.tags = ReadTagsSection(*tags, folder);
   if (const auto registration = root.Find("registration"))
     session.registration = ReadRegistrationSection(*registration, folder);
-  if (const auto cameras = root.Find("camera")) session.cameras = ReadCameras(*cameras, folder);
+  if (const auto cameras = root.Find("camera")) {
+    session.cameras = ReadCameras(*cameras, folder);
+    ExpectCalibrationTargets(root, *cameras, session);
+  }
+  if (const auto calibration = root.Find("calibration"))
+    session.calibration = ReadCalibrationSection(*calibration);
   session.luminaires = ReadLuminaires(root, folder);
   session = WithTables(root, folder, std::move(session));
   if (const auto registration = root.Find("registration")) CheckStartViews(*registration, session.photos);

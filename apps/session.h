@@ -17,7 +17,11 @@
 #include <string>
 #include <vector>
 
+#include "calib/board.h"
+#include "calib/lens_kind.h"
+#include "calib/response.h"
 #include "calib/tags.h"
+#include "calib/vignetting.h"
 #include "forward/sensor.h"
 
 namespace luxfit {
@@ -46,12 +50,31 @@ struct SessionRegistration {
 
 struct SessionCamera {
   std::string id;
-  std::string intrinsics;  // absolute path, empty: none
-  std::string response = "linear";
-  std::string vignetting = "none";
+  std::string intrinsics;  // absolute path; empty: to be had from the calibration images
+  std::optional<Board> board;
+  std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
+  std::string response = "linear";              // linear | estimate | file
+  std::string response_path;                    // absolute path of that file
+  std::string vignetting = "none";              // none | estimate | file
+  std::string vignetting_path;
+  std::string calibration_corners;              // absolute path of a corners.vnl; empty: corners are found
+  std::optional<Eigen::Array2i> image_size_px;  // of cameras whose corners come without images
   double black_level_counts = 0;
   double cdm2_per_count_s = 0;  // 0: unknown
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
+  int line = 0;  // of its [[camera]]
+  // Filled in by the linearize stage.
+  std::optional<CameraResponse> response_curve;  // none: linear
+  std::optional<Vignetting> vignetting_model;    // of a flat field; none: V = 1, or estimated from surfaces
+  double full_scale_counts = 65535;              // of its photos, above black for RAW
+};
+
+// One file of a bracket.
+struct SessionExposure {
+  std::string file;
+  // exposure_s * (iso / iso of the camera's first photo) * (f-number of that / f-number)^2, as corrected.
+  double relative_exposure_s = 0;
+  int line = 0;
 };
 
 struct SessionPhoto {
@@ -59,8 +82,12 @@ struct SessionPhoto {
   int camera = 0;    // index into cameras
   std::string view;
   std::string state;
-  double exposure_s = 0;
+  double exposure_s = 0;  // 0: the table leaves it to the file
+  std::optional<double> f_number, iso;
   int line = 0;  // in the photo table
+  // Filled in by the linearize stage, which makes one photo of the rows of one view, state and camera:
+  // longest exposure first.
+  std::vector<SessionExposure> bracket;
 };
 
 struct SessionState {
@@ -93,7 +120,8 @@ struct SessionReading {
   Eigen::Vector3d normal;  // unit
   std::string state;
   bool is_measured = true;    // false: the lux field is empty, to be predicted only
-  double illuminance_lx = 0;  // 0 where not measured
+  double illuminance_lx = 0;  // 0 where not measured; without ambient light after the linearize stage
+  double ambient_lx = 0;      // measured there with all luminaires off, and subtracted
   ReadingRole role = ReadingRole::kCheck;
   int line = 0;  // in the readings table
 };
@@ -109,6 +137,14 @@ struct SessionLuxmeter {
   double common_sigma = 0;
 };
 
+// How cameras without intrinsics are calibrated.
+struct SessionCalibration {
+  std::optional<LensKind> lens;    // absent: chosen
+  std::string back_end = "mrcal";  // mrcal | opencv
+  std::string rig = "auto";        // auto | numbers | order | none: what makes a set of images
+  double focal_start_px = 0;       // 0: scanned
+};
+
 struct Session {
   std::string name;
   std::string path;  // absolute path of the session file
@@ -116,6 +152,7 @@ struct Session {
   SessionTags tags;
   SessionRegistration registration;
   std::vector<SessionCamera> cameras;
+  SessionCalibration calibration;
   std::string photos_path;  // empty: no [photos] section
   std::vector<SessionPhoto> photos;
   std::vector<SessionState>

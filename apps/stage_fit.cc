@@ -93,7 +93,9 @@ class FitStage {
         if (session_.states[s].id == given.state) reading.state = static_cast<int>(s);
       }
       reading.illuminance_lx = given.illuminance_lx;
-      reading.sigma_lx = relative * std::max(given.illuminance_lx, 1e-3);
+      // Of the reading as it was taken, and of the one that was subtracted from it.
+      const double taken_lx = std::hypot(given.illuminance_lx + given.ambient_lx, given.ambient_lx);
+      reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
       reading.used = given.role != ReadingRole::kCheck;
       used_readings_ += reading.used ? 1 : 0;
       result_.data.readings.push_back(reading);
@@ -137,9 +139,10 @@ class FitStage {
     }
     start_.camera_scale_free = !result_.data.observations.empty();
     if (!session_.cameras.empty() && session_.cameras[0].cdm2_per_count_s > 0) {
-      // Full scale 1 of a 16-bit photo at 1 s.
-      start_.camera_scale =
-          1 / (session_.cameras[0].cdm2_per_count_s * (65535.0 - session_.cameras[0].black_level_counts));
+      // Relative luminance 1 is full scale at 1 s.
+      const double range_counts =
+          session_.cameras[0].full_scale_counts - session_.cameras[0].black_level_counts;
+      start_.camera_scale = 1 / (session_.cameras[0].cdm2_per_count_s * range_counts);
       start_.camera_scale_free = false;
     }
   }

@@ -5,8 +5,13 @@
 #include <atomic>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
+#include "apps/linearize.h"
+#include "apps/observed_light.h"
 #include "apps/stages.h"
+#include "apps/suggest.h"
 #include "calib/luminance.h"
 
 namespace luxfit {
@@ -39,6 +44,48 @@ int StateIndex(const Session& session, const std::string& id) {
   return -1;
 }
 
+// The photo of a view with all luminaires off; null where there is none.
+const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo) {
+  for (const SessionPhoto& other : session.photos) {
+    const int state = StateIndex(session, other.state);
+    if (other.view == photo.view && other.camera == photo.camera && state >= 0 &&
+        IsAmbient(session.states[static_cast<size_t>(state)]))
+      return &other;
+  }
+  return nullptr;
+}
+
+bool HasAmbientState(const Session& session) {
+  return std::any_of(session.photos.begin(), session.photos.end(), [&](const SessionPhoto& photo) {
+    return IsAmbient(session.states[static_cast<size_t>(StateIndex(session, photo.state))]);
+  });
+}
+
+// A photo without the light of the all-off state; empty where it is that state's, or its view has none.
+std::optional<LuminanceImage> ReadLuminaireLight(const Session& session, const SessionPhoto& photo,
+                                                 const Camera& camera) {
+  const SessionPhoto* const ambient = AmbientOf(session, photo);
+  if (!ambient || ambient->state == photo.state) return std::nullopt;
+  return WithoutAmbient(ReadLuminance(session, photo, camera), ReadLuminance(session, *ambient, camera));
+}
+
+void RecordAmbient(const Session& session, RunContext& context) {
+  context.choices.push_back(
+      {"ambient light", "subtracted", {}, "photos of a state with all luminaires off are given"});
+  std::vector<std::string> missing;
+  for (const SessionPhoto& photo : session.photos) {
+    if (!AmbientOf(session, photo) && std::count(missing.begin(), missing.end(), photo.view) == 0)
+      missing.push_back(photo.view);
+  }
+  if (missing.empty()) return;
+  context.warnings.push_back(
+      {"ambient_missing",
+       "views " + ListNames(missing) +
+           " have no photo with all luminaires off: they show ambient light that cannot be "
+           "subtracted, and were not used",
+       "photograph these views with all luminaires off too"});
+}
+
 }  // namespace
 
 std::vector<Observation> ObserveSession(const Session& session, const RegisteredSession& registered,
@@ -57,6 +104,8 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     maps.push_back(MapPixels(camera, directions[c], view.cam_from_world, room,
                              TagQuads(session, camera, view.cam_from_world)));
   }
+  const bool has_ambient = HasAmbientState(session);
+  if (has_ambient) RecordAmbient(session, context);
   std::vector<std::vector<Observation>> by_photo(session.photos.size());
   tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
     const SessionPhoto& photo = session.photos[i];
@@ -65,8 +114,11 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     if (view == views.end()) return;
     const Camera& camera = registered.cameras[static_cast<size_t>(photo.camera)];
     const int index = static_cast<int>(view - views.begin());
-    by_photo[i] = ObservePhoto(maps[static_cast<size_t>(index)], ReadLuminance(session, photo, camera), index,
-                               StateIndex(session, photo.state));
+    const auto image = has_ambient ? ReadLuminaireLight(session, photo, camera)
+                                   : std::optional(ReadLuminance(session, photo, camera));
+    if (!image) return;
+    by_photo[i] =
+        ObservePhoto(maps[static_cast<size_t>(index)], *image, index, StateIndex(session, photo.state));
   });
   std::vector<Observation> observations;
   nlohmann::json json = ProvenanceJson("luxfit-observe-1", context.provenance);
@@ -75,6 +127,9 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     observations.insert(observations.end(), by_photo[i].begin(), by_photo[i].end());
     json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
+  observations =
+      WithEstimatedVignetting(session, registered, room.patches, std::move(observations), context, json);
+  WarnOfExposures(session, registered, observations, context);
   WriteJson(context.out + "/stages/observe.json", json);
   return observations;
 }

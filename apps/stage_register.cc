@@ -6,19 +6,12 @@
 
 #include "apps/internal/choose_registration.h"
 #include "apps/internal/view_tags.h"
+#include "apps/stage_calibrate.h"
 #include "apps/stages.h"
-#include "calib/camera_file.h"
 #include "calib/luminance.h"
 
 namespace luxfit {
 namespace {
-
-std::vector<Camera> ReadCameras(const Session& session) {
-  std::vector<Camera> cameras;
-  for (const SessionCamera& camera : session.cameras)
-    cameras.push_back(ReadCamera(camera.intrinsics, camera.id));
-  return cameras;
-}
 
 void WriteArtifact(const RegisteredSession& registered, const RunContext& context) {
   nlohmann::json json = ProvenanceJson("luxfit-register-1", context.provenance);
@@ -69,29 +62,6 @@ void WriteArtifact(const RegisteredSession& registered, const RunContext& contex
 
 }  // namespace
 
-LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera) {
-  const Photo counts = ReadPhoto(photo.file);
-  const SessionCamera& settings = session.cameras[static_cast<size_t>(photo.camera)];
-  if (counts.bits_per_channel == 8 && settings.response == "linear") {
-    throw std::runtime_error(
-        fmt::format("{}: expected linear counts (camera \"{}\" has response = \"linear\"), got an 8-bit "
-                    "photo: 8-bit files are "
-                    "gamma-encoded (sRGB); give 16-bit PNG/TIFF or EXR developed linearly from RAW",
-                    photo.file, settings.id));
-  }
-  if (counts.width_px() != camera.width_px || counts.height_px() != camera.height_px) {
-    throw std::runtime_error(
-        fmt::format("{}: expected {} x {} pixels as in {}, got {} x {}; give the intrinsics of this "
-                    "resolution",
-                    photo.file, camera.width_px, camera.height_px, settings.intrinsics, counts.width_px(),
-                    counts.height_px()));
-  }
-  LuminanceOptions options;
-  options.weights = settings.luminance_weights;
-  options.black_level_counts = settings.black_level_counts;
-  return ToRelativeLuminance(counts, photo.exposure_s, options);
-}
-
 std::string MethodOf(const RegisteredView& view) {
   if (view.points_used == 0) return "tags";
   return view.tags_used == 0 ? "colmap" : "both";
@@ -103,7 +73,7 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
   const ViewPhotos views = PhotosByView(session);
   const StageTimer timer(context, "register",
                          fmt::format("{} views, {} surveyed tags", views.size(), session.tags.survey.size()));
-  registered.cameras = ReadCameras(session);
+  registered.cameras = CamerasOf(session, context);
   registered.registration = ChooseRegistration(session, registered.cameras, views, context);
   for (const RegistrationNote& note : registered.registration.notes) {
     context.warnings.push_back({note.code, note.message, note.remedy});
@@ -113,7 +83,6 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
         fmt::format("{}: registration: expected at least one view with a pose, got none; {}", session.path,
                     registered.registration.message));
   }
-  context.choices.push_back({"lens", "as given", {}, "intrinsics were given, not estimated"});
   WriteArtifact(registered, context);
   return registered;
 }

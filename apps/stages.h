@@ -1,6 +1,6 @@
 // The stages of a run and what each hands on.
 //
-//   scene -> register -> observe -> fit -> result
+//   scene -> linearize -> register -> observe -> fit -> result
 //
 // Stages read the session and what came before; they print progress on standard error and write nothing but
 // their own artifact in OUT/stages/. What the data do not determine is a warning, never an exception.
@@ -75,6 +75,11 @@ void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunC
 // That mesh with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);
 
+// Photos as the later stages use them: one for each view, state and camera with its bracket of exposures, the
+// cameras with their response and vignetting, readings without ambient light. Writes
+// OUT/stages/linearize.json.
+Session LinearizeSession(Session session, RunContext& context);
+
 struct RegisteredSession {
   std::vector<Camera> cameras;
   Registration registration;
@@ -84,7 +89,8 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context);
 // What a view's pose comes from: tags | colmap | both.
 std::string MethodOf(const RegisteredView& view);
 
-// One photo as relative luminance; checks that it is linear and of the camera's size.
+// One photo of a linearized session as relative luminance, its bracket merged; checks that it is linear, or
+// its camera's response known, and of the camera's size.
 LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
 
 // Relative luminance of every element in every photo of a registered view.
@@ -123,6 +129,7 @@ nlohmann::json WarningsJson(const RunContext& context);
 nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
                           const SessionFit& fit, const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
+std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);
 std::string SimulationTable(const nlohmann::json& artifact);
 std::string ChartTable(const nlohmann::json& artifact);
 std::string LuxmeterTable(const nlohmann::json& result);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "calib/colmap_cameras.h"
@@ -42,6 +43,16 @@ std::string Names(const std::vector<FiledCamera>& cameras) {
 }
 
 }  // namespace
+
+int ImagePixels(double value, const std::string& place) {
+  constexpr double kMost = 1e6;
+  if (!(value >= 1 && value <= kMost) || value != std::floor(value)) {
+    std::ostringstream message;
+    message << place << ": expected a whole number of pixels, 1 to 1000000, got " << value;
+    throw std::runtime_error(message.str());
+  }
+  return static_cast<int>(value);
+}
 
 void CheckCamera(const Camera& camera, const std::string& place) {
   if (camera.width_px < 1 || camera.height_px < 1)

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "calib/internal/camera_formats.h"
 #include "calib/internal/colmap_binary.h"
 
 namespace luxfit {
@@ -61,6 +62,37 @@ Camera ToCamera(const Model& model, int width_px, int height_px, const std::vect
   return camera;
 }
 
+// One line of cameras.txt.
+class CameraLine {
+ public:
+  CameraLine(std::string place, const std::string& line) : place_(std::move(place)), words_(line) {}
+
+  std::pair<int, Camera> Read() {
+    int id = 0, width_px = 0, height_px = 0;
+    std::string name;
+    if (!(words_ >> id >> name >> width_px >> height_px))
+      Fail("expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS...; is this COLMAP's cameras.txt?");
+    const auto model =
+        std::find_if(kModels.begin(), kModels.end(), [&name](const Model& m) { return name == m.name; });
+    if (model == kModels.end()) Fail("expected a camera model of COLMAP 3.8, got \"" + name + "\"");
+    std::vector<double> parameters;
+    for (double value = 0; words_ >> value;) parameters.push_back(value);
+    if (!words_.eof() || parameters.size() != ParameterCount(*model)) {
+      Fail("expected " + std::to_string(ParameterCount(*model)) + " parameters of " + model->name + ", got " +
+           std::to_string(parameters.size()));
+    }
+    return {id, ToCamera(Served(*model, place_), width_px, height_px, parameters)};
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw std::runtime_error(place_ + ": " + message);
+  }
+
+  std::string place_;
+  std::istringstream words_;
+};
+
 std::map<int, Camera> ReadText(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read COLMAP's cameras, expected an existing file");
@@ -68,24 +100,9 @@ std::map<int, Camera> ReadText(const std::string& path) {
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
-    if (line.empty() || line[0] == '#' || line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (line[0] == '#' || line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string place = path + ":" + std::to_string(number);
-    std::istringstream words(line);
-    int id = 0, width_px = 0, height_px = 0;
-    std::string name;
-    if (!(words >> id >> name >> width_px >> height_px))
-      throw std::runtime_error(place + ": expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS..., got \"" + line +
-                               "\"; is this COLMAP's cameras.txt?");
-    const auto model =
-        std::find_if(kModels.begin(), kModels.end(), [&name](const Model& m) { return name == m.name; });
-    if (model == kModels.end())
-      throw std::runtime_error(place + ": expected a camera model of COLMAP 3.8, got \"" + name + "\"");
-    std::vector<double> parameters;
-    for (double value = 0; words >> value;) parameters.push_back(value);
-    if (!words.eof() || parameters.size() != ParameterCount(*model))
-      throw std::runtime_error(place + ": expected " + std::to_string(ParameterCount(*model)) +
-                               " parameters of " + name + ", got " + std::to_string(parameters.size()));
-    const Camera camera = ToCamera(Served(*model, place), width_px, height_px, parameters);
+    const auto [id, camera] = CameraLine(place, line).Read();
     if (!cameras.emplace(id, camera).second)
       throw std::runtime_error(place + ": expected every camera once, got " + std::to_string(id) + " again");
   }
@@ -99,8 +116,8 @@ std::map<int, Camera> ReadBinary(const std::string& path) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto id = static_cast<int>(file.Read<std::uint32_t>());
     const auto model_id = file.Read<std::int32_t>();
-    const auto width_px = static_cast<int>(file.Read<std::uint64_t>());
-    const auto height_px = static_cast<int>(file.Read<std::uint64_t>());
+    const int width_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": width");
+    const int height_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": height");
     if (model_id < 0 || model_id >= static_cast<int>(kModels.size()))
       throw std::runtime_error(path + ": expected a camera model of COLMAP 3.8 (0 to 10), got " +
                                std::to_string(model_id));

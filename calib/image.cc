@@ -6,13 +6,14 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "calib/internal/radiance_header.h"
+#include "calib/internal/raw_photo.h"
+#include "calib/internal/tiff_compression.h"
+
 namespace luxfit {
 namespace {
 
 cv::Mat ReadFile(const std::string& path) {
-  if (!std::ifstream(path, std::ios::binary)) {
-    throw std::runtime_error(path + ": cannot read the photo, expected an existing file that may be read");
-  }
   cv::Mat image;
   std::string detail;
   try {
@@ -23,8 +24,8 @@ cv::Mat ReadFile(const std::string& path) {
   }
   if (image.empty()) {
     throw std::runtime_error(path +
-                             ": cannot read the photo, expected PNG or TIFF (8 or 16 bit) or EXR, TIFF, PFM "
-                             "(float)" +
+                             ": cannot read the photo, expected PNG or TIFF (8 or 16 bit), EXR, TIFF, PFM or "
+                             "Radiance HDR (float), RAW or JPEG" +
                              detail);
   }
   return image;
@@ -72,6 +73,11 @@ double LargestFiniteCount(const Photo& photo) {
 }  // namespace
 
 Photo ReadPhoto(const std::string& path) {
+  if (!std::ifstream(path, std::ios::binary)) {
+    throw std::runtime_error(path + ": cannot read the photo, expected an existing file that may be read");
+  }
+  if (IsRawName(path)) return ReadRawPhoto(path);
+  const auto radiance = ReadRadianceHeader(path);
   const cv::Mat image = ReadFile(path);
   const int channels = image.channels();
   if (channels != 1 && channels != 3 && channels != 4) {
@@ -92,6 +98,11 @@ Photo ReadPhoto(const std::string& path) {
       break;
     case CV_32F:
     case CV_64F:
+      if (IsLogLuvTiff(path)) {
+        throw std::runtime_error(path +
+                                 ": cannot read the photo, expected a TIFF of plain floats, got LogLuv, "
+                                 "which programs write wrongly by factors; save it without compression");
+      }
       if (image.depth() == CV_32F) {
         Deinterleave<float>(image, photo);
       } else {
@@ -99,6 +110,9 @@ Photo ReadPhoto(const std::string& path) {
       }
       photo.bits_per_channel = 32;
       photo.full_scale_counts = 1.0;
+      if (radiance) {
+        for (size_t c = 0; c < 3; ++c) photo.rgb_counts[c] /= static_cast<float>(radiance->multiplier[c]);
+      }
       photo.saturation_counts = LargestFiniteCount(photo);
       break;
     default:

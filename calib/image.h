@@ -1,10 +1,13 @@
-// Photos as linear counts.
+// Photos as counts.
 //
-// A photo is read as the camera wrote it: no gamma, no 8-bit truncation, no EXIF rotation. Planes are
+// A photo is read as the camera wrote it: no gamma, no 8-bit truncation, no EXIF rotation, no white balance.
+// RAW comes as the sensor counted it, less the black levels that the file states, its mosaic interpolated
+// bilinearly at full size; Radiance pictures come divided by the EXPOSURE of their header. Planes are
 // row-major arrays of height x width counts; pixel (u, v) = (column, row) is plane(v, u), and (0, 0) is the
 // centre of the top-left pixel. A monochrome photo gives three equal planes.
 //
-// Throws std::runtime_error naming the file when it is missing, unreadable, or not of 1, 3 or 4 channels.
+// Throws std::runtime_error naming the file when it is missing, unreadable, not of 1, 3 or 4 channels, or a
+// LogLuv TIFF, which holds luminance to percents only.
 #ifndef LUXFIT_CALIB_IMAGE_H_
 #define LUXFIT_CALIB_IMAGE_H_
 
@@ -20,15 +23,16 @@ using ImagePlane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 struct Photo {
   std::array<ImagePlane, 3> rgb_counts;  // red, green, blue
   int bits_per_channel = 16;             // 8, 16 or 32 (float)
-  double full_scale_counts = 65535.0;    // 255, 65535; 1 for float files, so that photos share one scale
-  double saturation_counts =
-      65535.0;  // where the file can clip: 255, 65535; float: the largest count in the file
+  double full_scale_counts = 65535.0;    // as saturation_counts; 1 for float files: photos share one scale
+  // Where the file can clip: 255, 65535; RAW: the white level less black; float: the largest count in it.
+  double saturation_counts = 65535.0;
+  bool is_black_subtracted = false;  // RAW: the file states its black level
 
   int width_px() const { return static_cast<int>(rgb_counts[0].cols()); }
   int height_px() const { return static_cast<int>(rgb_counts[0].rows()); }
 };
 
-// PNG, TIFF (8 or 16 bit) and EXR, TIFF, PFM (float).
+// RAW (DNG, CR2, NEF, ARW, ...), PNG and TIFF (8 or 16 bit), EXR, TIFF, PFM and Radiance HDR (float), JPEG.
 Photo ReadPhoto(const std::string& path);
 
 }  // namespace luxfit

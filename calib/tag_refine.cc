@@ -5,12 +5,15 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "calib/internal/homography.h"
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_image_model.h"
+#include "calib/internal/tag_pixels.h"
 
 namespace luxfit {
 namespace {
@@ -37,21 +40,9 @@ struct LocalFrame {
 // H with H(2, 2) = 1 from four correspondences xy -> st.
 std::optional<Eigen::Matrix3d> HomographyFrom(const std::array<Eigen::Vector2d, 4>& xy,
                                               const std::array<Eigen::Vector2d, 4>& st) {
-  Eigen::Matrix<double, 8, 8> a;
-  Eigen::Matrix<double, 8, 1> b;
-  for (Eigen::Index i = 0; i < 4; ++i) {
-    const Eigen::Vector2d& p = xy[static_cast<std::size_t>(i)];
-    const Eigen::Vector2d& q = st[static_cast<std::size_t>(i)];
-    a.row(2 * i) << p.x(), p.y(), 1, 0, 0, 0, -p.x() * q.x(), -p.y() * q.x();
-    a.row(2 * i + 1) << 0, 0, 0, p.x(), p.y(), 1, -p.x() * q.y(), -p.y() * q.y();
-    b.segment<2>(2 * i) = q;
-  }
-  const Eigen::FullPivLU<Eigen::Matrix<double, 8, 8>> lu(a);
-  if (!lu.isInvertible()) return std::nullopt;
-  const Eigen::Matrix<double, 8, 1> h = lu.solve(b);
-  Eigen::Matrix3d homography;
-  homography << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1;
-  return homography;
+  const auto homography = FitHomography({xy.begin(), xy.end()}, {st.begin(), st.end()});
+  if (!homography || (*homography)(2, 2) == 0) return std::nullopt;
+  return *homography / (*homography)(2, 2);
 }
 
 struct Mapped {
@@ -84,6 +75,30 @@ struct Fit {
   Normal scatter = Normal::Zero();  // sum of (w r)^2 J^T J
 };
 
+// A pixel's area blurred by a Gaussian, as three boxes each way: side `step_px`, that far apart, weights
+// w, 1 - 2 w, w. With V = 1/12 + blur (variances, px^2), x = step^2 and w = (V - x / 12) / (2 x) the variance
+// is that of pixel and blur together, and so is the fourth cumulant (the pixel's -1/120, for the Gaussian has
+// none) where
+//   27/240 x^2 - 3/2 V x + 3 V^2 - 1/120 = 0
+// Without blur these are the pixel's thirds, exactly. One box of the same variance would let corners shrink
+// inwards by 0.05 px at a blur of 1.2 px.
+struct PixelTaps {
+  double step_px = 0, d_step = 0;  // d: by the blur's variance
+  std::array<double, 3> weights{}, d_weights{};
+};
+
+PixelTaps TapsFor(double blur_px2) {
+  const double v = 1.0 / 12 + blur_px2, root = std::sqrt(0.9 * v * v + 0.00375);
+  const double x = (1.5 * v - root) / 0.225, d_x = (1.5 - 0.9 * v / root) / 0.225;
+  const double w = (v - x / 12) / (2 * x), d_w = (1 - d_x / 12) / (2 * x) - w * d_x / x;
+  PixelTaps taps;
+  taps.step_px = std::sqrt(x);
+  taps.d_step = d_x / (2 * taps.step_px);
+  taps.weights = {w, 1 - 2 * w, w};
+  taps.d_weights = {d_w, -2 * d_w, d_w};
+  return taps;
+}
+
 class TagFitter {
  public:
   TagFitter(const TagPicture& picture, std::vector<TagPixel> pixels)
@@ -93,23 +108,29 @@ class TagFitter {
 
   // Grey of one pixel and its derivatives with respect to the unknowns.
   double Predict(const Fit& fit, const TagPixel& pixel, Unknowns& jacobian) const {
+    const PixelTaps taps = TapsFor(fit.blur_px2);
     double mean = 0, d_blur = 0;
     Eigen::Vector2d st_mean = Eigen::Vector2d::Zero();
     Eigen::Matrix<double, kHomography, 1> d_h = Eigen::Matrix<double, kHomography, 1>::Zero();
-    for (int i = 0; i < 4; ++i) {
-      const Eigen::Vector2d offset(i % 2 == 0 ? -0.25 : 0.25, i < 2 ? -0.25 : 0.25);
-      const Eigen::Vector2d xy = pixel.xy + pixel.d_pixel * offset;
+    for (int i = 0; i < 9; ++i) {
+      const int u = i % 3, v = i / 3;
+      const Eigen::Vector2d steps(u - 1, v - 1);
+      const Eigen::Vector2d xy = pixel.xy + taps.step_px * pixel.d_pixel * steps;
       const Mapped mapped = Map(fit.homography, xy);
       const Eigen::Matrix2d d_pixel = mapped.d_xy * pixel.d_pixel;
-      // A box with the variance of the quarter pixel's parallelogram (side 1/2) and of the blur.
-      const Eigen::Vector2d extent2 = d_pixel.rowwise().squaredNorm();
-      const Eigen::Vector2d width = (extent2 * (0.25 + 12 * fit.blur_px2)).cwiseSqrt();
+      // A box with the variance of the tap's parallelogram, whose sides are step_px long.
+      const Eigen::Vector2d extent = d_pixel.rowwise().norm();
+      const Eigen::Vector2d width = taps.step_px * extent;
       const TagImageModel::Sample sample = model_.Mean(mapped.st.x(), mapped.st.y(), width.x(), width.y());
-      mean += sample.mean / 4;
-      st_mean += mapped.st / 4;
+      const double weight = taps.weights[u] * taps.weights[v];
+      const double d_weight = taps.d_weights[u] * taps.weights[v] + taps.weights[u] * taps.d_weights[v];
+      mean += weight * sample.mean;
+      st_mean += weight * mapped.st;
+      const Eigen::Vector2d d_st = taps.d_step * d_pixel * steps, d_width = taps.d_step * extent;
       d_blur +=
-          6 * (sample.d_width_s * extent2.x() / width.x() + sample.d_width_t * extent2.y() / width.y()) / 4;
-      const double ds = sample.d_s * mapped.inverse_w / 4, dt = sample.d_t * mapped.inverse_w / 4;
+          d_weight * sample.mean + weight * (sample.d_s * d_st.x() + sample.d_t * d_st.y() +
+                                             sample.d_width_s * d_width.x() + sample.d_width_t * d_width.y());
+      const double ds = weight * sample.d_s * mapped.inverse_w, dt = weight * sample.d_t * mapped.inverse_w;
       const double along = -(ds * mapped.st.x() + dt * mapped.st.y());
       const double x = xy.x(), y = xy.y();
       Eigen::Matrix<double, kHomography, 1> term;
@@ -227,39 +248,29 @@ Eigen::Vector2d CornerPixel(const Camera& camera, const LocalFrame& frame, const
   return Project(camera, frame.ToRay(Map(homography.inverse(), st).st));
 }
 
-// Pixels that lie, with their whole footprint, on the tag's picture.
+// Of the chosen pixels those that lie, with their whole footprint, on the tag's picture.
 std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera, const LocalFrame& frame,
-                                    const Eigen::Matrix3d& homography, const Eigen::Vector2d& center_px,
-                                    double radius_px, int total_cells) {
+                                    const Eigen::Matrix3d& homography, int total_cells,
+                                    const std::vector<Eigen::Array2i>& chosen) {
   std::vector<TagPixel> pixels;
-  const auto first = [](double x) {
-    return std::max<Eigen::Index>(0, static_cast<Eigen::Index>(std::floor(x)));
-  };
-  const Eigen::Index last_v =
-      std::min<Eigen::Index>(grey.rows() - 1, static_cast<Eigen::Index>(center_px.y() + radius_px));
-  const Eigen::Index last_u =
-      std::min<Eigen::Index>(grey.cols() - 1, static_cast<Eigen::Index>(center_px.x() + radius_px));
-  for (Eigen::Index v = first(center_px.y() - radius_px); v <= last_v; ++v) {
-    for (Eigen::Index u = first(center_px.x() - radius_px); u <= last_u; ++u) {
-      if (!std::isfinite(grey(v, u))) continue;
-      const Eigen::Vector2d middle(static_cast<double>(u), static_cast<double>(v));
-      const Eigen::Vector3d ray = Unproject(camera, middle);
-      if (!ray.allFinite()) continue;
-      TagPixel pixel;
-      pixel.xy = frame.FromRay(ray);
-      pixel.d_pixel =
-          (frame.unit *
-           ProjectWithJacobian(camera, ray.hnormalized().homogeneous()).d_pixel_d_point.leftCols<2>())
-              .inverse();
-      const Mapped mapped = Map(homography, pixel.xy);
-      if (!(mapped.inverse_w > 0)) continue;
-      // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
-      const Eigen::Vector2d reach =
-          0.5 * (mapped.d_xy * pixel.d_pixel).cwiseAbs().rowwise().sum().array() + 0.2;
-      if ((mapped.st - reach).minCoeff() < 0 || (mapped.st + reach).maxCoeff() > total_cells) continue;
-      pixel.grey = static_cast<double>(grey(v, u));
-      pixels.push_back(pixel);
-    }
+  pixels.reserve(chosen.size());
+  for (const Eigen::Array2i& place : chosen) {
+    const Eigen::Vector3d ray = Unproject(camera, place.cast<double>().matrix());
+    if (!ray.allFinite()) continue;
+    TagPixel pixel;
+    pixel.xy = frame.FromRay(ray);
+    pixel.d_pixel =
+        (frame.unit *
+         ProjectWithJacobian(camera, ray.hnormalized().homogeneous()).d_pixel_d_point.leftCols<2>())
+            .inverse();
+    const Mapped mapped = Map(homography, pixel.xy);
+    if (!(mapped.inverse_w > 0)) continue;
+    // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
+    const Eigen::Vector2d reach =
+        0.5 * (mapped.d_xy * pixel.d_pixel).cwiseAbs().rowwise().sum().array() + 0.2;
+    if ((mapped.st - reach).minCoeff() < 0 || (mapped.st + reach).maxCoeff() > total_cells) continue;
+    pixel.grey = static_cast<double>(grey(place.y(), place.x()));
+    pixels.push_back(pixel);
   }
   return pixels;
 }
@@ -312,13 +323,14 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
   const std::optional<Eigen::Matrix3d> start = HomographyFrom(xy, CornersInCells(picture));
   if (!start) return std::nullopt;
 
+  const double cells_per_px = (picture.border_end - picture.border_begin) / detection.side_px;
   const TagFitter fitter(
-      picture, CollectPixels(grey, camera, frame, *start, center_px, radius_px, picture.total_cells()));
+      picture, CollectPixels(grey, camera, frame, *start, picture.total_cells(),
+                             ChooseTagPixels(grey, picture, detection.corners_px, options.max_pixels)));
   if (fitter.pixel_count() < std::size_t{5} * kUnknowns) return std::nullopt;
   Fit fit;
   fit.homography = *start;
   if (!fitter.FitShading(fit)) return std::nullopt;
-  const double cells_per_px = (picture.border_end - picture.border_begin) / detection.side_px;
   bool converged = false;
   for (int i = 0; i < options.max_iterations && !converged; ++i) {
     // The sharp picture's derivative jumps as edges pass pixel borders: full steps then swing to and fro by a
@@ -357,7 +369,7 @@ std::vector<TagDetection> RefineTagCorners(const ImagePlane& grey, const Camera&
   const TagFamilyPtr family = MakeTagFamily(options.family);
   std::vector<TagDetection> refined;
   for (const TagDetection& detection : detections) {
-    const TagPicture picture = DrawTag(*family, detection.id);
+    const TagPicture picture = DrawTag(*family, detection.id, options.border_bits);
     refined.push_back(RefineOne(grey, camera, picture, detection, options).value_or(detection));
   }
   return refined;

@@ -7,7 +7,7 @@
 // Unknowns: H (8), black and contrast with their gradients (6), lens blur (variance, px^2). Gauss-Newton,
 // Huber weights. The edges of all cells count, not only the outline, and the mean over a pixel's area is
 // exact for sharp edges, so that photos sharper than the pixel grid do no harm: a few hundredths of a pixel,
-// where edge detectors reach 0.1 to 0.3.
+// where edge detectors reach 0.1 to 0.3. The lens blur is a Gaussian's in variance and fourth moment.
 //
 // Assumes a flat tag, linear counts (a gamma moves edges), and fewer than about a third of the tag hidden or
 // shadowed. Pixels that are NaN are left out: give saturated pixels so, for clipped whites move edges.
@@ -28,7 +28,9 @@ namespace luxfit {
 
 struct RefineTagCornersOptions {
   std::string family = "tag36h11";
+  int border_bits = 1;  // width of the black border in cells; Kalibr prints 2
   int max_iterations = 20;
+  int max_pixels = 1500;  // of a large tag that are looked at, most about edges: more gain nothing but time
   double max_shift_cells = 0.5;  // further from the detector's corner (1 px at least) the fit has gone astray
   double max_residual = 0.25;  // robust residual per unit of contrast; beyond it the pixels are not this tag
   double min_corner_sigma_px = 0.03;  // the model's own floor: aliasing, flatness, print, lens model

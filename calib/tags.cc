@@ -5,62 +5,30 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "calib/internal/display_image.h"
 #include "calib/internal/tag_family.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kSaturatedFraction = 0.97;  // of the plane's largest value: luminaires in view
-constexpr double kWhitePercentile = 0.99;    // of the pixels that are not saturated
-constexpr int kPercentileStride = 5;         // every fifth pixel of the plane is sample enough
-
 using DetectorPtr = std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>;
 using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
-
-// The value shown as white. Luminaires in view are hundreds of times as bright as walls: scaling to the
-// largest value would leave a tag a handful of grey levels.
-float WhiteLevel(const ImagePlane& grey) {
-  float largest = 0;
-  for (Eigen::Index i = 0; i < grey.size(); ++i) {
-    if (std::isfinite(grey.data()[i])) largest = std::max(largest, grey.data()[i]);
-  }
-  std::vector<float> sample;
-  sample.reserve(static_cast<std::size_t>(grey.size() / kPercentileStride + 1));
-  for (Eigen::Index i = 0; i < grey.size(); i += kPercentileStride) {
-    if (grey.data()[i] < kSaturatedFraction * largest) sample.push_back(grey.data()[i]);
-  }
-  if (sample.empty()) return largest;
-  const auto white = sample.begin() + static_cast<std::ptrdiff_t>(kWhitePercentile * (sample.size() - 1));
-  std::nth_element(sample.begin(), white, sample.end());
-  return *white > 0 ? *white : largest;
-}
-
-std::vector<uint8_t> ToDisplay(const ImagePlane& grey, double gamma) {
-  constexpr int kLevels = 4096;
-  std::vector<uint8_t> table(kLevels + 1);
-  for (int i = 0; i <= kLevels; ++i) {
-    // Entries are spaced by the square root of the value: the dark end, where gamma is steep, stays fine.
-    const double value = std::pow(static_cast<double>(i) / kLevels, 2);
-    table[static_cast<std::size_t>(i)] = static_cast<uint8_t>(std::lround(255 * std::pow(value, 1 / gamma)));
-  }
-  const float white = WhiteLevel(grey);
-  const float scale = white > 0 ? 1 / white : 0;
-  std::vector<uint8_t> display(static_cast<std::size_t>(grey.size()));
-  for (Eigen::Index i = 0; i < grey.size(); ++i) {
-    const float value = grey.data()[i] * scale;
-    const float shown = std::isnan(value) ? 1.0f : std::clamp(value, 0.0f, 1.0f);
-    display[static_cast<std::size_t>(i)] = table[static_cast<std::size_t>(std::sqrt(shown) * kLevels)];
-  }
-  return display;
-}
 
 double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
   double sum_px = 0;
   for (std::size_t i = 0; i < 4; ++i) sum_px += (corners_px[(i + 1) % 4] - corners_px[i]).norm();
   return sum_px / 4;
+}
+
+// Small tags are looked for where time allows: decimation by 2 misses a third of those below 40 px.
+double DecimationOf(const ImagePlane& grey, double asked) {
+  constexpr Eigen::Index kLargePhotoPixels = 8'000'000;
+  if (asked > 0) return asked;
+  return grey.size() > kLargePhotoPixels ? 1.5 : 1;
 }
 
 TagDetection ToHouse(const apriltag_detection_t& found) {
@@ -78,11 +46,59 @@ TagDetection ToHouse(const apriltag_detection_t& found) {
   return tag;
 }
 
+std::vector<TagDetection> DetectIn(const ImagePlane& grey, apriltag_detector_t& detector, double gamma) {
+  std::vector<uint8_t> display = DisplayImage(grey, gamma);
+  image_u8_t view = {static_cast<int32_t>(grey.cols()), static_cast<int32_t>(grey.rows()),
+                     static_cast<int32_t>(grey.cols()), display.data()};
+  const DetectionsPtr found(apriltag_detector_detect(&detector, &view), apriltag_detections_destroy);
+  std::vector<TagDetection> tags;
+  tags.reserve(static_cast<std::size_t>(zarray_size(found.get())));
+  for (int i = 0; i < zarray_size(found.get()); ++i) {
+    apriltag_detection_t* detection = nullptr;
+    zarray_get(found.get(), i, &detection);
+    tags.push_back(ToHouse(*detection));
+  }
+  return tags;
+}
+
+std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_detector_t& detector,
+                                           const DetectTagsOptions& options) {
+  const auto enlarged = [&](Eigen::Index pixels) {
+    return static_cast<Eigen::Index>(std::lround(static_cast<double>(pixels) * options.enlarge));
+  };
+  ImagePlane large(enlarged(grey.rows()), enlarged(grey.cols()));
+  const cv::Mat from(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
+                     const_cast<float*>(grey.data()));  // read only: cv::Mat knows no const
+  cv::Mat to(static_cast<int>(large.rows()), static_cast<int>(large.cols()), CV_32F, large.data());
+  cv::resize(from, to, to.size(), 0, 0, cv::INTER_CUBIC);
+  const Eigen::Array2d scale(static_cast<double>(large.cols()) / static_cast<double>(grey.cols()),
+                             static_cast<double>(large.rows()) / static_cast<double>(grey.rows()));
+  std::vector<TagDetection> tags = DetectIn(large, detector, options.display_gamma);
+  for (TagDetection& tag : tags) {
+    for (Eigen::Vector2d& corner : tag.corners_px) corner = ((corner.array() + 0.5) / scale - 0.5).matrix();
+    tag.side_px = MeanSide(tag.corners_px);
+    tag.corner_sigma_px = DetectorCornerSigmaPx(tag.side_px);
+  }
+  return tags;
+}
+
 // Detections of one tag (or of one of several copies of it) in several photos.
 using Cluster = std::vector<TagDetection>;
 
 Eigen::Vector2d Center(const TagDetection& tag) {
   return (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]) / 4;
+}
+
+// `tags` and those of `others` that are at another place or of another id.
+std::vector<TagDetection> WithOthers(std::vector<TagDetection> tags,
+                                     const std::vector<TagDetection>& others) {
+  for (const TagDetection& other : others) {
+    const bool is_known = std::any_of(tags.begin(), tags.end(), [&](const TagDetection& tag) {
+      return tag.id == other.id && (Center(tag) - Center(other)).norm() < 0.5 * tag.side_px;
+    });
+    if (!is_known) tags.push_back(other);
+  }
+  return tags;
 }
 
 double Median(std::vector<double> values) {
@@ -176,9 +192,10 @@ double DetectorCornerSigmaPx(double side_px) {
   // Measured on area-integrated renders with lens blur 0.7 px; below 16 px extrapolated as 1 / side.
   constexpr std::array<std::pair<double, double>, 5> kTable = {
       {{16, 0.22}, {24, 0.14}, {40, 0.055}, {80, 0.045}, {160, 0.04}}};
-  // Photos sharper than the pixel grid are aliased, and gamma moves edges: 0.1 px more, independent of the
-  // size.
-  constexpr double kAliasingPx = 0.1;
+  // The detector sees the photo with a display gamma, which moves edges towards the black by 0.36 px at a
+  // lens blur of 0.7 px (docs/calib.md, "Boards and tags"), whatever the size; photos sharper than the pixel
+  // grid are aliased.
+  constexpr double kDisplayPx = 0.35;
   double blurred_px = kTable.back().second;
   if (side_px <= kTable.front().first) {
     blurred_px = kTable.front().second * kTable.front().first / std::max(side_px, 1.0);
@@ -190,33 +207,34 @@ double DetectorCornerSigmaPx(double side_px) {
       break;
     }
   }
-  return std::hypot(blurred_px, kAliasingPx);
+  return std::hypot(blurred_px, kDisplayPx);
 }
 
 std::vector<TagDetection> DetectTags(const ImagePlane& grey, const DetectTagsOptions& options) {
   const TagFamilyPtr family = MakeTagFamily(options.family);
   if (!(options.display_gamma > 0)) throw std::invalid_argument("DetectTags: display_gamma: expected > 0");
   if (grey.size() == 0) throw std::invalid_argument("DetectTags: the plane is empty");
+  if (options.decimate != 0 && !(options.decimate >= 1))
+    throw std::invalid_argument("DetectTags: decimate: expected 0 or at least 1");
+  if (!(options.enlarge >= 1)) throw std::invalid_argument("DetectTags: enlarge: expected at least 1");
 
   const DetectorPtr detector(apriltag_detector_create(), apriltag_detector_destroy);
   detector->nthreads = 1;
-  detector->quad_decimate = 1;  // decimation misses a third of the tags below 40 px
-  detector->refine_edges = true;
+  detector->quad_decimate = static_cast<float>(DecimationOf(grey, options.decimate));
+  detector->refine_edges = options.refine_edges;
   apriltag_detector_add_family(detector.get(), family.get());
 
-  std::vector<uint8_t> display = ToDisplay(grey, options.display_gamma);
-  image_u8_t view = {static_cast<int32_t>(grey.cols()), static_cast<int32_t>(grey.rows()),
-                     static_cast<int32_t>(grey.cols()), display.data()};
-  const DetectionsPtr found(apriltag_detector_detect(detector.get(), &view), apriltag_detections_destroy);
-
-  std::vector<TagDetection> tags;
-  for (int i = 0; i < zarray_size(found.get()); ++i) {
-    apriltag_detection_t* detection = nullptr;
-    zarray_get(found.get(), i, &detection);
-    const TagDetection tag = ToHouse(*detection);
-    if (tag.side_px < options.min_side_px || tag.decision_margin < options.min_decision_margin) continue;
-    tags.push_back(tag);
+  std::vector<TagDetection> tags = DetectIn(grey, *detector, options.display_gamma);
+  if (options.enlarge > 1) {
+    detector->quad_decimate = 1;
+    tags = WithOthers(std::move(tags), DetectInEnlarged(grey, *detector, options));
   }
+  tags.erase(std::remove_if(tags.begin(), tags.end(),
+                            [&](const TagDetection& tag) {
+                              return tag.side_px < options.min_side_px ||
+                                     tag.decision_margin < options.min_decision_margin;
+                            }),
+             tags.end());
   // The detector's own order depends on its hash table.
   std::sort(tags.begin(), tags.end(), [](const TagDetection& a, const TagDetection& b) {
     if (a.id != b.id) return a.id < b.id;

@@ -44,6 +44,13 @@ struct DetectTagsOptions {
   std::string family = "tag36h11";
   double min_side_px = 12;          // smaller ones are mostly missed, and a cell is 1.5 px: bits by luck
   double min_decision_margin = 20;  // libapriltag's own recommendation lies between 10 and 50
+  // Detection in a photo reduced by this much is faster (1.5, or whole numbers); edges are refined in the
+  // full one. 0: 1.5 above 8 megapixels, else 1. Tags below some 20 px times this are missed.
+  double decimate = 0;
+  bool refine_edges = true;
+  // Above 1: looks a second time, in the photo enlarged by this much, for tags of some 10 to 20 px; takes
+  // 1 + enlarge^2 times as long.
+  double enlarge = 1;
   double display_gamma = 2.2;  // linear counts are compressed before detection: dark tags keep their contrast
 };
 

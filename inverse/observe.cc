@@ -120,7 +120,7 @@ PixelMap MapPixels(const Camera& camera, const PixelDirections& directions,
 std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage& photo, int view, int state) {
   struct Sums {
     int count = 0;
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, noise = 0;
     Eigen::Vector3d rgb = Eigen::Vector3d::Zero();
   };
   std::vector<Sums> sums(map.pixels_of_element.size());
@@ -133,6 +133,7 @@ std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage&
       ++s.count;
       s.sum += y;
       s.squares += y * y;
+      if (photo.variance.size() > 0) s.noise += photo.variance(v, u);
       s.rgb += Eigen::Vector3d(photo.relative_rgb[0](v, u), photo.relative_rgb[1](v, u),
                                photo.relative_rgb[2](v, u));
     }
@@ -145,8 +146,9 @@ std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage&
     const double mean = s.sum / s.count;
     const double spread = std::max(0.0, s.squares / s.count - mean * mean) * s.count / (s.count - 1);
     if (!(mean > 0)) continue;
-    observations.push_back(
-        {static_cast<int>(e), view, state, s.count, mean, spread / s.count, s.rgb / s.count});
+    // A few pixels may agree by chance better than their noise allows.
+    const double variance = std::max(spread, s.noise / s.count) / s.count;
+    observations.push_back({static_cast<int>(e), view, state, s.count, mean, variance, s.rgb / s.count});
   }
   return observations;
 }

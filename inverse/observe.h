@@ -51,7 +51,7 @@ struct Observation {
   int state = 0;
   int pixels = 0;
   double relative_luminance = 0;
-  double variance = 0;                                     // of the mean, from the spread of the pixels
+  double variance = 0;  // of the mean, from the spread of the pixels, and no less than their stated noise
   Eigen::Vector3d relative_rgb = Eigen::Vector3d::Zero();  // the channels' means, in the same unit
 };
 

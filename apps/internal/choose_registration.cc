@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "apps/colmap_run.h"
@@ -12,6 +14,10 @@
 
 namespace luxfit {
 namespace {
+
+// Adding evidence that agrees moves a pose by less than its sigma.
+constexpr double kMaxDisagreementSigmas = 2;
+constexpr double kMaxSigmaOfWorst = 2;  // of a view that features bring in, to the worst that tags place
 
 // What is known of the session's views, and what is made of it.
 class RegistrationJob {
@@ -98,6 +104,48 @@ class RegistrationJob {
   std::vector<ViewDetections> detections_;
 };
 
+// How far the features move the camera centres that the tags gave, in sigmas of the tags' own: rms per axis
+// over the views that both have. About 1 or less where the two agree.
+double FeaturesAgainstTags(const Registration& tags, const Registration& both) {
+  double sum = 0, count = 0;
+  for (const RegisteredView& by_tags : tags.views) {
+    for (const RegisteredView& by_both : both.views) {
+      if (by_both.view != by_tags.view) continue;
+      const Eigen::Vector3d moved_m =
+          by_both.cam_from_world.inverse().translation() - by_tags.cam_from_world.inverse().translation();
+      sum += moved_m.dot(by_tags.covariance.bottomRightCorner<3, 3>().ldlt().solve(moved_m));
+      count += 3;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+bool HasView(const Registration& registration, const std::string& view) {
+  return std::any_of(registration.views.begin(), registration.views.end(),
+                     [&view](const RegisteredView& other) { return other.view == view; });
+}
+
+// Leaves out, and names, the views that features brought in and placed much worse than tags place any view:
+// few matches, seen far off, are the ones that mislead.
+void LeaveOutPoorlyPlaced(const Registration& tags, Registration& both) {
+  double worst_by_tags_m = 0;
+  for (const RegisteredView& view : tags.views)
+    worst_by_tags_m = std::max(worst_by_tags_m, view.position_sigma_m.norm());
+  std::vector<RegisteredView> kept;
+  for (const RegisteredView& view : both.views) {
+    if (HasView(tags, view.view) || view.position_sigma_m.norm() <= kMaxSigmaOfWorst * worst_by_tags_m) {
+      kept.push_back(view);
+      continue;
+    }
+    both.notes.push_back(
+        {view.view, -1, "pose_uncertain",
+         fmt::format("Features leave the place of view {} uncertain by {:.0f} mm; it is left out.", view.view,
+                     1000 * view.position_sigma_m.norm()),
+         "Show the view more tags, or take photos that overlap more with it."});
+  }
+  both.views = kept;
+}
+
 Registration Auto(const RegistrationJob& job) {
   const std::vector<std::string> among{"tags", "both"};
   Registration tags = job.ByTags();
@@ -121,11 +169,22 @@ Registration Auto(const RegistrationJob& job) {
     job.Warn("colmap_failed", error.what(), "See COLMAP's log; method = \"tags\" does without it.");
     return tags;
   }
+  const double disagreement_sigmas = FeaturesAgainstTags(tags, both);
+  if (!(disagreement_sigmas <= kMaxDisagreementSigmas)) {
+    const std::string message =
+        fmt::format("features move the cameras that the tags gave by {:.1f} of the tags' sigmas (rms)",
+                    disagreement_sigmas);
+    job.Choose("tags", among, left_out + "; " + message);
+    job.Warn("features_disagree", "COLMAP's " + message + "; views that the tags leave out stay out.",
+             "Hang a tag where these views see it; features of shadows, reflections and bare walls mislead.");
+    return tags;
+  }
+  LeaveOutPoorlyPlaced(tags, both);
   if (both.views.size() > tags.views.size()) {
     job.Choose("both", among, fmt::format("{}, with features {}", left_out, both.views.size()));
     return both;
   }
-  job.Choose("tags", among, left_out + ", features no more");
+  job.Choose("tags", among, left_out + ", features no more that are well placed");
   return tags;
 }
 

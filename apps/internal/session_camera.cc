@@ -2,34 +2,14 @@
 
 #include <algorithm>
 
+#include "apps/internal/session_board.h"
 #include "apps/internal/session_files.h"
 
 namespace luxfit {
 namespace {
 
-void CheckBoard(const TomlCursor& board) {
-  board.ExpectKeys({"type", "columns", "rows", "tag_size_m", "square_size_m", "marker_size_m", "spacing"});
-  board.Require("type", "aprilgrid, chessboard or charuco").OneOf({"aprilgrid", "chessboard", "charuco"});
-  for (const char* key : {"columns", "rows"})
-    if (const auto count = board.Find(key)) count->WholeNumber("a number of tags or squares");
-  for (const char* key : {"tag_size_m", "square_size_m", "marker_size_m"})
-    if (const auto size = board.Find(key)) size->NumberAbove(0, "m");
-  if (const auto spacing = board.Find("spacing")) spacing->NumberAbove(0, "tag sizes");
-}
-
-void CheckCalibrationImages(const TomlCursor& table) {
-  if (const auto board = table.Find("board")) CheckBoard(*board);
-  const auto images = table.Find("calibration_images");
-  if (!images) return;
-  images->Text("a file pattern");
-  throw NotAvailable(*images, "intrinsics = \"camera.yaml\" (OpenCV YAML)");
-}
-
-std::string ReadIntrinsics(const TomlCursor& table, const std::string& folder) {
-  const std::string expected =
-      "a file of intrinsics (OpenCV YAML or XML, mrcal .cameramodel, COLMAP cameras.txt or .bin, Kalibr "
-      "camchain)";
-  const TomlCursor value = table.Require("intrinsics", expected);
+std::string ReadIntrinsics(const TomlCursor& value, const std::string& folder) {
+  const std::string expected = ExpectedIntrinsics();
   const std::string extension = ExtensionOf(value.Text(expected));
   const std::vector<std::string> known = {".yaml", ".yml", ".xml", ".cameramodel", ".txt", ".bin"};
   if (std::find(known.begin(), known.end(), extension) == known.end())
@@ -45,21 +25,51 @@ Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
   return weights;
 }
 
-// The one value that this version serves; any other is known to the format or names a file.
-std::string ReadOnly(const TomlCursor& table, const std::string& key, const std::string& served) {
+// `none`, "estimate" or the name of a file, whose absolute path goes with it.
+struct NameOrFile {
+  std::string name, path;
+};
+NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key, const std::string& none,
+                          const std::string& folder) {
   const auto value = table.Find(key);
-  if (!value || value->Text("\"" + served + "\"") == served) return served;
-  throw NotAvailable(*value, "\"" + served + "\"");
+  if (!value) return {none, ""};
+  const std::string name = value->Text("\"" + none + "\", \"estimate\" or a file");
+  if (name == none || name == "estimate") return {name, ""};
+  // A word without an extension is a misspelt name rather than a missing file.
+  if (ExtensionOf(name).empty()) value->OneOf({none, "estimate"});
+  return {name, AbsolutePath(FindFile(*value, folder))};
+}
+
+Eigen::Array2i ReadImageSize(const TomlCursor& value) {
+  const std::vector<double> size = value.Numbers("[width, height] in pixels");
+  constexpr double kMostPx = 1e6;
+  for (const double side : size) {
+    if (size.size() != 2 || !(side >= 1 && side <= kMostPx) || side != static_cast<int>(side))
+      throw value.Error("expected [width, height] in whole pixels, got " + value.Shown());
+  }
+  if (size.empty()) throw value.Error("expected [width, height] in whole pixels, got none");
+  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
 }
 
 SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
-  table.ExpectKeys({"id", "intrinsics", "calibration_images", "board", "response", "vignetting",
-                    "black_level", "cdm2_per_count_s", "luminance_weights"});
+  table.ExpectKeys({"id", "intrinsics", "calibration_images", "calibration_corners", "image_size", "board",
+                    "response", "vignetting", "black_level", "cdm2_per_count_s", "luminance_weights"});
   SessionCamera camera;
-  CheckCalibrationImages(table);
-  camera.intrinsics = ReadIntrinsics(table, folder);
-  camera.response = ReadOnly(table, "response", "linear");
-  camera.vignetting = ReadOnly(table, "vignetting", "none");
+  if (const auto board = table.Find("board")) camera.board = ReadBoard(*board);
+  if (const auto images = table.Find("calibration_images"))
+    camera.calibration_images = FindFiles(*images, folder);
+  if (const auto corners = table.Find("calibration_corners"))
+    camera.calibration_corners = AbsolutePath(FindFile(*corners, folder));
+  if (const auto size = table.Find("image_size")) camera.image_size_px = ReadImageSize(*size);
+  if (const auto intrinsics = table.Find("intrinsics"))
+    camera.intrinsics = ReadIntrinsics(*intrinsics, folder);
+  const NameOrFile response = ReadNameOrFile(table, "response", "linear", folder);
+  camera.response = response.name;
+  camera.response_path = response.path;
+  const NameOrFile vignetting = ReadNameOrFile(table, "vignetting", "none", folder);
+  camera.vignetting = vignetting.name;
+  camera.vignetting_path = vignetting.path;
+  camera.line = table.place().line;
   if (const auto black = table.Find("black_level"))
     camera.black_level_counts = black->NumberAtLeast(0, "counts");
   if (const auto scale = table.Find("cdm2_per_count_s"))
@@ -70,6 +80,11 @@ SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
 }
 
 }  // namespace
+
+std::string ExpectedIntrinsics() {
+  return "a file of intrinsics (OpenCV YAML or XML, mrcal .cameramodel, COLMAP cameras.txt or .bin, Kalibr "
+         "camchain), or calibration_images";
+}
 
 std::vector<SessionCamera> ReadCameras(const TomlCursor& list, const std::string& folder) {
   const std::vector<TomlCursor> tables = list.Elements("a list of tables [[camera]]");

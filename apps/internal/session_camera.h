@@ -15,6 +15,9 @@
 
 namespace luxfit {
 
+// What `intrinsics` may be, for messages.
+std::string ExpectedIntrinsics();
+
 std::vector<SessionCamera> ReadCameras(const TomlCursor& list, const std::string& folder);
 
 }  // namespace luxfit

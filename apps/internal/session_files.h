@@ -5,6 +5,7 @@
 #define LUXFIT_APPS_INTERNAL_SESSION_FILES_H_
 
 #include <string>
+#include <vector>
 
 #include "apps/input_error.h"
 #include "apps/internal/toml_reader.h"
@@ -15,6 +16,10 @@ namespace luxfit {
 std::string FindFile(const SourcePlace& place, const std::string& key, const std::string& folder,
                      const std::string& name);
 std::string FindFile(const TomlCursor& value, const std::string& folder);
+
+// The files that a pattern names (`*`, `?` and `[...]` as in a shell, in folders too), absolute, sorted; at
+// least one.
+std::vector<std::string> FindFiles(const TomlCursor& pattern, const std::string& folder);
 
 std::string AbsolutePath(const std::string& path);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "apps/internal/session_files.h"
@@ -28,6 +29,18 @@ int CameraIndex(const CsvTable& table, const CsvRow& row, const std::vector<Sess
                      (nearest.empty() ? "; add [[camera]] with this id, or correct the row" : nearest));
 }
 
+// The field of a column that may be missing or left empty.
+std::optional<double> PositiveOrNone(const CsvTable& table, const CsvRow& row, const std::string& column,
+                                     const std::string& mend) {
+  if (!HasColumn(table, column) || CsvText(table, row, column).empty()) return std::nullopt;
+  const double value = CsvNumber(table, row, column);
+  if (value <= 0)
+    throw CsvError(
+        table, row, column,
+        "expected > 0, got " + Quoted(CsvText(table, row, column)) + "; " + mend + ", or leave it empty");
+  return value;
+}
+
 SessionPhoto ReadRow(const CsvTable& table, const CsvRow& row, const std::string& folder,
                      const std::vector<SessionCamera>& cameras, const std::vector<SessionState>& states) {
   SessionPhoto photo;
@@ -38,17 +51,17 @@ SessionPhoto ReadRow(const CsvTable& table, const CsvRow& row, const std::string
   if (photo.view.empty())
     throw CsvError(table, row, "view", "expected a name, got nothing; photos from one place share one name");
   photo.state = StateOfRow(table, row, states);
-  photo.exposure_s = CsvNumber(table, row, "exposure_s");
-  if (photo.exposure_s <= 0)
-    throw CsvError(table, row, "exposure_s",
-                   "expected > 0, got " + Quoted(CsvText(table, row, "exposure_s")) +
-                       "; write the exposure time in seconds");
+  // Empty: the file's own metadata say it.
+  photo.exposure_s =
+      PositiveOrNone(table, row, "exposure_s", "write the exposure time in seconds").value_or(0);
+  photo.f_number = PositiveOrNone(table, row, "aperture", "write the f-number");
+  photo.iso = PositiveOrNone(table, row, "iso", "write the ISO speed");
   return photo;
 }
 
 void ExpectNoRepeats(const CsvTable& table, const std::vector<SessionPhoto>& photos) {
   std::map<std::string, int> line_of_file;
-  std::map<std::tuple<int, std::string, std::string, double>, int> line_of_exposure;
+  std::map<std::tuple<int, std::string, std::string, double, double, double>, int> line_of_exposure;
   std::map<std::string, const SessionPhoto*> first_of_view;
   for (size_t i = 0; i < photos.size(); ++i) {
     const SessionPhoto& photo = photos[i];
@@ -59,9 +72,11 @@ void ExpectNoRepeats(const CsvTable& table, const std::vector<SessionPhoto>& pho
                      "expected every photo once, got " + Quoted(CsvText(table, row, "file")) +
                          ", which line " + std::to_string(file.first->second) +
                          " has already; correct or remove the row");
-    const auto exposure = line_of_exposure.emplace(
-        std::tuple(photo.camera, photo.view, photo.state, photo.exposure_s), photo.line);
-    if (!exposure.second)
+    const auto exposure =
+        line_of_exposure.emplace(std::tuple(photo.camera, photo.view, photo.state, photo.exposure_s,
+                                            photo.f_number.value_or(0), photo.iso.value_or(0)),
+                                 photo.line);
+    if (!exposure.second && photo.exposure_s > 0)
       throw CsvError(table, row, "exposure_s",
                      "expected photos of one view, state and camera to differ in exposure, got " +
                          CsvText(table, row, "exposure_s") + " s in line " +
@@ -72,25 +87,6 @@ void ExpectNoRepeats(const CsvTable& table, const std::vector<SessionPhoto>& pho
                      "expected one camera per view, for a view is one pose; got another one for " +
                          Quoted(photo.view) + " in line " + std::to_string(first->line) +
                          "; give the view of each camera a name of its own");
-  }
-}
-
-void ExpectSameLens(const CsvTable& table, const std::vector<SessionPhoto>& photos,
-                    const std::string& column) {
-  if (!HasColumn(table, column)) return;
-  std::map<int, std::pair<std::string, int>> first_of_camera;
-  for (size_t i = 0; i < photos.size(); ++i) {
-    const CsvRow& row = table.rows[i];
-    const std::string& text = CsvText(table, row, column);
-    if (!text.empty() && CsvNumber(table, row, column) <= 0)
-      throw CsvError(table, row, column,
-                     "expected > 0, got " + Quoted(text) + "; correct it or leave it empty");
-    const auto [first, is_new] = first_of_camera.emplace(photos[i].camera, std::pair(text, row.line));
-    if (!is_new && first->second.first != text)
-      throw CsvError(table, row, column,
-                     "a change within one camera is not available in this version; expected " +
-                         Quoted(first->second.first) + " as in line " + std::to_string(first->second.second) +
-                         ", got " + Quoted(text) + "; photos may differ in exposure_s only");
   }
 }
 
@@ -108,8 +104,6 @@ std::vector<SessionPhoto> PhotosOf(const CsvTable& table, const std::string& fol
   std::vector<SessionPhoto> photos;
   for (const CsvRow& row : table.rows) photos.push_back(ReadRow(table, row, folder, cameras, states));
   ExpectNoRepeats(table, photos);
-  ExpectSameLens(table, photos, "aperture");
-  ExpectSameLens(table, photos, "iso");
   return photos;
 }
 

@@ -3,8 +3,7 @@
 //   file,camera,view,state,exposure_s[,aperture,iso]
 //
 // Rows of one view, state and camera are an exposure bracket and differ in exposure. A view has one camera.
-// Aperture and ISO are checked to be the same in all photos of a camera: this version compares photos by
-// exposure alone.
+// Exposure time, aperture (f-number) and ISO may be empty where the photo's own metadata state them.
 //
 // Throws std::runtime_error("FILE:LINE: column: ...") for a missing photo, an unknown camera or state, an
 // exposure that is not > 0 s and a photo given twice.

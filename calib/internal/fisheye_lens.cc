@@ -43,7 +43,7 @@ LensImage FisheyeLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam
 Eigen::Vector3d FisheyeLensDirection(const Camera& camera, const Eigen::Vector2d& xy) {
   const double target = xy.norm();
   if (target < 1e-12) return {xy.x(), xy.y(), 1};
-  const Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
+  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
   // The first angle at which the radius reaches the target, while the radius still grows.
   constexpr int kSteps = 64;
   double low = 0, high = kNaN;

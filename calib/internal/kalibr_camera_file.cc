@@ -47,8 +47,10 @@ class Chain {
       Fail(node["camera_model"].Mark(), "camera_model", "expected pinhole, got \"" + model + "\"");
     Camera camera;
     const std::vector<double> size = Numbers(node, "resolution", 2);
-    camera.width_px = static_cast<int>(size[0]);
-    camera.height_px = static_cast<int>(size[1]);
+    const std::string place =
+        path_ + ":" + std::to_string(node["resolution"].Mark().line + 1) + ": resolution";
+    camera.width_px = ImagePixels(size[0], place);
+    camera.height_px = ImagePixels(size[1], place);
     const std::vector<double> k = Numbers(node, "intrinsics", 4);
     camera.fx_px = k[0];
     camera.fy_px = k[1];

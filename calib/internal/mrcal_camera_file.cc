@@ -1,18 +1,54 @@
-#include <cstdio>
+#include <array>
+#include <fstream>
 #include <iomanip>
-#include <memory>
+#include <iterator>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
 #include "calib/internal/camera_formats.h"
 #include "calib/internal/mrcal_lens.h"
+#include "calib/internal/python_dict.h"
 
 namespace luxfit {
 namespace {
 
-struct FreeModel {
-  void operator()(mrcal_cameramodel_t* model) const { mrcal_free_cameramodel(&model); }
-};
+std::string Read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+[[noreturn]] void Fail(const std::string& path, int line, const std::string& key, const std::string& what) {
+  throw std::runtime_error(path + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key + ": " + what);
+}
+
+using Entries = std::map<std::string, PythonValue>;
+
+const PythonValue& Numbers(const Entries& entries, const std::string& path, const std::string& key,
+                           std::size_t count) {
+  const auto at = entries.find(key);
+  const std::string expected = "expected a list of " + std::to_string(count) + " numbers";
+  if (at == entries.end()) Fail(path, 0, key, expected + ", got nothing; is this a .cameramodel of mrcal?");
+  if (!at->second.is_numbers || at->second.numbers.size() != count)
+    Fail(path, at->second.line, key,
+         expected + (at->second.is_numbers ? ", got " + std::to_string(at->second.numbers.size()) : ""));
+  return at->second;
+}
+
+MrcalLens ReadLens(const Entries& entries, const std::string& path) {
+  const auto at = entries.find("lensmodel");
+  if (at == entries.end() || !at->second.is_text)
+    Fail(path, at == entries.end() ? 0 : at->second.line, "lensmodel",
+         "expected a name; is this a .cameramodel of mrcal?");
+  MrcalLens lens{};
+  if (!mrcal_lensmodel_from_name(&lens.model, at->second.text.c_str()) ||
+      !mrcal_lensmodel_type_is_valid(lens.model.type)) {
+    Fail(path, at->second.line, "lensmodel", "expected a lens model of mrcal, got '" + at->second.text + "'");
+  }
+  const int count = mrcal_lensmodel_num_params(&lens.model);
+  lens.intrinsics = Numbers(entries, path, "intrinsics", static_cast<std::size_t>(count)).numbers;
+  return lens;
+}
 
 // mrcal's rt: rotation vector and translation, p_in_cam = R(r) p + t.
 Eigen::Isometry3d ToIsometry(const double* rt) {
@@ -31,24 +67,22 @@ void AppendNumbers(const Values& values, std::ostringstream& out) {
 }  // namespace
 
 FiledCamera ReadMrcalCamera(const std::string& path) {
-  const std::unique_ptr<mrcal_cameramodel_t, FreeModel> model(mrcal_read_cameramodel_file(path.c_str()));
-  if (model == nullptr) {
-    throw std::runtime_error(
-        path +
-        ": cannot read the calibration, expected a .cameramodel with lensmodel, intrinsics, extrinsics and "
-        "imagersize as mrcal 2.2 and older write it (newer ones with rt_cam_ref alone: convert with "
-        "mrcal-to-opencv or add extrinsics)");
-  }
-  MrcalLens lens{model->lensmodel, {}};
-  const int count = mrcal_lensmodel_num_params(&lens.model);
-  lens.intrinsics.assign(model->intrinsics, model->intrinsics + count);
+  const std::string text = Read(path);
+  const Entries entries = ParsePythonDict(text, path);
+  const MrcalLens lens = ReadLens(entries, path);
+  const PythonValue& imager = Numbers(entries, path, "imagersize", 2);
   Camera size;
-  size.width_px = static_cast<int>(model->imagersize[0]);
-  size.height_px = static_cast<int>(model->imagersize[1]);
+  const std::string place = path + ":" + std::to_string(imager.line) + ": imagersize";
+  size.width_px = ImagePixels(imager.numbers[0], place);
+  size.height_px = ImagePixels(imager.numbers[1], place);
+  // mrcal 2.4 and later call it rt_cam_ref.
+  const std::string pose = entries.count("extrinsics") > 0 ? "extrinsics" : "rt_cam_ref";
+  const std::vector<double>& rt = Numbers(entries, path, pose, 6).numbers;
   try {
-    return {"", FromMrcal(lens, size), ToIsometry(model->rt_cam_ref)};
+    return {"", FromMrcal(lens, size), ToIsometry(rt.data())};
   } catch (const std::invalid_argument& e) {
-    throw std::runtime_error(path + ": lensmodel: " + e.what() + "; convert it with mrcal-convert-lensmodel");
+    Fail(path, entries.at("lensmodel").line, "lensmodel",
+         e.what() + std::string("; convert it with mrcal-convert-lensmodel"));
   }
 }
 

@@ -83,6 +83,7 @@ Camera FromMrcal(const MrcalLens& lens, const Camera& size) {
   if (is_splined) {
     const auto& config = lens.model.LENSMODEL_SPLINED_STEREOGRAPHIC__config;
     camera.spline = {config.order, config.Nx, config.Ny, config.fov_x_deg, {in.begin() + 4, in.end()}};
+    ToMrcal(camera);  // throws where the numbers do not fit each other
   }
   return camera;
 }

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 
@@ -16,11 +15,7 @@ int ReadPixels(const cv::FileStorage& file, const std::string& path, const std::
   if (!node.isInt() && !node.isReal()) {
     Fail(path, key + ": expected a number of pixels, got " + (node.empty() ? "nothing" : "something else"));
   }
-  const double value = static_cast<double>(node);
-  if (!(value >= 1) || value != std::floor(value)) {
-    Fail(path, key + ": expected a whole number > 0, got " + std::to_string(value));
-  }
-  return static_cast<int>(value);
+  return ImagePixels(static_cast<double>(node), path + ": " + key);
 }
 
 cv::Mat ReadMatrix(const cv::FileStorage& file, const std::string& path, const std::string& key) {

@@ -65,7 +65,7 @@ LensImage OpenCvLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam)
 }
 
 Eigen::Vector3d OpenCvLensDirection(const Camera& camera, const Eigen::Vector2d& target) {
-  const Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
+  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
   // Two fixed-point steps (as if the distortion were the same at the target) put Newton's method near the
   // root.
   Eigen::Vector2d xy = target;

@@ -4,7 +4,10 @@
 // AprilTag's own images show it. The black square (whose corners are detected) spans cells [border_begin,
 // border_end) both ways.
 //
-// Throws std::invalid_argument for an unknown family name and an id that the family does not have.
+// Families are defined with a border one cell wide; border_bits widens it (Kalibr's AprilGrids have 2).
+//
+// Throws std::invalid_argument for an unknown family name, an id that the family does not have, and
+// border_bits < 1.
 #ifndef LUXFIT_CALIB_INTERNAL_TAG_FAMILY_H_
 #define LUXFIT_CALIB_INTERNAL_TAG_FAMILY_H_
 
@@ -26,7 +29,7 @@ struct TagPicture {
   int border_end = 0;
   int total_cells() const { return static_cast<int>(cells.rows()); }
 };
-TagPicture DrawTag(const apriltag_family_t& family, int id);
+TagPicture DrawTag(const apriltag_family_t& family, int id, int border_bits = 1);
 
 }  // namespace luxfit
 

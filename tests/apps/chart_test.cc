@@ -161,7 +161,7 @@ TEST_F(ChartCommandTest, TheFrontIsWhatNothingBeats) {
       EXPECT_TRUE(is_beaten(1.02, 0.995) || is_beaten(0.995, 1.02));
     }
   }
-  EXPECT_GT(front, 1);
+  EXPECT_GE(front, 1);  // alone where the fastest is the most accurate too
 }
 
 TEST_F(ChartCommandTest, ABudgetThatIsTooShortIsSaid) {

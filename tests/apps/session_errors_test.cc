@@ -89,7 +89,15 @@ TEST_F(SessionErrorsTest, PhotoRowsAreChecked) {
   EXPECT_EQ(ErrorAfter("photos.csv", "v0,all,0.05", "v0,Z,0.2"), "") << "a bracket";
 }
 
-TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
+TEST_F(SessionErrorsTest, AViewHasOneCameraAndSettingsArePositive) {
+  const auto error_after_row = [&](const std::string& row) {
+    Reset();
+    folder_.Write("photos.csv",
+                  "file,camera,view,state,exposure_s,iso\n"
+                  "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all," +
+                      row + "\n");
+    return Error();
+  };
   folder_.Replace("session.toml", "[photos]",
                   "[[camera]]\nid = \"cam1\"\nintrinsics = \"cam0.yaml\"\n[photos]");
   folder_.Replace("photos.csv", "all.png,cam0", "all.png,cam1");
@@ -99,10 +107,11 @@ TEST_F(SessionErrorsTest, AViewHasOneCameraAndACameraOneAperture) {
   folder_.Write("photos.csv",
                 "file,camera,view,state,exposure_s,iso\n"
                 "photos/v0_Z.png,cam0,v0,Z,0.1,100\nphotos/v0_all.png,cam0,v0,all,0.05,200\n");
-  EXPECT_THAT(Error(), Holds("photos.csv:3: iso: ", "not available in this version",
-                             "expected \"100\" as in line 2, got \"200\""));
-  folder_.Replace("photos.csv", "0.05,200", "0.05,100");
   EXPECT_EQ(Error(), "");
+  EXPECT_THAT(error_after_row("0.05,-200"),
+              Holds("photos.csv:3: iso: expected > 0, got \"-200\"", "leave it empty"));
+  EXPECT_EQ(error_after_row("0.05,"), "");
+  EXPECT_EQ(error_after_row(",100"), "");  // the photo's own metadata may say it
 }
 
 TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
@@ -190,26 +199,84 @@ TEST_F(SessionErrorsTest, SceneTagsAndCamerasAreChecked) {
               HasSubstr("camera[1].id: expected a name of its own, got \"cam0\""));
 }
 
+TEST_F(SessionErrorsTest, CalibrationImagesAreChecked) {
+  EXPECT_EQ(ErrorAfter("intrinsics = \"cam0.yaml\"\n", ""), "") << "its own photos show the surveyed tags";
+  EXPECT_THAT(
+      ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = \"board/*.png\""),
+      Holds(At("intrinsics") + "camera[0].calibration_images: expected files that match, got none for "
+                               "\"board/*.png\"",
+            "put the photos there"));
+  EXPECT_THAT(ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = 3"),
+              HasSubstr("camera[0].calibration_images: expected a file pattern"));
+  EXPECT_EQ(ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = \"photos/*.png\""), "")
+      << "they may show the surveyed tags";
+  Reset();
+  folder_.Replace("session.toml", "intrinsics = \"cam0.yaml\"", "calibration_images = \"photos/*.png\"");
+  folder_.Replace("session.toml", "[tags]\nfamily = \"tag36h11\"\nmap = \"tags.json\"\n", "");
+  EXPECT_THAT(Error(), HasSubstr("camera[0].board: expected what the calibration images show"));
+  folder_.Replace("session.toml", "calibration_images = \"photos/*.png\"", "");
+  EXPECT_THAT(Error(), Holds("camera[0].intrinsics: expected a file of intrinsics",
+                             "or calibration_images, got nothing"));
+  EXPECT_THAT(ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_corners = \"tags.json\""),
+              HasSubstr("camera[0].board: expected what the calibration images show"));
+}
+
+TEST_F(SessionErrorsTest, CalibrationIsChecked) {
+  const auto error = [&](const std::string& line) {
+    return ErrorAfter("[photos]", "[calibration]\n" + line + "\n[photos]");
+  };
+  EXPECT_EQ(error("lens = \"opencv8\"\nback_end = \"opencv\"\nrig = \"order\"\nfocal_start_px = 800"), "");
+  EXPECT_EQ(error("lens = \"splined10\""), "");
+  EXPECT_THAT(error("lens = \"opencv6\""), HasSubstr("calibration.lens: expected auto, opencv4, opencv5"));
+  EXPECT_THAT(error("lens = \"splined\""), HasSubstr("splinedN with N control points"));
+  EXPECT_THAT(error("back_end = \"kalibr\""), HasSubstr("calibration.back_end: expected"));
+  EXPECT_THAT(error("lens = \"splined8\"\nback_end = \"opencv\""),
+              HasSubstr("calibration: expected back_end = \"mrcal\" with a splined lens"));
+  EXPECT_THAT(error("rig = \"pairs\""), HasSubstr("calibration.rig: expected"));
+  EXPECT_THAT(error("focal_start_px = 0"), HasSubstr("calibration.focal_start_px: expected > 0"));
+  EXPECT_THAT(
+      ErrorAfter("intrinsics = \"cam0.yaml\"", "intrinsics = \"cam0.yaml\"\nimage_size = [640.5, 480]"),
+      HasSubstr("camera[0].image_size: expected [width, height] in whole pixels"));
+}
+
+TEST_F(SessionErrorsTest, BoardsAreChecked) {
+  const auto error = [&](const std::string& board) {
+    return ErrorAfter("intrinsics = \"cam0.yaml\"", "intrinsics = \"cam0.yaml\"\nboard = { " + board + " }");
+  };
+  EXPECT_THAT(error("columns = 6"),
+              HasSubstr("camera[0].board.type: expected aprilgrid, chessboard or charuco"));
+  EXPECT_THAT(
+      error("type = \"charuco\", columns = 0.5"),
+      HasSubstr("camera[0].board.columns: expected a number of columns, got 0.5; write a whole number"));
+  EXPECT_THAT(error("type = \"chesboard\""), HasSubstr("did you mean \"chessboard\"?"));
+  EXPECT_THAT(error("type = \"chessboard\", columns = 9, rows = 6"),
+              HasSubstr("camera[0].board.square_size_m: expected the side of a square, m, got nothing"));
+  EXPECT_THAT(error("type = \"chessboard\", columns = 9, rows = 6, tag_size_m = 0.1"),
+              HasSubstr("camera[0].board.tag_size_m: expected a known key"));
+  EXPECT_THAT(error("type = \"chessboard\", columns = 2, rows = 6, square_size_m = 0.03"),
+              HasSubstr("camera[0].board: columns: expected at least 3 inner corners, got 2; correct"));
+  EXPECT_THAT(error("type = \"aprilgrid\", columns = 6, rows = 0, tag_size_m = 0.1, spacing = 0.3"),
+              HasSubstr("camera[0].board.rows: expected a number of rows, got 0"));
+  EXPECT_THAT(error("type = \"aprilgrid\", columns = 30, rows = 30, tag_size_m = 0.1, spacing = 0.3"),
+              HasSubstr("the board has 900 tags, tag36h11 587"));
+  EXPECT_THAT(error("type = \"aprilgrid\", columns = 6, rows = 6, tag_size_m = 0.1, spacing = 0.3, "
+                    "family = \"tag36h12\""),
+              HasSubstr("tag family: expected tag36h11"));
+  EXPECT_THAT(error("type = \"charuco\", columns = 6, rows = 8, square_size_m = 0.03, marker_size_m = 0.04"),
+              HasSubstr("camera[0].board: tag_size_m: expected a marker smaller than its square, got 0.04"));
+  EXPECT_THAT(error("type = \"charuco\", columns = 6, rows = 8, square_size_m = 0.03, marker_size_m = 0.02, "
+                    "dictionary = \"DICT_4X4\""),
+              HasSubstr("dictionary: expected one of DICT_4X4_50"));
+}
+
 TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
   EXPECT_THAT(ErrorAfter("tags.json", "0.2", "-0.2"), HasSubstr("tags.json:1: tag[0].size_m: expected > 0"));
 }
 
 // What the format knows and this version cannot serve yet.
 TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
-  EXPECT_THAT(
-      ErrorAfter("response = \"linear\"", "response = \"estimate\""),
-      HasSubstr(At("response") +
-                "camera[0].response: \"estimate\" is not available in this version; expected \"linear\""));
-  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
-              HasSubstr("\"curve.csv\" is not available"));
-  EXPECT_THAT(ErrorAfter("\"none\"", "\"estimate\""),
-              HasSubstr("camera[0].vignetting: \"estimate\" is not available"));
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
-  EXPECT_THAT(
-      ErrorAfter("intrinsics = \"cam0.yaml\"", "calibration_images = \"board/*.png\""),
-      HasSubstr("camera[0].calibration_images: \"board/*.png\" is not available in this version; expected "
-                "intrinsics = "));
   EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
               HasSubstr("luminaires.count: \"estimate\" is not available"));
 }
@@ -263,14 +330,16 @@ TEST_F(SessionErrorsTest, PhotometricFilesMustBeThere) {
               HasSubstr("luminaire[0].cosine_exponent: expected it beside photometry = \"cosine_power\""));
 }
 
-TEST_F(SessionErrorsTest, KeysOfLaterFeaturesAreCheckedForType) {
-  EXPECT_THAT(ErrorAfter("response = \"linear\"", "board = { type = \"aprilgird\" }"),
-              HasSubstr("mean \"aprilgrid\"?"));
-  EXPECT_THAT(
-      ErrorAfter("response = \"linear\"", "board = { type = \"charuco\", rows = 0.5 }"),
-      HasSubstr("camera[0].board.rows: expected a number of tags or squares, got 0.5; write a whole number"));
+TEST_F(SessionErrorsTest, ResponseAndVignettingAreNamesOrFiles) {
+  EXPECT_EQ(ErrorAfter("response = \"linear\"", "response = \"estimate\""), "");
+  EXPECT_EQ(ErrorAfter("\"none\"", "\"estimate\""), "");
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = 1"),
-              HasSubstr("camera[0].response: expected \"linear\", got 1"));
+              HasSubstr("camera[0].response: expected \"linear\", \"estimate\" or a file, got 1"));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
+              HasSubstr(At("response") + "camera[0].response: expected an existing file, got \"curve.csv\""));
+  EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"estimat\""), HasSubstr("mean \"estimate\"?"));
+  EXPECT_THAT(ErrorAfter("\"none\"", "\"flat.png\""),
+              HasSubstr("camera[0].vignetting: expected an existing file"));
 }
 
 }  // namespace

@@ -48,6 +48,42 @@ TEST_F(SessionTest, ReadsCamerasAndPhotos) {
   EXPECT_EQ(session.photos[1].line, 3);
 }
 
+TEST_F(SessionTest, CalibrationImagesAndTheirBoard) {
+  folder_.Write("board/b.png", "");
+  folder_.Write("board/a.png", "");
+  folder_.Write("board/notes.txt", "");
+  folder_.Replace(
+      "session.toml", "intrinsics = \"cam0.yaml\"",
+      "calibration_images = \"board/*.png\"\nboard = { type = \"aprilgrid\", columns = 6, rows = 5, "
+      "tag_size_m = 0.088, spacing = 0.3, first_id = 7 }");
+  const Session session = Read();
+  const SessionCamera& camera = session.cameras[0];
+  EXPECT_EQ(camera.intrinsics, "");
+  EXPECT_EQ(camera.calibration_images,
+            (std::vector<std::string>{folder_.Path("board/a.png"), folder_.Path("board/b.png")}));
+  EXPECT_THAT(session.input_files, Contains(EndsWith("board/b.png")));
+  ASSERT_TRUE(camera.board);
+  EXPECT_EQ(camera.board->type, BoardType::kAprilGrid);
+  EXPECT_EQ(camera.board->columns, 6);
+  EXPECT_EQ(camera.board->rows, 5);
+  EXPECT_EQ(camera.board->tag_size_m, 0.088);
+  EXPECT_EQ(camera.board->spacing, 0.3);
+  EXPECT_EQ(camera.board->first_id, 7);
+  EXPECT_EQ(camera.board->family, "tag36h11");
+}
+
+TEST_F(SessionTest, CharucoBoards) {
+  folder_.Replace("session.toml", "intrinsics = \"cam0.yaml\"",
+                  "intrinsics = \"cam0.yaml\"\nboard = { type = \"charuco\", columns = 8, rows = 6, "
+                  "square_size_m = 0.03, marker_size_m = 0.022, dictionary = \"DICT_5X5_100\" }");
+  const Session session = Read();
+  ASSERT_TRUE(session.cameras[0].board);
+  EXPECT_EQ(session.cameras[0].board->type, BoardType::kCharuco);
+  EXPECT_EQ(session.cameras[0].board->square_size_m, 0.03);
+  EXPECT_EQ(session.cameras[0].board->tag_size_m, 0.022);
+  EXPECT_EQ(session.cameras[0].board->dictionary, "DICT_5X5_100");
+}
+
 TEST_F(SessionTest, StatesAndLuminairesKeepTheOrderOfTheFile) {
   const Session session = Read();
   ASSERT_EQ(session.states.size(), 2u);

@@ -66,7 +66,7 @@ TEST_F(ReadCameraTest, NamesFileKeyAndWhatWasExpected) {
   const std::string no_width = MessageOf(Yaml("image_height: 720\n", kMatrix, kDistortion));
   EXPECT_THAT(no_width, StartsWith(path_ + ": image_width: expected a number of pixels, got nothing"));
   EXPECT_THAT(MessageOf(Yaml("image_width: -5\nimage_height: 720\n", kMatrix, kDistortion)),
-              HasSubstr("image_width: expected a whole number > 0, got -5"));
+              HasSubstr("image_width: expected a whole number of pixels, 1 to 1000000, got -5"));
   EXPECT_THAT(MessageOf(Yaml("image_width: wide\nimage_height: 720\n", kMatrix, kDistortion)),
               HasSubstr("image_width: expected a number"));
   EXPECT_THAT(MessageOf(Yaml(kSize, "", kDistortion)),
@@ -204,12 +204,31 @@ TEST_F(ReadCameraTest, ASplinedLensComesBackFromMrcalsCameraModel) {
   EXPECT_THROW(ToColmapModel(filed.camera), std::invalid_argument);
 }
 
+// Newer mrcal's key; other keys, comments, nested lists and byte strings are passed over.
+TEST_F(ReadCameraTest, NewerCameraModelsAreReadToo) {
+  std::string text = kCameraModel;
+  text.replace(text.find("'extrinsics'"), 12, "'rt_cam_ref'");
+  text.replace(text.find("'imagersize'"), 0,
+               "# a comment with a ' quote\n 'valid_intrinsics_region': [ [ 622, 0 ], [ 0, 634 ] ],\n"
+               " 'optimization_inputs': b'c2ZN#',\n 'icam_intrinsics': None,\n ");
+  const std::vector<FiledCamera> read = ReadCameraFile(Write(text, ".cameramodel"));
+  EXPECT_EQ(read[0].camera.width_px, 4000);
+  EXPECT_EQ(read[0].cam_from_reference->translation().z(), -2.5);
+}
+
 TEST_F(ReadCameraTest, MrcalsBadModelsAreNamed) {
   EXPECT_THAT(MessageOf("{ 'lensmodel': 'LENSMODEL_CAHVOR', 'intrinsics': [1,1,1,1,0,0,0,0,0],"
                         " 'extrinsics': [0,0,0,0,0,0], 'imagersize': [4,4] }",
                         ".cameramodel"),
               HasSubstr("got LENSMODEL_CAHVOR"));
-  EXPECT_THAT(MessageOf("nonsense", ".cameramodel"), HasSubstr("expected a .cameramodel"));
+  EXPECT_THAT(MessageOf("nonsense", ".cameramodel"),
+              HasSubstr(":1: expected a dictionary in braces, got 'n'"));
+  EXPECT_THAT(MessageOf("{ 'lensmodel':\n 'LENSMODEL_OPEN", ".cameramodel"),
+              HasSubstr(":2: expected the string's"));
+  EXPECT_THAT(MessageOf("{ 'lensmodel': 'LENSMODEL_PINHOLE',\n 'intrinsics': [ 1, 2, 3 ] }", ".cameramodel"),
+              HasSubstr(":2: intrinsics: expected a list of 4 numbers, got 3"));
+  EXPECT_THAT(MessageOf("{ 'lensmodel': 'LENSMODEL_NEW' }", ".cameramodel"),
+              HasSubstr("got 'LENSMODEL_NEW'"));
 }
 
 const char* const kCamchain =

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -90,6 +91,47 @@ TEST_F(ImageTest, FloatFilesKeepTheirScale) {
   EXPECT_FLOAT_EQ(static_cast<float>(photo.saturation_counts), 1234.5f);
   EXPECT_FLOAT_EQ(photo.rgb_counts[0](0, 0), 0.75f);
   EXPECT_FLOAT_EQ(photo.rgb_counts[2](0, 1), 1e-3f);
+}
+
+// A picture of one colour in Radiance's flat form, with the header's lines as given.
+void WriteRadiance(const std::string& path, const std::string& lines, const std::array<int, 4>& rgbe) {
+  std::ofstream file(path, std::ios::binary);
+  file << "#?RADIANCE\n" << lines << "\n-Y 2 +X 3\n";
+  for (int i = 0; i < 6; ++i) {
+    for (const int byte : rgbe) file.put(static_cast<char>(byte));
+  }
+}
+
+TEST_F(ImageTest, RadiancePicturesAreDividedByTheExposureTheyState) {
+  const std::string path = Path(".hdr");
+  // 128, 64, 32 with exponent 129 (2^1 / 256): 1, 0.5, 0.25.
+  WriteRadiance(path, "EXPOSURE=4\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=0.5\nCOLORCORR=1 2 1\n",
+                {128, 64, 32, 129});
+  const Photo photo = ReadPhoto(path);
+  ASSERT_EQ(photo.width_px(), 3);
+  EXPECT_EQ(photo.full_scale_counts, 1.0);
+  // A mantissa stands for the middle of its step in some readers.
+  EXPECT_NEAR(photo.rgb_counts[0](1, 2), 1.0 / 2, 0.5 / 256);
+  EXPECT_NEAR(photo.rgb_counts[1](1, 2), 0.5 / 4, 0.5 / 512);
+  EXPECT_NEAR(photo.rgb_counts[2](1, 2), 0.25 / 2, 0.5 / 256);
+  EXPECT_NEAR(photo.saturation_counts, 0.5, 0.5 / 256);
+}
+
+TEST_F(ImageTest, RadiancePicturesThatAreNoCamerasAreRefused) {
+  const std::string path = Path(".hdr");
+  WriteRadiance(path, "FORMAT=32-bit_rle_xyze\n", {128, 64, 32, 129});
+  EXPECT_THAT(MessageOf(path), HasSubstr("CIE XYZ"));
+  WriteRadiance(path, "FORMAT=32-bit_rle_rgbe\nEXPOSURE=0\n", {128, 64, 32, 129});
+  EXPECT_THAT(MessageOf(path), HasSubstr("EXPOSURE=0"));
+}
+
+TEST_F(ImageTest, FloatTiffIsExactAndLogLuvIsRefused) {
+  const cv::Mat bgr(4, 4, CV_32FC3, cv::Scalar(0.25, 0.5, 1234.5));
+  const std::string path = Path(".tiff");
+  cv::imwrite(path, bgr, {cv::IMWRITE_TIFF_COMPRESSION, 1});
+  EXPECT_EQ(ReadPhoto(path).rgb_counts[0](3, 3), 1234.5f);
+  cv::imwrite(path, bgr);  // OpenCV's own choice
+  EXPECT_THAT(MessageOf(path), HasSubstr("LogLuv"));
 }
 
 TEST_F(ImageTest, MissingAndBrokenFilesAreNamed) {

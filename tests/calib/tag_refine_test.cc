@@ -9,44 +9,20 @@
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_image_model.h"
 #include "tests/support/tag_render.h"
+#include "tests/support/tag_scene.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
 
-// The tag sits well off the axis of a distorted camera, so that a plain homography would not fit it.
-Camera DistortedCamera() {
-  Camera camera;
-  camera.width_px = 120;
-  camera.height_px = 120;
-  camera.fx_px = 742;
-  camera.fy_px = 741.2;
-  camera.cx_px = -40;
-  camera.cy_px = 150;
-  camera.distortion = {-0.112, 0.061, 4e-4, -7e-4, 0, 0, 0, 0};
-  return camera;
-}
+using support::TagScene;
 
-struct Scene {
-  SurveyedTag tag;
-  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
-};
+Camera DistortedCamera() { return support::OffAxisCamera(); }
 
-// A tag of about side_px near the middle of the picture, turned at random and tilted up to 50 degrees.
-Scene RandomScene(const Camera& camera, double side_px, std::mt19937_64& rng) {
+// Turned at random and tilted up to 50 degrees.
+TagScene RandomScene(const Camera& camera, double side_px, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform(-1, 1);
-  Scene scene;
-  scene.tag.size_m = 0.2;
-  scene.tag.center_in_world.setZero();
-  const Eigen::Vector3d axis = Eigen::Vector3d(uniform(rng), uniform(rng), 0).normalized();
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(0.87 * uniform(rng), axis) *
-                                Eigen::AngleAxisd(3.14 * uniform(rng), Eigen::Vector3d::UnitZ()))
-                                   .toRotationMatrix();
-  scene.tag.normal_in_world = -turn.col(2);
-  scene.tag.up_in_world = -turn.col(1);
-  const Eigen::Vector2d middle(60 + 3 * uniform(rng), 60 + 3 * uniform(rng));
-  scene.cam_from_world.translation() = Unproject(camera, middle) * camera.fx_px * scene.tag.size_m / side_px;
-  return scene;
+  return support::MakeTagScene(camera, side_px, 0.87 * uniform(rng), rng);
 }
 
 struct Figures {
@@ -61,7 +37,7 @@ Figures Measure(double side_px, const support::TagRenderOptions& render, std::mt
   const Camera camera = DistortedCamera();
   Figures figures;
   for (int i = 0; i < 8; ++i) {
-    const Scene scene = RandomScene(camera, side_px, rng);
+    const TagScene scene = RandomScene(camera, side_px, rng);
     const ImagePlane grey = support::RenderTags(camera, scene.cam_from_world, {scene.tag}, rng, render);
     const std::vector<TagDetection> found = DetectTags(grey);
     if (found.size() != 1) continue;
@@ -131,7 +107,7 @@ TEST(TagRefineTest, LensBlurDoesNotBias) {
   std::mt19937_64 rng = support::TestRng();
   const Camera camera = DistortedCamera();
   for (int i = 0; i < 4; ++i) {
-    const Scene scene = RandomScene(camera, 50, rng);
+    const TagScene scene = RandomScene(camera, 50, rng);
     const ImagePlane sharp = support::RenderTags(camera, scene.cam_from_world, {scene.tag}, rng);
     // Two passes of [1 2 1] / 4 both ways: a Gaussian of 1 px.
     ImagePlane grey = sharp;

@@ -1,0 +1,199 @@
+// The office as worse cameras would have photographed it:
+//   office_variants OFFICE_FOLDER VARIANT OUT_FOLDER
+//
+// vignetting: corners lose two fifths of their light (cos^4 and a mechanical loss); vignetting = "estimate".
+//
+// eight_bits: four exposures a photo, two stops apart, in 8 bits with the encoding of sRGB (PNG: without the
+// losses of JPEG); response = "estimate".
+//
+// ambient: the light of luminaire D stands in for daylight. It is added to the photos and readings of A, B
+// and C, and photographed and measured alone as the state off.
+//
+// Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and RESULT/result.json against the office's truth.json.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/support/camera_model.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Row {
+  std::string file, camera, view, state;
+  double exposure_s;
+};
+
+std::vector<std::string> Fields(const std::string& line) {
+  std::vector<std::string> fields;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+  return fields;
+}
+
+std::vector<Row> ReadRows(const fs::path& office) {
+  std::ifstream table(office / "photos.csv");
+  std::vector<Row> rows;
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    const std::vector<std::string> f = Fields(line);
+    rows.push_back({f.at(0), f.at(1), f.at(2), f.at(3), std::stod(f.at(4))});
+  }
+  return rows;
+}
+
+// Full scale 1.
+cv::Mat ReadLinear(const fs::path& path) {
+  const cv::Mat counts = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  if (counts.type() != CV_16UC3) throw std::runtime_error(path.string() + ": expected 16-bit RGB");
+  cv::Mat linear;
+  counts.convertTo(linear, CV_32FC3, 1.0 / 65535);
+  return linear;
+}
+
+void Write16(const fs::path& path, const cv::Mat& linear) {
+  cv::Mat counts;
+  linear.convertTo(counts, CV_16UC3, 65535);
+  cv::imwrite(path.string(), counts);
+}
+
+// Text of the session with one replacement that must be possible.
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("session.toml: expected to find " + from);
+  return text.replace(at, from.size(), to);
+}
+
+std::string ReadText(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string Vignetting(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  for (const Row& row : ReadRows(office)) {
+    cv::Mat photo = ReadLinear(office / row.file);
+    const double u0 = (photo.cols - 1) / 2.0, v0 = (photo.rows - 1) / 2.0;
+    photo.forEach<cv::Vec3f>([&](cv::Vec3f& pixel, const int* at) {
+      const double r = std::hypot(at[1] - u0, at[0] - v0) / (std::hypot(photo.cols, photo.rows) / 2);
+      // What saturated stays so.
+      if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f)
+        pixel *= luxfit::support::NaturalVignetting(r, 0.5);
+    });
+    Write16(out / row.file, photo);
+    table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s
+          << '\n';
+  }
+  return Replaced(ReadText(office / "session.toml"), "vignetting = \"none\"", "vignetting = \"estimate\"");
+}
+
+std::string EightBits(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  for (const Row& row : ReadRows(office)) {
+    const cv::Mat photo = ReadLinear(office / row.file);
+    for (const double factor : {4.0, 1.0, 0.25, 0.0625}) {
+      cv::Mat encoded(photo.size(), CV_8UC3);
+      encoded.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* at) {
+        const cv::Vec3f linear = photo.at<cv::Vec3f>(at[0], at[1]);
+        for (int c = 0; c < 3; ++c) {
+          // What saturated in the renderer's photo is brighter than anything here.
+          const double x = linear[c] >= 0.97f ? 1.0 : std::min(1.0, linear[c] * factor);
+          pixel[c] = static_cast<unsigned char>(std::lround(255 * luxfit::support::SrgbEncoded(x)));
+        }
+      });
+      const std::string file =
+          Replaced(row.file, ".png", "_" + std::to_string(std::lround(1000 * factor)) + ".png");
+      cv::imwrite((out / file).string(), encoded);
+      table << file << ',' << row.camera << ',' << row.view << ',' << row.state << ','
+            << row.exposure_s * factor << '\n';
+    }
+  }
+  return Replaced(ReadText(office / "session.toml"), "response = \"linear\"", "response = \"estimate\"");
+}
+
+// Readings of A, B and C with those of D added, and D's as the state off.
+void WriteAmbientReadings(const fs::path& office, const fs::path& out) {
+  std::ifstream table(office / "luxmeter.csv");
+  std::ofstream written(out / "luxmeter.csv");
+  std::string line;
+  std::getline(table, line);
+  written << line << '\n';
+  std::vector<std::vector<std::string>> rows;
+  std::map<std::string, double> ambient;
+  while (std::getline(table, line)) {
+    rows.push_back(Fields(line));
+    if (rows.back().at(7) == "D") ambient[rows.back()[0]] = std::stod(rows.back().at(8));
+  }
+  for (std::vector<std::string> row : rows) {
+    if (row[7] == "all" || row[7] == "evening") continue;
+    if (row[7] == "D") {
+      row[7] = "off";
+    } else {
+      row[8] = std::to_string(std::stod(row[8]) + ambient.at(row[0]));
+    }
+    for (size_t i = 0; i < row.size(); ++i) written << (i > 0 ? "," : "") << row[i];
+    written << '\n';
+  }
+}
+
+std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  const std::vector<Row> rows = ReadRows(office);
+  std::map<std::string, Row> ambient;
+  for (const Row& row : rows) {
+    if (row.state == "D") ambient.emplace(row.view, row);
+  }
+  for (const Row& row : rows) {
+    if (row.state == "all" || row.state == "evening" || ambient.count(row.view) == 0) continue;
+    const Row& off = ambient.at(row.view);
+    if (row.state == "D") {
+      fs::copy_file(office / row.file, out / row.file, fs::copy_options::overwrite_existing);
+      table << row.file << ',' << row.camera << ',' << row.view << ",off," << row.exposure_s << '\n';
+      continue;
+    }
+    // The sum saturates where either does; half the exposure leaves room for it.
+    const cv::Mat light = ReadLinear(office / row.file), daylight = ReadLinear(office / off.file);
+    cv::Mat sum = (light + daylight * (row.exposure_s / off.exposure_s)) / 2;
+    sum.setTo(cv::Scalar::all(1), (light >= 0.97f) | (daylight >= 0.97f));
+    Write16(out / row.file, sum);
+    table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s / 2
+          << '\n';
+  }
+  WriteAmbientReadings(office, out);
+  std::string session = ReadText(office / "session.toml");
+  session = Replaced(session, "D = { D = 1.0 }", "off = {}");
+  session = Replaced(session, "all = { A = 1.0, B = 1.0, C = 1.0, D = 1.0 }\n", "");
+  session = Replaced(session, "evening = { A = 0.3, C = 1.0, D = 1.0 }\n", "");
+  return Replaced(session, "L3@all", "L3@A");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
+      {"vignetting", Vignetting}, {"eight_bits", EightBits}, {"ambient", Ambient}};
+  if (argc != 4 || variants.count(argv[2]) == 0) {
+    std::fprintf(stderr, "usage: office_variants OFFICE_FOLDER vignetting|eight_bits|ambient OUT_FOLDER\n");
+    return 2;
+  }
+  const fs::path office = argv[1], out = argv[3];
+  try {
+    fs::create_directories(out / "photos");
+    for (const char* file : {"room.obj", "room.mtl", "cam0.yaml", "tags.json", "luxmeter.csv"})
+      fs::copy_file(office / file, out / file, fs::copy_options::overwrite_existing);
+    std::ofstream table(out / "photos.csv");
+    table << "file,camera,view,state,exposure_s\n";
+    std::ofstream(out / "session.toml") << variants.at(argv[2])(office, out, table);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "office_variants: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
