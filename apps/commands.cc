@@ -21,6 +21,16 @@ RunContext MakeContext(const CommandOptions& options, const Session& session) {
   return context;
 }
 
+// Photos can be laid over the mesh only where the poses are in its frame.
+void ExpectSceneFrame(const Session& session, const RegisteredSession& registered) {
+  if (!session.scene || registered.registration.frame.rfind("tag ", 0) != 0) return;
+  throw std::runtime_error(
+      session.path +
+      ": registration.start: expected where three cameras or more roughly stood, since without a "
+      "tag map the poses are in the frame of " +
+      registered.registration.frame + ", got nothing; add start or tags.map");
+}
+
 void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 }  // namespace
@@ -35,6 +45,7 @@ int RunCommand(const CommandOptions& options) {
     const Room room = LoadRoom(session, context);
     session = LinearizeSession(std::move(session), context);
     const RegisteredSession registered = RegisterSession(session, context);
+    ExpectSceneFrame(session, registered);
     const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
     const SessionFit fit = FitSession(session, room, observations, context);
     result = ResultJson(session, room, registered, fit, context);

@@ -40,6 +40,15 @@ void WriteArtifact(const RegisteredSession& registered, const RunContext& contex
          {"points_used", view.points_used},
          {"corners_rejected", view.corners_rejected}});
   }
+  json["placed_tags"] = nlohmann::json::array();
+  for (const SurveyedTag& tag : registered.registration.placed_tags) {
+    const auto list = [](const Eigen::Vector3d& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
+    json["placed_tags"].push_back({{"id", tag.id},
+                                   {"size_m", tag.size_m},
+                                   {"center_m", list(tag.center_in_world)},
+                                   {"normal", list(tag.normal_in_world)},
+                                   {"up", list(tag.up_in_world)}});
+  }
   json["notes"] = nlohmann::json::array();
   for (const RegistrationNote& note : registered.registration.notes) {
     json["notes"].push_back({{"view", note.view},

@@ -39,7 +39,7 @@ void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, 
   const BundleCovariance covariance = ComputeBundleCovariance(context, adjustment);
   if (!covariance.determined) {
     registration.converged = false;
-    registration.message = "the poses are not determined by the tags: their covariance is singular";
+    registration.message = "the poses are not determined: their covariance is singular";
     return;
   }
   registration.tag_size_error_sigma = covariance.size_error_sigma;
@@ -221,6 +221,7 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
   }
   StartViews(context, adjustment.views, registration.notes);
   Adjust(context, features, adjustment, registration);
+  if (survey.empty() && registration.points > 0) registration.frame = "surface";
   return registration;
 }
 

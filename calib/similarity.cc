@@ -25,7 +25,7 @@ Similarity Similarity::Inverse() const {
 }
 
 std::optional<Similarity> FitSimilarity(const Eigen::Matrix3Xd& points_in_a,
-                                        const Eigen::Matrix3Xd& points_in_b) {
+                                        const Eigen::Matrix3Xd& points_in_b, std::optional<double> scale) {
   if (points_in_a.cols() != points_in_b.cols() || points_in_a.cols() < 3) return std::nullopt;
   const Eigen::Vector3d middle_a = points_in_a.rowwise().mean(), middle_b = points_in_b.rowwise().mean();
   const Eigen::Matrix3Xd a = points_in_a.colwise() - middle_a, b = points_in_b.colwise() - middle_b;
@@ -35,7 +35,7 @@ std::optional<Similarity> FitSimilarity(const Eigen::Matrix3Xd& points_in_a,
   sign[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   Similarity fit;
   fit.rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  fit.scale = svd.singularValues().dot(sign) / a.squaredNorm();
+  fit.scale = scale.value_or(svd.singularValues().dot(sign) / a.squaredNorm());
   fit.translation = middle_b - fit.scale * (fit.rotation * middle_a);
   if (!(fit.scale > 0) || !std::isfinite(fit.scale)) return std::nullopt;
   return fit;

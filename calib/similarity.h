@@ -22,9 +22,10 @@ struct Similarity {
 };
 
 // The similarity with the least sum of |b_from_a * a_i - b_i|^2. Nothing where the points (3 x n) do not
-// determine it: fewer than three, or all near one line.
+// determine it: fewer than three, or all near one line. With `scale` given, the best of that scale.
 std::optional<Similarity> FitSimilarity(const Eigen::Matrix3Xd& points_in_a,
-                                        const Eigen::Matrix3Xd& points_in_b);
+                                        const Eigen::Matrix3Xd& points_in_b,
+                                        std::optional<double> scale = std::nullopt);
 
 // The pose of a camera in b that takes the same picture as `cam_from_a` in a: its camera frame is in b's
 // unit.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/colmap_run.h"
+#include "apps/internal/lay_on_mesh.h"
 #include "apps/internal/view_features.h"
 #include "apps/process.h"
 
@@ -31,13 +32,18 @@ class RegistrationJob {
   bool HasTags() const { return !session_.tags.survey.empty() || session_.tags.size_m > 0; }
   bool HasModel() const { return !session_.registration.colmap_model.empty(); }
 
+  bool HasStart() const { return !session_.registration.start_positions_m.empty(); }
+
   Registration ByTags() const {
-    return RegisterViews(cameras_, session_.tags.survey, detections_, Options());
+    return InScene(RegisterViews(cameras_, session_.tags.survey, detections_, Options()));
   }
+
+  // Features alone, laid onto the mesh.
+  Registration ByFeatures() const { return RegisterOnMesh(session_, cameras_, detections_, Features({})); }
 
   // `tags`: what they alone gave, for COLMAP to start from.
   Registration ByBoth(const Registration& tags) const {
-    return RegisterViews(cameras_, session_.tags.survey, detections_, Features(tags), Options());
+    return InScene(RegisterViews(cameras_, session_.tags.survey, detections_, Features(tags), Options()));
   }
 
   size_t ViewCount() const { return detections_.size(); }
@@ -56,6 +62,17 @@ class RegistrationJob {
     RegisterViewsOptions options;
     if (session_.tags.survey.empty()) options.tag_size_m = session_.tags.size_m;
     return options;
+  }
+
+  // Tags that nobody surveyed have a frame of their own; the mesh has the scene's.
+  Registration InScene(const Registration& registration) const {
+    if (!session_.tags.survey.empty() || !registration.IsUsable()) return registration;
+    if (HasStart()) return LaidOnMesh(session_, registration);
+    Warn("frame_of_tags",
+         "Without a tag map the poses are in the frame of the tags (" + registration.frame +
+             "), not of the scene.",
+         "Give [registration] start = { v00 = [x, y, z], ... }: roughly where three cameras or more stood.");
+    return registration;
   }
 
   void ExpectTags() const {
@@ -177,11 +194,17 @@ Registration ChooseRegistration(const Session& session, const std::vector<Camera
                                 const ViewPhotos& views, RunContext& context) {
   const RegistrationJob job(session, cameras, views, context);
   const std::string& method = session.registration.method;
-  if (!job.HasTags())
-    throw std::runtime_error(
-        session.path +
-        ": tags.map: expected a tag map or the tags' size, got neither; add [tags] with map = "
-        "\"tags.json\"");
+  const bool by_features_alone = method == "colmap" && job.HasStart();
+  if (!job.HasTags() && (method == "tags" || method == "both"))
+    throw std::runtime_error(session.path +
+                             ": tags.map: expected a tag map or the tags' size for registration by " +
+                             method + ", got neither; add [tags] with map = \"tags.json\"");
+  if (!job.HasTags() || by_features_alone) {
+    job.Choose(
+        "colmap", {"colmap"},
+        by_features_alone ? "asked for by registration.method" : "there are neither tag map nor tag size");
+    return job.ByFeatures();
+  }
   if (method == "auto") return Auto(job);
   job.Choose(method, {method}, "asked for by registration.method");
   const Registration tags = job.ByTags();

@@ -2,7 +2,8 @@
 //
 // auto: tags, where they register every view; else tags and features together if that registers more, where
 // the session names a COLMAP model or COLMAP is installed. Without a tag map or tag size there are only
-// features. The choice, and why, goes into the context's choices.
+// features, laid onto the mesh from the session's start. colmap: the same where there is a start; else tags
+// give frame and scale as in both. The choice, and why, goes into the context's choices.
 #ifndef LUXFIT_APPS_INTERNAL_CHOOSE_REGISTRATION_H_
 #define LUXFIT_APPS_INTERNAL_CHOOSE_REGISTRATION_H_
 
