@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -20,6 +21,8 @@ void WriteArtifact(const RegisteredSession& registered, const RunContext& contex
   json["frame"] = registered.registration.frame;
   json["tag_size_error"] = registered.registration.tag_size_error;
   json["tag_size_error_sigma"] = registered.registration.tag_size_error_sigma;
+  json["focal_scale"] = registered.registration.focal_scale;
+  json["focal_scale_sigma"] = registered.registration.focal_scale_sigma;
   json["points"] = registered.registration.points;
   json["point_sigma_px"] = registered.registration.point_sigma_px;
   json["choices"] = ChoicesJson(context);
@@ -60,6 +63,28 @@ void WriteArtifact(const RegisteredSession& registered, const RunContext& contex
   WriteJson(context.out + "/stages/register.json", json);
 }
 
+// Focal lengths that the tags contradicted: the cameras from here on, and the reason.
+void TakeFocalLengths(const Session& session, RegisteredSession& registered, RunContext& context) {
+  const Registration& registration = registered.registration;
+  for (size_t c = 0; c < registration.focal_scale.size(); ++c) {
+    const double scale = registration.focal_scale[c], sigma = registration.focal_scale_sigma[c];
+    if (scale == 1) continue;
+    registered.cameras[c] = WithFocalScale(registered.cameras[c], scale);
+    const std::string& id = session.cameras[c].id;
+    const std::string found =
+        fmt::format("{:.2f} +- {:.2f} % {} than its intrinsics say", 100 * std::abs(scale - 1), 100 * sigma,
+                    scale > 1 ? "longer" : "shorter");
+    context.choices.push_back({"focal length of " + id,
+                               fmt::format("{:.1f} px", registered.cameras[c].fx_px),
+                               {"as given", "estimated with the poses"},
+                               "the tags agree with one that is " + found});
+    context.warnings.push_back(
+        {"focal_length_off", "The tags show a focal length of " + id + " that is " + found + "; it is used.",
+         "Calibrate the camera as it was focused for the photos (luxfit calibrate): its "
+         "distortion may be off as well."});
+  }
+}
+
 }  // namespace
 
 std::string MethodOf(const RegisteredView& view) {
@@ -83,6 +108,7 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
         fmt::format("{}: registration: expected at least one view with a pose, got none; {}", session.path,
                     registered.registration.message));
   }
+  TakeFocalLengths(session, registered, context);
   WriteArtifact(registered, context);
   return registered;
 }

@@ -42,6 +42,12 @@ Projection ProjectWithJacobian(const Camera& camera, const Eigen::Vector3d& p_in
           focal_px.asDiagonal() * image.d_point};
 }
 
+Camera WithFocalScale(Camera camera, double scale) {
+  camera.fx_px *= scale;
+  camera.fy_px *= scale;
+  return camera;
+}
+
 Eigen::Vector2d Project(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   return ProjectWithJacobian(camera, p_in_cam).pixel;
 }

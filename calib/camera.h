@@ -45,6 +45,9 @@ struct Camera {
   LensSpline spline;  // kSplined only
 };
 
+// The camera with its fx and fy times `scale`.
+Camera WithFocalScale(Camera camera, double scale);
+
 // Pixel of a point in the camera frame. Undefined (NaN) where the lens has no image of it: Z <= 0 of kOpenCv,
 // the axis behind the camera of the others.
 Eigen::Vector2d Project(const Camera& camera, const Eigen::Vector3d& p_in_cam);

@@ -13,6 +13,7 @@
 #include "calib/internal/bundle_covariance.h"
 #include "calib/internal/feature_alignment.h"
 #include "calib/internal/feature_views.h"
+#include "calib/internal/focal_check.h"
 #include "calib/internal/free_frame.h"
 #include "calib/internal/leave_out.h"
 #include "calib/internal/survey_diagnosis.h"
@@ -34,7 +35,11 @@ void CheckOptions(const RegisterViewsOptions& options) {
   }
 }
 
-void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, Registration& registration) {
+// What the tags say of each camera's focal length; nothing: as given.
+using FocalScales = std::vector<std::optional<FocalScale>>;
+
+void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, const FocalScales& focal,
+                    Registration& registration) {
   if (registration.views.empty()) return;
   const BundleCovariance covariance = ComputeBundleCovariance(context, adjustment);
   if (!covariance.determined) {
@@ -46,6 +51,11 @@ void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, 
   for (std::size_t i = 0; i < registration.views.size(); ++i) {
     RegisteredView& view = registration.views[i];
     view.covariance = covariance.of_views[i];
+    if (const auto& its = focal[static_cast<std::size_t>(view.camera)]) {
+      const auto moved = its->pose_derivatives.find(view.view);
+      if (moved != its->pose_derivatives.end())
+        view.covariance += its->sigma * its->sigma * moved->second * moved->second.transpose();
+    }
     view.position_sigma_m = view.covariance.diagonal().tail<3>().cwiseSqrt();
   }
 }
@@ -112,7 +122,15 @@ void NameSizeError(const RegisterViewsOptions& options, Registration& registrati
        "Measure a printed tag's black square and the distance between two tags again."});
 }
 
-void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Registration& registration) {
+void SetFocalScales(const FocalScales& focal, Registration& registration) {
+  for (std::size_t c = 0; c < focal.size(); ++c) {
+    registration.focal_scale.push_back(focal[c] ? focal[c]->scale : 1);
+    registration.focal_scale_sigma.push_back(focal[c] ? focal[c]->sigma : 0);
+  }
+}
+
+void Summarise(const BundleContext& context, BundleAdjustment& adjustment, const FocalScales& focal,
+               Registration& registration) {
   const std::vector<bool> used_points = UsedPoints(adjustment);
   for (const BundleView& view : adjustment.views) {
     if (view.active) registration.views.push_back(ViewOf(context, adjustment, used_points, view));
@@ -121,9 +139,10 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Regis
   registration.message = adjustment.message;
   registration.tag_size_error = adjustment.size_error;
   NameSizeError(context.options, registration);
+  SetFocalScales(focal, registration);
   registration.points = static_cast<int>(std::count(used_points.begin(), used_points.end(), true));
   registration.point_sigma_px = registration.points > 0 ? adjustment.point_sigma_px : 0;
-  AddCovariances(context, adjustment, registration);
+  AddCovariances(context, adjustment, focal, registration);
   LeaveOutUncertain(context.options.max_rotation_sigma_rad, registration);
   double total = 0, measured = 0;
   for (const RegisteredView& view : registration.views) {
@@ -136,11 +155,10 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, Regis
 
 // From views that have been started.
 void Adjust(const BundleContext& context, const FeatureModel& features, BundleAdjustment& adjustment,
-            Registration& registration) {
-  if (!features.views.empty()) JoinFeatures(context, features, adjustment, registration.notes);
-  SolveLeavingOut(context, adjustment, registration.notes);
+            std::vector<RegistrationNote>& notes) {
+  if (!features.views.empty()) JoinFeatures(context, features, adjustment, notes);
+  SolveLeavingOut(context, adjustment, notes);
   if (adjustment.fixed_tag >= 0) SettleFrame(adjustment);
-  Summarise(context, adjustment, registration);
 }
 
 // Places of the tags after the adjustment, for those that a registered view uses.
@@ -188,10 +206,65 @@ Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterView
   adjustment.views = ViewsOf(context, IndexSurvey(map.tags), OnlyPlaced(map, detections, registration.notes),
                              registration.notes);
   StartFromMap(context, map, adjustment.views, registration.notes);
-  Adjust(context, features, adjustment, registration);
+  Adjust(context, features, adjustment, registration.notes);
+  Summarise(context, adjustment, FocalScales(cameras.size()), registration);
   registration.frame = "tag " + std::to_string(map.frame_tag);
   registration.placed_tags = PlacedTags(adjustment);
   return registration;
+}
+
+// One registration with the cameras as they are at the time.
+struct Attempt {
+  BundleAdjustment adjustment;
+  std::vector<RegistrationNote> notes;
+  bool is_refused = false;  // the survey is contradicted as a whole; the last note says how
+};
+
+Attempt RegisterBySurvey(const BundleContext& context, const std::map<int, SurveyedTag>& survey,
+                         const std::vector<ViewDetections>& detections, const FeatureModel& features) {
+  Attempt attempt;
+  attempt.adjustment.views = ViewsOf(context, survey, detections, attempt.notes);
+  if (const std::optional<RegistrationNote> diagnosis =
+          DiagnoseSurvey(context, survey, attempt.adjustment.views)) {
+    attempt.notes.push_back(*diagnosis);
+    attempt.is_refused = true;
+    return attempt;
+  }
+  StartViews(context, attempt.adjustment.views, attempt.notes);
+  Adjust(context, features, attempt.adjustment, attempt.notes);
+  return attempt;
+}
+
+// Multiplies the focal lengths that the attempt's tags contradict, or already did; false where that changes
+// none. `focal` is against the cameras as given.
+bool Refocus(const BundleContext& context, const BundleAdjustment& solved, std::vector<Camera>& cameras,
+             FocalScales& focal) {
+  bool is_changed = false;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    std::optional<FocalScale> its = EstimateFocalScale(context, solved, static_cast<int>(c));
+    if (!its || (!its->IsOff() && !focal[c])) continue;
+    if (std::abs(its->scale - 1) < its->sigma / 2) its->scale = 1;
+    is_changed = is_changed || its->scale != 1;
+    cameras[c] = WithFocalScale(cameras[c], its->scale);
+    if (focal[c]) its->scale *= focal[c]->scale;
+    focal[c] = its;
+  }
+  return is_changed;
+}
+
+// The survey's views with the focal lengths that make its tags agree at all.
+void RefocusRoughly(const std::map<int, SurveyedTag>& survey, const std::vector<ViewDetections>& detections,
+                    const RegisterViewsOptions& options, std::vector<Camera>& cameras, FocalScales& focal) {
+  const BundleContext context{cameras, options};
+  std::vector<RegistrationNote> said_later;
+  const std::vector<BundleView> views = ViewsOf(context, survey, detections, said_later);
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const double scale = FindFocalScale(context, views, static_cast<int>(c));
+    if (scale == 1) continue;
+    cameras[c] = WithFocalScale(cameras[c], scale);
+    constexpr double kGridSigma = 0.05;
+    focal[c] = FocalScale{scale, kGridSigma, {}};
+  }
 }
 
 }  // namespace
@@ -206,21 +279,26 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
                            const std::vector<ViewDetections>& detections, const FeatureModel& features,
                            const RegisterViewsOptions& options) {
   CheckOptions(options);
-  const BundleContext context{cameras, options};
   if (survey.empty() && options.tag_size_m > 0)
     return RegisterWithoutMap(cameras, options, detections, features);
-  Registration registration;
-  BundleAdjustment adjustment;
   const std::map<int, SurveyedTag> survey_by_id = IndexSurvey(survey);
-  adjustment.views = ViewsOf(context, survey_by_id, detections, registration.notes);
-  if (const std::optional<RegistrationNote> diagnosis =
-          DiagnoseSurvey(context, survey_by_id, adjustment.views)) {
-    registration.notes.push_back(*diagnosis);
-    registration.message = diagnosis->message;
+  std::vector<Camera> focused = cameras;
+  FocalScales focal(cameras.size());
+  RefocusRoughly(survey_by_id, detections, options, focused, focal);
+  const BundleContext with_focus{focused, options};
+  Attempt attempt = RegisterBySurvey(with_focus, survey_by_id, detections, features);
+  constexpr int kMostRounds = 4;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (attempt.is_refused || !Refocus(with_focus, attempt.adjustment, focused, focal)) break;
+    attempt = RegisterBySurvey(with_focus, survey_by_id, detections, features);
+  }
+  Registration registration;
+  registration.notes = attempt.notes;
+  if (attempt.is_refused) {
+    registration.message = attempt.notes.back().message;
     return registration;
   }
-  StartViews(context, adjustment.views, registration.notes);
-  Adjust(context, features, adjustment, registration);
+  Summarise(with_focus, attempt.adjustment, focal, registration);
   if (survey.empty() && registration.points > 0) registration.frame = "surface";
   return registration;
 }

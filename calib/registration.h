@@ -17,6 +17,9 @@
 // one tag and the scale comes from its size. Features whose points lie on surfaces of the scene
 // (calib/mesh_alignment.h) need no tags at all.
 //
+// Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by what the tags ask
+// for: `focal_scale`, calib/internal/focal_check.h; the poses' covariance then holds its uncertainty.
+//
 // A view without a usable tag or features, or whose pose is ambiguous, too uncertain or disagrees with the
 // rest, is left out and named in `notes`.
 // Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis"; Collins
@@ -66,11 +69,14 @@ struct RegistrationNote {
 struct Registration {
   std::vector<RegisteredView> views;  // those registered, in input order
   std::vector<RegistrationNote> notes;
-  double reprojection_rms_px = 0;        // over every corner of every view
-  double tag_size_error = 0;             // e: tags are (1 + e) times as large as surveyed
-  double tag_size_error_sigma = 0;       // 0 if it was held
-  double point_sigma_px = 0;             // of features, per axis; 0: there were none
-  int points = 0;                        // features that two registered views and more use
+  double reprojection_rms_px = 0;   // over every corner of every view
+  double tag_size_error = 0;        // e: tags are (1 + e) times as large as surveyed
+  double tag_size_error_sigma = 0;  // 0 if it was held
+  double point_sigma_px = 0;        // of features, per axis; 0: there were none
+  int points = 0;                   // features that two registered views and more use
+  // Of each camera: what fx and fy were multiplied with because the tags contradicted them; sigma 0: as
+  // given.
+  std::vector<double> focal_scale, focal_scale_sigma;
   std::string frame = "survey";          // survey | tag N | surface: what the poses are given in
   std::vector<SurveyedTag> placed_tags;  // where there was no survey: where the tags hang in that frame
   bool converged = false;

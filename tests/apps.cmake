@@ -23,6 +23,9 @@ luxfit_test(apps calibrate_test LINK luxfit::calib opencv_core opencv_calib3d nl
 add_dependencies(apps_calibrate_test luxfit)
 luxfit_test(apps chart_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_chart_test luxfit)
+luxfit_test(apps register_on_mesh_test LINK luxfit::calib opencv_core opencv_calib3d fmt::fmt
+            nlohmann_json::nlohmann_json)
+add_dependencies(apps_register_on_mesh_test luxfit)
 luxfit_test(apps run_test WHOLE LINK truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_run_test luxfit)
 luxfit_test(apps simulate_test LINK nlohmann_json::nlohmann_json)

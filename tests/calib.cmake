@@ -19,6 +19,7 @@ luxfit_test(calib registration_test LINK luxfit::calib)
 luxfit_test(calib registration_faults_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib unsurveyed_tags_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib mesh_alignment_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib focal_length_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib joint_registration_test LINK luxfit::calib opencv_core opencv_calib3d)
 
 luxfit_test(calib calibration_test LINK luxfit::calib opencv_core opencv_calib3d)

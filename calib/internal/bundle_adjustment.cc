@@ -223,6 +223,7 @@ void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   ceres::Solve(options, built.problem.get(), &summary);
   adjustment.converged = summary.termination_type == ceres::CONVERGENCE && summary.IsSolutionUsable();
   adjustment.message = summary.message;
+  adjustment.cost = summary.final_cost;
   RescaleBundle(context, adjustment);
 }
 

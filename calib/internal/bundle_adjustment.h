@@ -60,6 +60,7 @@ struct BundleAdjustment {
   double size_error = 0;  // relative, of all tags
   bool converged = false;
   std::string message;
+  double cost = 0;          // half the sum of what is minimised
   double scale = 1;         // robust: residuals are this many times their sigma, at least 1
   double reduced_chi2 = 1;  // at least 1
   double point_sigma_px = 0.5;
@@ -77,7 +78,7 @@ struct BundleContext {
 };
 
 // Minimises over the active views' poses, the tags, the points that two active views see and the size error;
-// sets converged, message, scale, reduced_chi2 and point_sigma_px.
+// sets converged, message, cost, scale, reduced_chi2 and point_sigma_px.
 void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment);
 
 // Sets scale, reduced_chi2 and point_sigma_px from the residuals as they are.

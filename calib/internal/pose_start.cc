@@ -28,14 +28,29 @@ double Chi2(const Camera& camera, const Eigen::Isometry3d& cam_from_world,
   return chi2;
 }
 
-// The methods that points of this flatness are fit for. Closer to a plane than 1/200 of their extent they
-// carry no more information across it than noise does; up to 1/20 the two poses of the plane are tried, too.
-std::vector<cv::SolvePnPMethod> MethodsFor(const std::vector<cv::Point3d>& points) {
+// Directions of least to most extent (columns) and the mean squares along them, of points about their
+// centroid.
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const std::vector<cv::Point3d>& points) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const cv::Point3d& p : points)
     scatter += Eigen::Vector3d(p.x, p.y, p.z) * Eigen::RowVector3d(p.x, p.y, p.z);
-  const Eigen::Vector3d spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter);
+}
+
+// On their best plane: OpenCV's IPPE refuses points that a survey put a millimetre off it.
+std::vector<cv::Point3d> Flattened(std::vector<cv::Point3d> points) {
+  const Eigen::Vector3d normal = PrincipalAxes(points).eigenvectors().col(0);
+  for (cv::Point3d& p : points) {
+    const Eigen::Vector3d at(p.x, p.y, p.z), flat = at - normal.dot(at) * normal;
+    p = {flat.x(), flat.y(), flat.z()};
+  }
+  return points;
+}
+
+// The methods that points of this flatness are fit for. Closer to a plane than 1/200 of their extent they
+// carry no more information across it than noise does; up to 1/20 the two poses of the plane are tried, too.
+std::vector<cv::SolvePnPMethod> MethodsFor(const std::vector<cv::Point3d>& points) {
+  const Eigen::Vector3d spread = PrincipalAxes(points).eigenvalues();
   const double flatness = std::sqrt(std::max(0.0, spread[0]) / spread[2]);
   if (flatness < 0.005) return {cv::SOLVEPNP_IPPE};
   if (flatness < 0.05) return {cv::SOLVEPNP_SQPNP, cv::SOLVEPNP_IPPE};
@@ -67,7 +82,8 @@ std::vector<Eigen::Isometry3d> Solve(const std::vector<cv::Point3d>& points,
   std::vector<cv::Mat> rotations, translations;
   std::vector<Eigen::Isometry3d> poses;
   try {
-    cv::solvePnPGeneric(points, rays, identity, cv::noArray(), rotations, translations, false, method);
+    cv::solvePnPGeneric(method == cv::SOLVEPNP_IPPE ? Flattened(points) : points, rays, identity,
+                        cv::noArray(), rotations, translations, false, method);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
       cv::solvePnPRefineLM(points, rays, identity, cv::noArray(), rotations[i], translations[i]);
       poses.push_back(ToIsometry(rotations[i], translations[i], centroid));

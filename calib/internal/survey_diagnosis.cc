@@ -8,31 +8,12 @@
 #include <string>
 
 #include "calib/internal/pose_start.h"
+#include "calib/internal/view_sample.h"
 
 namespace luxfit {
 namespace {
 
-// More would not change the verdict, and every change is tried on all of them.
-constexpr std::size_t kMostViews = 4, kMostTags = 4;
-
 using Change = std::function<SurveyedTag(SurveyedTag)>;
-
-// The views with most tags, each with its largest.
-std::vector<BundleView> Sample(const std::vector<BundleView>& views) {
-  std::vector<BundleView> sample;
-  for (const BundleView& view : views) {
-    if (view.tags.size() >= 2) sample.push_back(view);
-  }
-  std::stable_sort(sample.begin(), sample.end(),
-                   [](const BundleView& a, const BundleView& b) { return a.tags.size() > b.tags.size(); });
-  sample.resize(std::min(sample.size(), kMostViews));
-  for (BundleView& view : sample) {
-    std::stable_sort(view.tags.begin(), view.tags.end(),
-                     [](const TagObservation& a, const TagObservation& b) { return a.side_px > b.side_px; });
-    view.tags.resize(std::min(view.tags.size(), kMostTags));
-  }
-  return sample;
-}
 
 int CountTags(const std::vector<BundleView>& views) {
   int tags = 0;
@@ -136,7 +117,7 @@ std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agr
 std::optional<RegistrationNote> DiagnoseSurvey(const BundleContext& context,
                                                const std::map<int, SurveyedTag>& survey,
                                                const std::vector<BundleView>& views) {
-  const std::vector<BundleView> sample = Sample(views);
+  const std::vector<BundleView> sample = SampleOf(views);
   const int tags = CountTags(sample);
   constexpr int kFewestTags = 4;  // fewer are no evidence against a survey
   if (tags < kFewestTags) return std::nullopt;

@@ -8,13 +8,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 
-#include "calib/colmap_cameras.h"
-#include "calib/colmap_model.h"
 #include "calib/registration.h"
+#include "tests/support/colmap_files.h"
 #include "tests/support/feature_room.h"
 
 namespace luxfit {
@@ -98,26 +96,8 @@ void ColmapBundleAdjuster(benchmark::State& state) {
   }
   const Problem problem = MakeProblem(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   const fs::path folder = fs::temp_directory_path() / "luxfit_colmap_benchmark";
+  support::WriteColmapModel(folder, problem.room.camera, problem.features);
   fs::create_directories(folder / "out");
-  ColmapModel model;
-  model.cameras[1] = problem.room.camera;
-  for (std::size_t v = 0; v < problem.features.views.size(); ++v) {
-    model.images[static_cast<int>(v) + 1] = {
-        problem.features.views[v].view, 1, problem.features.views[v].cam_from_model, {}};
-  }
-  for (const FeatureTrack& track : problem.features.tracks) {
-    ColmapPoint point;
-    point.p_in_model = track.p_in_model;
-    for (const FeatureObservation& seen : track.seen) {
-      std::vector<Eigen::Vector2d>& keypoints = model.images[seen.view + 1].keypoints_px;
-      point.track.push_back({seen.view + 1, static_cast<int>(keypoints.size())});
-      keypoints.push_back(seen.pixel);
-    }
-    model.points[static_cast<std::int64_t>(model.points.size()) + 1] = point;
-  }
-  std::ofstream(folder / "cameras.txt") << ColmapCamerasText(model.cameras);
-  std::ofstream(folder / "images.txt") << ColmapImagesText(model);
-  std::ofstream(folder / "points3D.txt") << ColmapPointsText(model);
   const std::string command =
       "colmap bundle_adjuster --input_path " + folder.string() + " --output_path " +
       (folder / "out").string() +
