@@ -1,13 +1,84 @@
 #include "forward/illuminance.h"
 
+#include <algorithm>
+
+#include "forward/dense_product.h"
 #include "forward/internal/direct_columns.h"
 #include "forward/internal/gather.h"
 
 namespace luxfit {
+namespace {
+
+// Columns of light: luminaires, their parameters, then reflectances luminaire-major.
+struct Columns {
+  Eigen::Index lamps = 0, parameters = 0;
+  const std::vector<int>& materials;
+
+  Eigen::Index lit() const { return lamps + parameters; }
+  Eigen::Index albedo(Eigen::Index lamp, size_t material) const {
+    return lit() + lamp * static_cast<Eigen::Index>(materials.size()) + static_cast<Eigen::Index>(material);
+  }
+};
+
+// Receivers x columns; the indirect light of every element on the way.
+Eigen::MatrixXf GatherThroughElements(const Room& room, const Receivers& receivers,
+                                      const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
+                                      const Columns& columns, const Eigen::MatrixXf& exitance) {
+  const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
+  Eigen::MatrixXf reflected = indirect;  // exitance of elements
+  reflected.leftCols(columns.lit()) += at_elements;
+  const Eigen::MatrixXf lit = reflected.leftCols(columns.lamps);
+  const Eigen::VectorXf element_albedo = ElementAlbedo(room.patches, albedo);
+  reflected.array().colwise() *= element_albedo.array();
+  for (size_t m = 0; m < columns.materials.size(); ++m) {
+    const Eigen::VectorXf of_material =
+        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(albedo.size(), columns.materials[m]));
+    for (Eigen::Index k = 0; k < columns.lamps; ++k)
+      reflected.col(columns.albedo(k, m)) += of_material.cwiseProduct(lit.col(k));
+  }
+  return GatherAtReceivers(receivers, indirect, reflected);
+}
+
+// The same from what PrepareGather multiplied out:
+//   sensor:  sum_m rho_m (G_m D + (G F)_m M),   by rho_m: G_m D + (G F)_m M and what M changes
+Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
+                               const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
+                               const Columns& columns, const Eigen::MatrixXf& exitance) {
+  Eigen::MatrixXf gathered = Eigen::MatrixXf::Zero(receivers.count(), exitance.cols());
+  const auto elements = static_cast<Eigen::Index>(receivers.elements.size());
+  const auto sensors = static_cast<Eigen::Index>(receivers.sensors.size());
+  if (elements > 0) gathered.topRows(elements) = Product(receivers.element_to_patch, exitance);
+  if (sensors == 0) return gathered;
+  for (size_t m = 0; m < receivers.sensor_to_patch.size(); ++m) {
+    const auto material = static_cast<Eigen::Index>(m);
+    const Eigen::VectorXf of_material =
+        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(albedo.size(), material));
+    Eigen::MatrixXf reflected = receivers.sensor_to_patch[m] * exitance;
+    reflected.leftCols(columns.lit()) +=
+        receivers.sensor_to_element * (of_material.asDiagonal() * at_elements);
+    gathered.bottomRows(sensors) += static_cast<float>(albedo[material]) * reflected;
+    const auto asked = std::find(columns.materials.begin(), columns.materials.end(), static_cast<int>(m));
+    if (asked == columns.materials.end()) continue;
+    const auto column = static_cast<size_t>(asked - columns.materials.begin());
+    for (Eigen::Index k = 0; k < columns.lamps; ++k)
+      gathered.col(columns.albedo(k, column)).tail(sensors) += reflected.col(k);
+  }
+  return gathered;
+}
+
+}  // namespace
 
 Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const LuminaireVisibility& visibility,
                                const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
+                               const DerivativeRequest& derivatives) {
+  return ComputeIlluminance(room, receivers, visibility, luminaires, Transport(room.transport, albedo),
+                            derivatives);
+}
+
+Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
+                               const LuminaireVisibility& visibility,
+                               const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives) {
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const Eigen::Index parameters = static_cast<Eigen::Index>(derivatives.parameters.size());
@@ -22,7 +93,6 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
   result.direct = at_receivers.leftCols(lamps);
   result.d_albedo.setZero(receivers.count(), lamps * materials);
   if (elements > 0) {
-    const Transport transport(room.transport, albedo);
     const Eigen::MatrixXf patch_direct = PatchMean(room.patches, at_elements);
     Eigen::MatrixXf exitance(patch_direct.rows(), lamps + parameters + lamps * materials);
     exitance.leftCols(lamps + parameters) = transport.Exitance(patch_direct);
@@ -36,19 +106,10 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
           exitance.col(lamps + parameters + k * materials + m) = d.col(k);
       }
     }
-    const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
-    Eigen::MatrixXf reflected = indirect;  // exitance of elements
-    reflected.leftCols(lamps + parameters) += at_elements;
-    const Eigen::MatrixXf lit = reflected.leftCols(lamps);
-    const Eigen::VectorXf element_albedo = ElementAlbedo(room.patches, albedo);
-    reflected.array().colwise() *= element_albedo.array();
-    for (Eigen::Index m = 0; m < materials; ++m) {
-      const Eigen::VectorXf of_material = ElementAlbedo(
-          room.patches, Eigen::VectorXd::Unit(albedo.size(), derivatives.materials[static_cast<size_t>(m)]));
-      for (Eigen::Index k = 0; k < lamps; ++k)
-        reflected.col(lamps + parameters + k * materials + m) += of_material.cwiseProduct(lit.col(k));
-    }
-    const Eigen::MatrixXf gathered = GatherAtReceivers(receivers, indirect, reflected);
+    const Columns layout{lamps, parameters, derivatives.materials};
+    const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
+    const Eigen::MatrixXf gathered = (is_prepared ? GatherPrepared : GatherThroughElements)(
+        room, receivers, at_elements, transport.albedo(), layout, exitance);
     at_receivers += gathered.leftCols(lamps + parameters);
     result.d_albedo = gathered.rightCols(lamps * materials);
   }

@@ -62,6 +62,13 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
                                const DerivativeRequest& derivatives = {});
 
+// The same with the room's transport already factored for its reflectances, which costs more than all else
+// where a few luminaires move and no surface changes.
+Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
+                               const LuminaireVisibility& visibility,
+                               const std::vector<Luminaire>& luminaires, const Transport& transport,
+                               const DerivativeRequest& derivatives = {});
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_ILLUMINANCE_H_

@@ -57,7 +57,7 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
                         const std::vector<Sensor>& sensors, int rays_per_sensor) {
   ExpectValid(sensors);
-  Receivers receivers{elements, sensors, {}, {}};
+  Receivers receivers{elements, sensors, {}, {}, {}, {}};
   receivers.points.reserve(elements.size() + sensors.size());
   for (const int e : elements) {
     const Element& element = room.patches.elements[static_cast<size_t>(e)];
@@ -74,6 +74,24 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
   for (size_t i = 0; i < rows.size() && count > 0; ++i)
     receivers.sensor_to_element.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
   return receivers;
+}
+
+void PrepareGather(const Room& room, Receivers& receivers) {
+  if (room.sparse || room.patches.elements.empty()) return;
+  const FormFactorMatrix& all = room.form_factors.element_to_patch;
+  receivers.element_to_patch = all(receivers.elements, Eigen::all);
+  const auto sensors = static_cast<Eigen::Index>(receivers.sensors.size());
+  receivers.sensor_to_patch.assign(room.scene.materials.size(), Eigen::MatrixXf::Zero(sensors, all.cols()));
+  using Gather = Eigen::SparseMatrix<float, Eigen::RowMajor>;
+  tbb::parallel_for(Eigen::Index{0}, sensors, [&](Eigen::Index s) {
+    std::vector<Eigen::RowVectorXf> rows(room.scene.materials.size(), Eigen::RowVectorXf::Zero(all.cols()));
+    for (Gather::InnerIterator it(receivers.sensor_to_element, s); it; ++it) {
+      const int patch = room.patches.elements[static_cast<size_t>(it.col())].patch;
+      const int material = room.patches.patches[static_cast<size_t>(patch)].material;
+      rows[static_cast<size_t>(material)] += it.value() * all.row(it.col());
+    }
+    for (size_t m = 0; m < rows.size(); ++m) receivers.sensor_to_patch[m].row(s) = rows[m];
+  });
 }
 
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,

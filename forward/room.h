@@ -52,10 +52,19 @@ struct Receivers {
   std::vector<Sensor> sensors;
   Eigen::SparseMatrix<float, Eigen::RowMajor> sensor_to_element;  // form factors, sensors x elements
   std::vector<Sensor> points;                                     // centre and normal of every receiver
+  // Filled by PrepareGather, else empty: form factors of the receiving elements (elements x patches), and of
+  // the sensors to patches by way of the elements of each material (sensors x patches).
+  FormFactorMatrix element_to_patch;
+  std::vector<Eigen::MatrixXf> sensor_to_patch;
   int count() const { return static_cast<int>(points.size()); }
 };
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
                         const std::vector<Sensor>& sensors, int rays_per_sensor = kSensorRays);
+
+// For those who ask for the light at the same receivers again and again: what depends on geometry alone is
+// multiplied out, so that elements which are no receivers need no indirect light. Sparse rooms stay as they
+// are.
+void PrepareGather(const Room& room, Receivers& receivers);
 
 // Share of each luminaire that each place sees: elements x luminaires and receivers x luminaires, in [0, 1].
 // Elements are probed at 2 x 2 points against `order` points a side of the luminaire, sensors at their point.

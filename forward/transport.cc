@@ -29,12 +29,14 @@ TransportGeometry MakeTransportGeometry(const Patches& patches, const FormFactor
   return geometry;
 }
 
-Transport::Transport(const TransportGeometry& geometry, const Eigen::VectorXd& albedo) : geometry_(geometry) {
+Transport::Transport(const TransportGeometry& geometry, const Eigen::VectorXd& albedo)
+    : geometry_(geometry), albedo_(albedo) {
   // Entry by entry: minCoeff may pass over a NaN.
   if (!(albedo.array() >= 0).all() || !(albedo.array() < 1).all()) {
     throw std::invalid_argument("Transport: expected reflectances in [0, 1)");
   }
   const Eigen::Index n = geometry.patch_area_m2.size();
+  if (n == 0) return;  // a room of no surfaces
   if (geometry.coupling.rows() != n)
     throw std::invalid_argument("Transport: expected a dense coupling, got a sparse one; use SolveRadiosity");
   root_area_ = geometry.patch_area_m2.cwiseSqrt();

@@ -45,8 +45,11 @@ class Transport {
   //   dM = 1_m E + rho F dM   =>   dM = 1_m E + Exitance(F 1_m E)
   Eigen::MatrixXf ExitanceDerivative(int material, const Eigen::MatrixXf& illuminance_lx) const;
 
+  const Eigen::VectorXd& albedo() const { return albedo_; }
+
  private:
   const TransportGeometry& geometry_;
+  Eigen::VectorXd albedo_;
   Eigen::VectorXf root_albedo_, root_area_;
   Eigen::MatrixXf factor_;  // lower Cholesky factor of S
 };

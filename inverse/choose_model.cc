@@ -1,8 +1,11 @@
 #include "inverse/choose_model.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -266,6 +269,38 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
   return gain.mean <= gain.standard_error;
 }
 
+// What one luminaire's choice came to; nothing where nothing was open or nothing could be left out.
+struct Chosen {
+  LuminaireChoice choice;
+  FittedCandidate candidate;
+};
+
+std::optional<Chosen> ChooseOne(const Room& room, const SubProblem& problem, int luminaire,
+                                const Luminaire& start, const OpenChoice& open,
+                                const ChooseModelOptions& options) {
+  if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; })) return {};
+  std::vector<FittedCandidate> fitted;
+  double relative_sigma = 1;
+  for (size_t c = 0; c < AllCandidates().size(); ++c) {
+    if (!Allowed(AllCandidates()[c], start, open)) continue;
+    if (SizeDoesNotMatter(problem, fitted, relative_sigma, AllCandidates()[c])) continue;
+    FittedCandidate candidate = FitCandidate(room, problem, static_cast<int>(c), options);
+    // A size that shrank to nothing is the point over again, with a parameter more.
+    if (open.shape && HasVanished(candidate.luminaire)) continue;
+    fitted.push_back(std::move(candidate));
+    relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
+  }
+  if (fitted.size() < 2) return {};
+  std::vector<int> candidates;
+  std::vector<std::map<int, GroupScore>> scores;
+  for (const FittedCandidate& f : fitted) {
+    candidates.push_back(f.candidate);
+    scores.push_back(ScoreGroups(problem, f.predicted, relative_sigma));
+  }
+  const LuminaireChoice choice = Choose(luminaire, candidates, scores);
+  return Chosen{choice, fitted[static_cast<size_t>(choice.chosen)]};
+}
+
 }  // namespace
 
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
@@ -275,35 +310,19 @@ ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const
   if (open.size() != start.luminaires.size()) {
     throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
   }
+  std::vector<std::optional<Chosen>> chosen(open.size());
+  tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
+    const auto luminaire = static_cast<int>(k);
+    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
+    chosen[k] = ChooseOne(room, problem, luminaire, start.luminaires[k], open[k], options);
+  });
   ModelChoice result;
   result.state = start;
   for (size_t k = 0; k < open.size(); ++k) {
-    const SubProblem problem =
-        MakeSubProblem(room, data, start, static_cast<int>(k), priors, options.max_elements);
-    if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
-      continue;
-    std::vector<FittedCandidate> fitted;
-    double relative_sigma = 1;
-    for (size_t c = 0; c < AllCandidates().size(); ++c) {
-      if (!Allowed(AllCandidates()[c], start.luminaires[k], open[k])) continue;
-      if (SizeDoesNotMatter(problem, fitted, relative_sigma, AllCandidates()[c])) continue;
-      FittedCandidate candidate = FitCandidate(room, problem, static_cast<int>(c), options);
-      // A size that shrank to nothing is the point over again, with a parameter more.
-      if (open[k].shape && HasVanished(candidate.luminaire)) continue;
-      fitted.push_back(std::move(candidate));
-      relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
-    }
-    if (fitted.size() < 2) continue;
-    std::vector<int> candidates;
-    std::vector<std::map<int, GroupScore>> scores;
-    for (const FittedCandidate& f : fitted) {
-      candidates.push_back(f.candidate);
-      scores.push_back(ScoreGroups(problem, f.predicted, relative_sigma));
-    }
-    result.choices.push_back(Choose(static_cast<int>(k), candidates, scores));
-    const FittedCandidate& chosen = fitted[static_cast<size_t>(result.choices.back().chosen)];
-    result.state.luminaires[k] = chosen.luminaire;
-    Apply(AllCandidates()[static_cast<size_t>(chosen.candidate)], options.start_size_m,
+    if (!chosen[k]) continue;
+    result.choices.push_back(chosen[k]->choice);
+    result.state.luminaires[k] = chosen[k]->candidate.luminaire;
+    Apply(AllCandidates()[static_cast<size_t>(chosen[k]->candidate.candidate)], options.start_size_m,
           result.state.luminaires[k], result.state.free[k]);
   }
   return result;

@@ -207,6 +207,7 @@ LightModel::LightModel(const Room& room, const LightData& data) : room_(room), d
     }
   }
   receivers_ = MakeReceivers(room, elements, sensors);
+  PrepareGather(room, receivers_);
 }
 
 void LightModel::FreezeVisibility(const LightState& state, int order) {
@@ -241,8 +242,9 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
       }
     }
   }
+  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
   const Illuminance light =
-      ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, state.albedo, request);
+      ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
   const Eigen::Index lamps = static_cast<Eigen::Index>(state.luminaires.size());
   const Eigen::Index materials = static_cast<Eigen::Index>(request.materials.size());
   Eigen::VectorXd flux(lamps);

@@ -81,7 +81,7 @@ struct Prediction {
 
 class LightModel {
  public:
-  // Keeps references: `room` and `data` must outlive it.
+  // Keeps references: `room` and `data` must outlive it. Not to be shared by threads.
   LightModel(const Room& room, const LightData& data);
 
   // Sets the visible shares that Predict uses, for the luminaires where they now are (ComputeVisibility's
@@ -103,6 +103,8 @@ class LightModel {
   std::vector<int> state_of_row_;
   std::vector<int> material_of_row_;  // -1 for readings
   LuminaireVisibility visibility_;
+  // Of the reflectances asked for last: most steps of a fit that holds them do without another factorisation.
+  mutable std::optional<Transport> transport_;
 };
 
 }  // namespace luxfit

@@ -85,6 +85,23 @@ std::vector<QuantityCase> AllQuantities() {
           {Q::kTiltAcross, "tilt across", [tilt](Luminaire& l, double h) { tilt(l, 0, h); }}};
 }
 
+TEST_F(RoomWithScreen, PreparedReceiversSeeTheSame) {
+  DerivativeRequest request;
+  request.parameters = {{0, LuminaireQuantity::kPositionX}, {1, LuminaireQuantity::kPositionZ}};
+  request.materials = {2, 0};
+  const Illuminance through = Compute(lamps_, albedo_, request);
+  PrepareGather(room_, receivers_);
+  const Illuminance prepared = Compute(lamps_, albedo_, request);
+  const auto expect_same = [](const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
+    ASSERT_GT(a.size(), 0);
+    EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 2e-6 * a.cwiseAbs().maxCoeff());
+  };
+  expect_same(through.total, prepared.total);
+  expect_same(through.direct, prepared.direct);
+  expect_same(through.d_luminaire, prepared.d_luminaire);
+  expect_same(through.d_albedo, prepared.d_albedo);
+}
+
 TEST_F(RoomWithScreen, DerivativesOfALuminaireAreCentralDifferences) {
   DerivativeRequest request;
   for (const QuantityCase& c : AllQuantities()) request.parameters.push_back({0, c.quantity});
