@@ -100,6 +100,11 @@ json LuminairesJson(const Session& session, const SessionFit& fit) {
     entry["flux_sigma_lm"] =
         fit.absolute ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
     if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
+    if (fit.fit.state.free[k].tilt) {
+      constexpr double kDegrees = 180 / 3.14159265358979323846;
+      entry["aim_sigma_deg"] = {kDegrees * sigma(LuminaireQuantity::kTiltAlong),
+                                kDegrees * sigma(LuminaireQuantity::kTiltAcross)};
+    }
     if (luminaire.distribution == Distribution::kCosinePower) {
       entry["cosine_exponent"] = luminaire.cosine_exponent;
       entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);

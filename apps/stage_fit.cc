@@ -55,7 +55,8 @@ class FitStage {
         const SessionLuminaire& given = session_.luminaires[k];
         open.push_back(
             {given.photometry == "auto" && result_.luminaire_found[k],
-             !given.shape.has_value() && given.photometry_path.empty() && result_.luminaire_found[k]});
+             !given.shape.has_value() && given.photometry_path.empty() && result_.luminaire_found[k],
+             !given.aim.has_value() && result_.luminaire_found[k]});
       }
       const ModelChoice choice = [&] {
         const StageTimer choose_timer(context_, "choose",
@@ -63,6 +64,7 @@ class FitStage {
         return ChooseLuminaireModels(room_, result_.data, fit.state, open, priors_);
       }();
       for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
+      for (const AimChoice& c : choice.aims) RecordAim(c);
       fit = FitLuminaires(room_, result_.data, choice.state, priors_);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
@@ -191,11 +193,11 @@ class FitStage {
     free.position = found && !(given.position_sigma_m && *given.position_sigma_m == 0);
     free.flux = found && !(given.flux_sigma_lm && *given.flux_sigma_lm == 0);
     if (found) AddPriors(given, index);
-    if (!given.aim && luminaire.distribution != Distribution::kIsotropic) {
+    if (!given.aim && !given.photometry_path.empty()) {
       context_.choices.push_back({"aim of " + given.id,
                                   "straight down",
                                   {},
-                                  "no aim was given and this version does not estimate it"});
+                                  "no aim was given, and that of a given photometry is not estimated"});
     }
     result_.luminaire_found.push_back(found);
     start_.luminaires.push_back(luminaire);
@@ -268,6 +270,18 @@ class FitStage {
          "simplest within one standard error of the best on patches left out (mean squared normalised "
          "error: " +
              scores + ")"});
+  }
+
+  void RecordAim(const AimChoice& choice) {
+    context_.choices.push_back(
+        {"aim of " + session_.luminaires[static_cast<size_t>(choice.luminaire)].id,
+         choice.is_free ? "estimated" : "straight down",
+         {"straight down", "estimated"},
+         fmt::format(
+             "simplest within one standard error of the best on patches left out (mean squared "
+             "normalised error: straight down {:.3f}, estimated {:.3f}, standard error of the difference "
+             "{:.3f})",
+             choice.score_held, choice.score_free, choice.standard_error)});
   }
 
   void RecordOutcome() {

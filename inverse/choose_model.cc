@@ -33,7 +33,13 @@ bool Allowed(const ModelCandidate& candidate, const Luminaire& luminaire, const 
          (open.shape || candidate.shape == luminaire.shape);
 }
 
-void Apply(const ModelCandidate& candidate, double start_size_m, Luminaire& luminaire, FreeQuantities& free) {
+// Turning a point that shines alike everywhere changes nothing.
+bool HasAim(const ModelCandidate& candidate) {
+  return candidate.distribution != Distribution::kIsotropic || candidate.shape != LuminaireShape::kPoint;
+}
+
+void Apply(const ModelCandidate& candidate, bool aim_is_free, double start_size_m, Luminaire& luminaire,
+           FreeQuantities& free) {
   const bool grows = candidate.shape != LuminaireShape::kPoint && luminaire.shape == LuminaireShape::kPoint;
   luminaire.distribution = candidate.distribution;
   luminaire.shape = candidate.shape;
@@ -41,6 +47,7 @@ void Apply(const ModelCandidate& candidate, double start_size_m, Luminaire& lumi
   if (candidate.shape == LuminaireShape::kDisc) luminaire.size_m[1] = luminaire.size_m[0];
   free.exponent = candidate.distribution == Distribution::kCosinePower;
   free.size = candidate.shape != LuminaireShape::kPoint;
+  free.tilt = aim_is_free && HasAim(candidate);
 }
 
 // Spreads consecutive groups over the folds, so that every part of the room keeps most of its data.
@@ -220,17 +227,18 @@ LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
 
 struct FittedCandidate {
   int candidate = 0;
+  bool aim_is_free = false;
   Luminaire luminaire;
   Eigen::VectorXd predicted;  // rows of SubProblem::all
   double relative_sigma = 1;
 };
 
-FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index,
+FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free,
                              const ChooseModelOptions& options) {
   const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
   const size_t k = static_cast<size_t>(problem.luminaire);
   LightState state = problem.state;
-  Apply(candidate, options.start_size_m, state.luminaires[k], state.free[k]);
+  Apply(candidate, aim_is_free, options.start_size_m, state.luminaires[k], state.free[k]);
   FitLuminairesOptions fit_options;
   fit_options.covariance = false;
   fit_options.max_outer_iterations = options.max_outer_iterations;
@@ -239,7 +247,8 @@ FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int in
   const LuminaireFit fit = FitLuminaires(room, problem.fit, state, problem.priors, fit_options);
   LightModel model(room, problem.all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);
-  return {index, fit.state.luminaires[k], model.Predict(fit.state, {}, false).value, fit.relative_sigma};
+  return {index, aim_is_free, fit.state.luminaires[k], model.Predict(fit.state, {}, false).value,
+          fit.relative_sigma};
 }
 
 bool HasVanished(const Luminaire& luminaire) {
@@ -269,37 +278,99 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
   return gain.mean <= gain.standard_error;
 }
 
-// What one luminaire's choice came to; nothing where nothing was open or nothing could be left out.
-struct Chosen {
-  LuminaireChoice choice;
-  FittedCandidate candidate;
+AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedCandidate& held,
+                      const FittedCandidate& free) {
+  const double relative_sigma = std::min(held.relative_sigma, free.relative_sigma);
+  const std::map<int, GroupScore> score_held = ScoreGroups(problem, held.predicted, relative_sigma),
+                                  score_free = ScoreGroups(problem, free.predicted, relative_sigma);
+  const PairedDifference gain = Difference(score_held, score_free);
+  return {luminaire, gain.mean > gain.standard_error, Mean(score_held), Mean(score_free),
+          gain.standard_error};
+}
+
+// What was open of one luminaire, and what came of it.
+struct ChosenModel {
+  std::optional<LuminaireChoice> choice;
+  std::optional<AimChoice> aim;
+  std::optional<FittedCandidate> fitted;  // nothing where nothing is open or nothing could be left out
 };
 
-std::optional<Chosen> ChooseOne(const Room& room, const SubProblem& problem, int luminaire,
-                                const Luminaire& start, const OpenChoice& open,
-                                const ChooseModelOptions& options) {
-  if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; })) return {};
-  std::vector<FittedCandidate> fitted;
-  double relative_sigma = 1;
-  for (size_t c = 0; c < AllCandidates().size(); ++c) {
-    if (!Allowed(AllCandidates()[c], start, open)) continue;
-    if (SizeDoesNotMatter(problem, fitted, relative_sigma, AllCandidates()[c])) continue;
-    FittedCandidate candidate = FitCandidate(room, problem, static_cast<int>(c), options);
-    // A size that shrank to nothing is the point over again, with a parameter more.
-    if (open.shape && HasVanished(candidate.luminaire)) continue;
-    fitted.push_back(std::move(candidate));
-    relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
+// One luminaire's choice among the models and aims that are open.
+class LuminaireChooser {
+ public:
+  LuminaireChooser(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open,
+                   const ChooseModelOptions& options)
+      : room_(room), problem_(problem), luminaire_(luminaire), open_(open), options_(options) {
+    const Luminaire& start = problem.state.luminaires[static_cast<size_t>(problem.luminaire)];
+    for (size_t c = 0; c < AllCandidates().size(); ++c) {
+      if (Allowed(AllCandidates()[c], start, open)) allowed_.push_back(static_cast<int>(c));
+    }
   }
-  if (fitted.size() < 2) return {};
-  std::vector<int> candidates;
-  std::vector<std::map<int, GroupScore>> scores;
-  for (const FittedCandidate& f : fitted) {
-    candidates.push_back(f.candidate);
-    scores.push_back(ScoreGroups(problem, f.predicted, relative_sigma));
+
+  ChosenModel Run() {
+    if (std::none_of(problem_.left_out.begin(), problem_.left_out.end(), [](bool out) { return out; }))
+      return {};
+    ChosenModel chosen;
+    if (open_.aim) chosen.aim = AimOfAPoint();
+    const bool turns = chosen.aim && chosen.aim->is_free;
+    const std::vector<FittedCandidate> fitted = FitAll(turns);
+    if (fitted.empty() || (fitted.size() < 2 && !turns)) return chosen;
+    if (fitted.size() > 1) chosen.choice = ChooseAmong(fitted);
+    chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
+    if (!turns) return chosen;
+    const FittedCandidate held = FitCandidate(room_, problem_, chosen.fitted->candidate, false, options_);
+    chosen.aim = CompareAims(problem_, luminaire_, held, *chosen.fitted);
+    if (!chosen.aim->is_free) chosen.fitted = held;
+    return chosen;
   }
-  const LuminaireChoice choice = Choose(luminaire, candidates, scores);
-  return Chosen{choice, fitted[static_cast<size_t>(choice.chosen)]};
-}
+
+ private:
+  // Of the most telling point that is allowed.
+  std::optional<AimChoice> AimOfAPoint() const {
+    int trial = -1;
+    for (const int c : allowed_) {
+      const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(c)];
+      if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
+    }
+    if (trial < 0) return {};
+    return CompareAims(problem_, luminaire_, FitCandidate(room_, problem_, trial, false, options_),
+                       FitCandidate(room_, problem_, trial, true, options_));
+  }
+
+  std::vector<FittedCandidate> FitAll(bool turns) const {
+    std::vector<FittedCandidate> fitted;
+    double relative_sigma = 1;
+    for (const int c : allowed_) {
+      if (SizeDoesNotMatter(problem_, fitted, relative_sigma, AllCandidates()[static_cast<size_t>(c)]))
+        continue;
+      FittedCandidate candidate = FitCandidate(room_, problem_, c, turns, options_);
+      // A size that shrank to nothing is the point over again, with a parameter more.
+      if (open_.shape && HasVanished(candidate.luminaire)) continue;
+      fitted.push_back(std::move(candidate));
+      relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
+    }
+    return fitted;
+  }
+
+  LuminaireChoice ChooseAmong(const std::vector<FittedCandidate>& fitted) const {
+    double relative_sigma = 1;
+    for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.relative_sigma);
+    std::vector<int> candidates;
+    std::vector<std::map<int, GroupScore>> scores;
+    for (const FittedCandidate& f : fitted) {
+      candidates.push_back(f.candidate);
+      scores.push_back(ScoreGroups(problem_, f.predicted, relative_sigma));
+    }
+    return Choose(luminaire_, candidates, scores);
+  }
+
+  const Room& room_;
+  const SubProblem& problem_;
+  int luminaire_;
+  OpenChoice open_;
+  const ChooseModelOptions& options_;
+  std::vector<int> allowed_;
+};
 
 }  // namespace
 
@@ -310,19 +381,21 @@ ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const
   if (open.size() != start.luminaires.size()) {
     throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
   }
-  std::vector<std::optional<Chosen>> chosen(open.size());
+  std::vector<ChosenModel> chosen(open.size());
   tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
     const auto luminaire = static_cast<int>(k);
     const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
-    chosen[k] = ChooseOne(room, problem, luminaire, start.luminaires[k], open[k], options);
+    chosen[k] = LuminaireChooser(room, problem, luminaire, open[k], options).Run();
   });
   ModelChoice result;
   result.state = start;
   for (size_t k = 0; k < open.size(); ++k) {
-    if (!chosen[k]) continue;
-    result.choices.push_back(chosen[k]->choice);
-    result.state.luminaires[k] = chosen[k]->candidate.luminaire;
-    Apply(AllCandidates()[static_cast<size_t>(chosen[k]->candidate.candidate)], options.start_size_m,
+    if (chosen[k].choice) result.choices.push_back(*chosen[k].choice);
+    if (chosen[k].aim) result.aims.push_back(*chosen[k].aim);
+    if (!chosen[k].fitted) continue;
+    const FittedCandidate& fitted = *chosen[k].fitted;
+    result.state.luminaires[k] = fitted.luminaire;
+    Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, options.start_size_m,
           result.state.luminaires[k], result.state.free[k]);
   }
   return result;

@@ -11,7 +11,11 @@
 // error of the best; the standard error is that of the paired difference, facet by facet, because residuals
 // of one facet are no independent evidence.
 //
-// What the caller fixed (a given distribution or shape) is not varied.
+// Aim: a cosine-power point (or what is given) is fitted with the start's aim and with a free one. Only where
+// freeing it lowers the score on what was left out by more than a standard error do the candidates turn, too,
+// and only where the same holds of the chosen one does it stay free.
+//
+// What the caller fixed (a given distribution, shape or aim) is not varied.
 // Source: Breiman, Friedman, Olshen, Stone (1984), "Classification and Regression Trees", sec. 3.4
 // (one-standard-error rule).
 #ifndef LUXFIT_INVERSE_CHOOSE_MODEL_H_
@@ -39,10 +43,19 @@ struct LuminaireChoice {
   int chosen = 0;                      // index into among
 };
 
+// Of one luminaire: the aim of the start, or an estimated one.
+struct AimChoice {
+  int luminaire = 0;
+  bool is_free = false;
+  double score_held = 0, score_free = 0;  // on what was left out
+  double standard_error = 0;              // of their difference
+};
+
 // What the caller leaves open, one a luminaire.
 struct OpenChoice {
   bool distribution = true;
   bool shape = true;
+  bool aim = true;
 };
 
 struct ChooseModelOptions {
@@ -55,6 +68,7 @@ struct ChooseModelOptions {
 struct ModelChoice {
   LightState state;  // the chosen models at their best so far: a start for the final fit
   std::vector<LuminaireChoice> choices;
+  std::vector<AimChoice> aims;
 };
 
 // `start` should be a converged fit with cosine-power points (or what is given).

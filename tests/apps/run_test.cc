@@ -88,6 +88,18 @@ TEST_F(OfficeRun, PredictsTheReadingsThatOnlyCheck) {
   EXPECT_LE(result_["summary"]["max_abs_error_percent"].get<double>(), 5);
 }
 
+// One reading alone fixes the scale of the photos, so that nothing contradicts it.
+TEST_F(OfficeRun, MeetsTheReadingThatSetsTheScale) {
+  int met = 0;
+  for (const json& reading : result_["luxmeter"]) {
+    if (reading["role"] != "scale") continue;
+    const double measured_lx = reading["measured_lux"], predicted_lx = reading["predicted_lux"];
+    EXPECT_NEAR(predicted_lx, measured_lx, 2e-4 * measured_lx);
+    ++met;
+  }
+  EXPECT_EQ(met, 1);
+}
+
 TEST_F(OfficeRun, ChoosesModelsWithReasons) {
   // The truth: A and B Lambertian panels, C and D cos^3 downlights small enough to be points.
   for (const json& l : result_["luminaires"]) {

@@ -90,6 +90,37 @@ TEST(ChooseModel, ALongPanelReadFromNearByIsARectangle) {
   EXPECT_NEAR(lamp.size_m[1], 0.6, 0.06);
 }
 
+// A spot of cos^4 turned by 25 degrees: nobody said where it points.
+TEST(ChooseModel, ATurnedSpotIsFoundToBeTurned) {
+  const Eigen::Vector3d aim(std::sin(0.44), 0, -std::cos(0.44));
+  const auto lux = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p - kLamp;
+    const double to_axis = std::max(0.0, d.normalized().dot(aim)), to_normal = -d.normalized().z();
+    return 800 * 5 / (2 * support::kPi) * std::pow(to_axis, 4) * to_normal / d.squaredNorm();
+  };
+  ModelChoice choice;
+  EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "cosine_power point") << TableOf(choice);
+  ASSERT_EQ(choice.aims.size(), 1u);
+  EXPECT_TRUE(choice.aims[0].is_free);
+  EXPECT_TRUE(choice.state.free[0].tilt);
+  EXPECT_GT(choice.aims[0].score_held, 2 * choice.aims[0].score_free);
+  const double off_deg = std::acos(choice.state.luminaires[0].aim.dot(aim)) * 180 / support::kPi;
+  EXPECT_LT(off_deg, 1.0);  // 200 readings of 1 %
+  EXPECT_LT((choice.state.luminaires[0].position - kLamp).norm(), 0.02);
+}
+
+TEST(ChooseModel, LampsThatPointDownAreNotTurned) {
+  for (const double exponent : {1.0, 2.0, 4.0}) {
+    const auto lobe = [&](double c) { return (exponent + 1) * std::pow(c, exponent) / (2 * support::kPi); };
+    const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, lobe, kLamp, p); };
+    ModelChoice choice;
+    ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice);
+    ASSERT_EQ(choice.aims.size(), 1u) << exponent;
+    EXPECT_FALSE(choice.aims[0].is_free) << exponent;
+    EXPECT_FALSE(choice.state.free[0].tilt) << exponent;
+  }
+}
+
 TEST(ChooseModel, WhatTheCallerGaveIsKept) {
   const auto lux = [](const Eigen::Vector3d& p) {
     return support::PointLx(800, support::LambertianCdPerLm, kLamp, p);
@@ -112,7 +143,7 @@ TEST(ChooseModel, WhatTheCallerGaveIsKept) {
   ASSERT_EQ(points.choices.size(), 1u);
   EXPECT_EQ(points.choices[0].among,
             (std::vector<std::string>{"isotropic point", "lambertian point", "cosine_power point"}));
-  EXPECT_TRUE(ChooseLuminaireModels(room, data, start, {OpenChoice{false, false}}).choices.empty());
+  EXPECT_TRUE(ChooseLuminaireModels(room, data, start, {OpenChoice{false, false, false}}).choices.empty());
   EXPECT_THROW(ChooseLuminaireModels(room, data, start, {}), std::invalid_argument);
 }
 
