@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/flux_share.h"
 #include "forward/internal/photometry_planes.h"
 #include "forward/internal/photometry_text.h"
 
@@ -208,8 +209,22 @@ PhotometryFile PhotometryOf(const LdtFile& file) {
                    ExpandPlanes(RadFromDeg(c_deg), RadFromDeg(file.gamma_deg), cd, symmetry), file.name);
 }
 
+namespace {
+
+// The step of angles that are evenly spaced, else 0.
+double EvenStep(const std::vector<double>& deg) {
+  const double step = deg.size() < 2 ? 0 : deg[1] - deg[0];
+  for (size_t i = 1; i < deg.size(); ++i) {
+    if (std::abs(deg[i] - deg[i - 1] - step) > 1e-6) return 0;
+  }
+  return step;
+}
+
+}  // namespace
+
 LdtFile MakeLdt(const PhotometryFile& photometry) {
-  const PhotometryPlanes planes = PlanesOf(photometry.table, 1000);
+  const IntensityTable table = InLuminaireFrame(photometry.table);
+  const PhotometryPlanes planes = PlanesOf(table, 1000);
   LdtFile file;
   const auto keyword = [&](const std::string& name) {
     for (const PhotometryKeyword& k : photometry.keywords) {
@@ -228,10 +243,18 @@ LdtFile MakeLdt(const PhotometryFile& photometry) {
   file.planes = static_cast<int>(planes.c_deg.size());
   file.c_deg = planes.c_deg;
   file.gamma_deg = planes.gamma_deg;
+  file.c_step_deg = EvenStep(planes.c_deg);
+  file.gamma_step_deg = EvenStep(planes.gamma_deg);
   file.cd_per_klm = planes.intensity;
   const bool rectangle = photometry.shape == LuminaireShape::kRectangle;
   file.area_length_mm = 1000 * photometry.size_m[rectangle ? 1 : 0];
   file.area_width_mm = rectangle ? 1000 * photometry.size_m[0] : 0;
+  // Of the housing nothing is known but that it holds the opening.
+  file.length_mm = file.area_length_mm;
+  file.width_mm = file.area_width_mm;
+  const FluxShares shares = FluxSharesOf(table);
+  file.downward_percent = 100 * shares.downward;
+  file.direct_ratio = shares.direct_ratio;
   LdtLamps lamps;
   lamps.count = -1;
   lamps.type = keyword("LAMP");

@@ -61,7 +61,8 @@ std::vector<size_t> StoredPlanes(int symmetry, size_t planes);
 
 PhotometryFile PhotometryOf(const LdtFile& file);
 
-// Absolute photometry with every plane. Throws std::invalid_argument for an empty table.
+// Absolute photometry with every plane; downward flux and direct ratios by forward/flux_share.h. Throws
+// std::invalid_argument for an empty table.
 LdtFile MakeLdt(const PhotometryFile& photometry);
 
 }  // namespace luxfit

@@ -50,9 +50,13 @@ PhotometryFile WithTable(PhotometryFile file, const IntensityTable& table_cd, co
   return file;
 }
 
-PhotometryPlanes PlanesOf(const IntensityTable& table, double scale) {
-  if (table.c_rad.size() < 2) throw std::invalid_argument("PlanesOf: expected a table");
-  if (!IsWholeCircle(table)) return PlanesOf(Resampled(table, kResampleCDeg, kResampleGammaDeg), scale);
+IntensityTable InLuminaireFrame(const IntensityTable& table) {
+  if (table.c_rad.size() < 2) throw std::invalid_argument("InLuminaireFrame: expected a table");
+  return IsWholeCircle(table) ? table : Resampled(table, kResampleCDeg, kResampleGammaDeg);
+}
+
+PhotometryPlanes PlanesOf(const IntensityTable& given, double scale) {
+  const IntensityTable table = InLuminaireFrame(given);
   PhotometryPlanes planes;
   planes.gamma_deg = DegFromRad(table.gamma_rad);
   planes.c_deg = DegFromRad(table.c_rad);

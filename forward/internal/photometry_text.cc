@@ -172,7 +172,12 @@ std::vector<double> PhotometryText::Rising(const std::string& field, size_t coun
 
 std::string NumberText(double value) {
   std::array<char, 32> text{};
-  const std::to_chars_result end = std::to_chars(text.data(), text.data() + text.size(), value);
+  const double size = std::abs(value);
+  // Plain decimals where they fit: not every program that loads the files reads 1e+05.
+  const bool is_plain = size == 0 || (size >= 1e-9 && size < 1e12);
+  const std::to_chars_result end =
+      is_plain ? std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed)
+               : std::to_chars(text.data(), text.data() + text.size(), value);
   return {text.data(), end.ptr};
 }
 
