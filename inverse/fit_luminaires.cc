@@ -78,7 +78,8 @@ double SolveInner(const FrozenProblem& problem, int max_iterations, bool is_near
   options.function_tolerance = is_near ? 1e-10 : 1e-6;  // the outer loop goes on from here
   options.parameter_tolerance = 1e-7;
   options.initial_trust_region_radius = is_near ? 1e8 : 10;
-  // Bounds are seldom met: a line search along every step to them costs a third of the time and finds nothing.
+  // Bounds are seldom met: a line search along every step to them costs a third of the time and finds
+  // nothing.
   options.max_num_line_search_step_size_iterations = 0;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
