@@ -300,12 +300,13 @@ class FitStage {
     }
     if (!fit.IsUsable()) {
       context_.undetermined = true;
-      std::set<std::string> names(fit.undetermined.begin(), fit.undetermined.end());
-      std::string list;
-      for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-      context_.warnings.push_back(
-          {"parameters_undetermined", fit.message + (list.empty() ? "" : ": " + list),
-           "more readings or views, one luminaire switched alone, or give what is known of them"});
+      if (fit.null_directions.empty())
+        context_.warnings.push_back(
+            {"parameters_undetermined", fit.message,
+             "more readings or views, one luminaire switched alone, or give what is known "
+             "of them"});
+      for (const NullDirection& direction : fit.null_directions)
+        context_.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
     }
     for (const std::string& name : fit.at_bound) {
       context_.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",

@@ -264,6 +264,7 @@ class OuterLoop {
           fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].name);
         }
       }
+      fit_.null_directions.push_back(DescribeNullDirection(fit_.parameters, eigen.eigenvectors().col(d)));
       fit_.status = FitStatus::kUndetermined;
       fit_.message = "the data leave a combination of parameters undetermined";
     }

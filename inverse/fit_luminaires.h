@@ -11,7 +11,7 @@
 // evidence. The cluster-robust ("sandwich") estimate is used, H^-1 (sum_c g_c g_c^T) H^-1 with clusters of
 // one facet and one state, never below the plain H^-1 (which the priors and readings share). A direction of
 // parameters that the data leave undetermined (singular value below 1e-7 of the largest, after scaling) has
-// no covariance: it is listed in `undetermined`, and status is kUndetermined.
+// no covariance: it is listed in `undetermined`, described in `null_directions`, and status is kUndetermined.
 //
 // Sources: Triggs et al. (2000), sec. 4 (IRLS, LM); Liang and Zeger (1986), Cameron and Miller (2015)
 // (cluster-robust).
@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "inverse/light_model.h"
+#include "inverse/null_direction.h"
 
 namespace luxfit {
 
@@ -57,6 +58,7 @@ struct LuminaireFit {
   std::vector<Parameter> parameters;
   Eigen::MatrixXd covariance;             // of the parameters
   std::vector<std::string> undetermined;  // parameters in directions without information
+  std::vector<NullDirection> null_directions;  // those directions, in words
   std::vector<std::string> at_bound;      // parameters that stopped at a bound
   Eigen::VectorXd predicted;              // every row: observations, then readings
   Eigen::VectorXd weight;                 // robust weight of every row, 0: left out

@@ -223,6 +223,9 @@ TEST_F(PhotosAlone, FluxAndCameraScaleAreUndetermined) {
   EXPECT_TRUE(Has(fit.undetermined, "log flux of A"));
   EXPECT_TRUE(Has(fit.undetermined, "log camera scale"));
   EXPECT_EQ(fit.undetermined.size(), 2u);
+  ASSERT_EQ(fit.null_directions.size(), 1u);
+  EXPECT_EQ(fit.null_directions[0].meaning,
+            "the flux of A and the camera's scale are known only up to one common factor");
   // All else is determined. The even interreflection of these photos is a cube's only to about a tenth of the
   // light: that much the luminances may miss, and half of it, by E ~ 1 / r^2, the lamp at 1 m from the walls.
   EXPECT_LT((fit.state.luminaires[0].position - lamp_).norm(), 0.05);
