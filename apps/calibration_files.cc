@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/artifact.h"
+#include "apps/file_stem.h"
 #include "apps/uncertainty_svg.h"
 #include "calib/camera_file.h"
 #include "calib/colmap_cameras.h"
@@ -30,16 +30,6 @@ json Numbers(const Vector& values) {
   json list = json::array();
   for (Eigen::Index i = 0; i < values.size(); ++i) list.push_back(Number(values[i]));
   return list;
-}
-
-std::string FileStem(const std::string& id) {
-  std::string stem = id;
-  for (char& c : stem) {
-    const bool is_plain =
-        std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_';
-    if (!is_plain) c = '_';
-  }
-  return stem;
 }
 
 std::vector<std::string> FailedGates(const Calibration& calibration) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/earlier_result.h"
+#include "apps/luminaire_files.h"
 #include "apps/plan_svg.h"
 #include "apps/stage_calibrate.h"
 #include "apps/stages.h"
@@ -48,7 +49,8 @@ int RunCommand(const CommandOptions& options) {
     ExpectSceneFrame(session, registered);
     const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
     const SessionFit fit = FitSession(session, room, observations, context);
-    result = ResultJson(session, room, registered, fit, context);
+    const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
+    result = ResultJson(session, room, registered, fit, files, context);
     plan = PlanSvg(session, room.scene, result);
   }
   result["timing_s"] = context.timing_s;

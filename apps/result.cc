@@ -75,7 +75,7 @@ json SizeJson(const Luminaire& luminaire) {
   return json::array({luminaire.size_m[0]});
 }
 
-json LuminairesJson(const Session& session, const SessionFit& fit) {
+json LuminairesJson(const Session& session, const SessionFit& fit, const std::vector<LuminaireFiles>& files) {
   json luminaires = json::array();
   for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
     if (!fit.luminaire_found[k]) continue;
@@ -109,6 +109,7 @@ json LuminairesJson(const Session& session, const SessionFit& fit) {
       entry["cosine_exponent"] = luminaire.cosine_exponent;
       entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
     }
+    if (!files[k].ies.empty()) entry["files"] = {{"ies", files[k].ies}, {"ldt", files[k].ldt}};
     luminaires.push_back(entry);
   }
   return luminaires;
@@ -179,14 +180,14 @@ json WarningsJson(const RunContext& context) {
 }
 
 json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                const SessionFit& fit, const RunContext& context) {
+                const SessionFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
   result["status"] = context.undetermined ? "undetermined" : "done";
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
-  result["luminaires"] = LuminairesJson(session, fit);
+  result["luminaires"] = LuminairesJson(session, fit, files);
   AddLuxmeter(session, fit, result);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);

@@ -125,9 +125,16 @@ nlohmann::json ChartSession(const Session& session, const ChartOptions& options,
 nlohmann::json ChoicesJson(const RunContext& context);
 nlohmann::json WarningsJson(const RunContext& context);
 
-// OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos).
+// Photometric files of a luminaire, relative to OUT; empty: none were written.
+struct LuminaireFiles {
+  std::string ies, ldt;
+};
+
+// OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos); `files`
+// by luminaire.
 nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                          const SessionFit& fit, const RunContext& context);
+                          const SessionFit& fit, const std::vector<LuminaireFiles>& files,
+                          const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);
 std::string SimulationTable(const nlohmann::json& artifact);
