@@ -1,7 +1,7 @@
 // OUT/luminaires/ID.ies and ID.ldt: fitted luminaires as lighting programs load them.
 //
-// Written for luminaires whose flux is in lm and whose flux, distribution and size the data determine; of the
-// others nothing is left there, not even of an earlier run.
+// Written for luminaires whose flux is in lm and whose flux, distribution and size the data determine
+// (a flux at its bound is not); of the others nothing is left there, not even of an earlier run.
 #ifndef LUXFIT_APPS_LUMINAIRE_FILES_H_
 #define LUXFIT_APPS_LUMINAIRE_FILES_H_
 

@@ -153,6 +153,8 @@ std::string LdtOf(const PhotometryFile& photometry, const PhotometryLabels& labe
   file.number = Label(labels.catalogue_number);
   file.file = Label(labels.catalogue_number, kLongestFileName);
   file.date = Label(labels.issue_date + " / " + labels.laboratory);
+  file.lamps.front().type = "unknown";
+  file.lamps.front().power = "0";  // as in .ies: not known, but a number where programs read one
   // A width of 0 would be a disc.
   for (double* length : {&file.length_mm, &file.width_mm, &file.area_length_mm, &file.area_width_mm})
     *length = *length > 0 ? std::max(1.0, std::round(*length)) : 0;
