@@ -284,8 +284,9 @@ AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedCand
   const std::map<int, GroupScore> score_held = ScoreGroups(problem, held.predicted, relative_sigma),
                                   score_free = ScoreGroups(problem, free.predicted, relative_sigma);
   const PairedDifference gain = Difference(score_held, score_free);
-  return {luminaire, gain.mean > gain.standard_error, Mean(score_held), Mean(score_free),
-          gain.standard_error};
+  constexpr size_t kFewestGroups = 4;  // fewer have no standard error to speak of
+  const bool is_free = score_held.size() >= kFewestGroups && gain.mean > gain.standard_error;
+  return {luminaire, is_free, Mean(score_held), Mean(score_free), gain.standard_error};
 }
 
 // What was open of one luminaire, and what came of it.
