@@ -79,7 +79,8 @@ void TakeFocalLengths(const Session& session, RegisteredSession& registered, Run
                                {"as given", "estimated with the poses"},
                                "the tags agree with one that is " + found});
     context.warnings.push_back(
-        {"focal_length_off", "The tags show a focal length of " + id + " that is " + found + "; it is used.",
+        {"focal_length_off",
+         fmt::format("The tags show a focal length of {} that is {}; it is used.", id, found),
          "Calibrate the camera as it was focused for the photos (luxfit calibrate): its "
          "distortion may be off as well."});
   }
