@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "apps/earlier_result.h"
+#include "apps/input_error.h"
 #include "apps/luminaire_files.h"
 #include "apps/plan_svg.h"
+#include "apps/stage_albedo.h"
 #include "apps/stage_calibrate.h"
+#include "apps/stage_stereo.h"
 #include "apps/stages.h"
 
 namespace luxfit {
@@ -34,10 +37,18 @@ void ExpectSceneFrame(const Session& session, const RegisteredSession& registere
 
 void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
-}  // namespace
-
-int RunCommand(const CommandOptions& options) {
+// The session of a command that asks for a room.
+Session ReadRoomSession(const CommandOptions& options) {
   Session session = ReadSession(options.session);
+  if (session.lights)
+    throw InputError({session.path, session.lights->line}, "lights",
+                     "expected the session of a room, got one of an object; run luxfit albedo on it");
+  return session;
+}
+
+// Everything up to the fit, and the albedo in finer detail where asked for.
+int FitRoom(const CommandOptions& options, bool with_albedo) {
+  Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
   std::string plan;
@@ -51,19 +62,49 @@ int RunCommand(const CommandOptions& options) {
     const SessionFit fit = FitSession(session, room, observations, context);
     const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
     result = ResultJson(session, room, registered, fit, files, context);
+    if (with_albedo) {
+      const nlohmann::json albedo = AlbedoOfRoom(session, room, fit, result, context);
+      result = WithAlbedo(std::move(result), albedo, context);
+    }
     plan = PlanSvg(session, room.scene, result);
   }
   result["timing_s"] = context.timing_s;
   const std::string path = context.out + "/result.json";
   if (!plan.empty()) WriteText(context.out + "/plan.svg", plan);
   WriteJson(path, result);
-  Print(options.json ? result.dump(2) + "\n" : ResultTables(result));
+  Print(options.json ? result.dump(2) + "\n" : (with_albedo ? AlbedoTable(result) : ResultTables(result)));
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
   return context.undetermined ? 1 : 0;
 }
 
+}  // namespace
+
+int RunCommand(const CommandOptions& options) { return FitRoom(options, false); }
+
+int AlbedoCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  if (!session.lights) {
+    if (session.photos.empty())
+      throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
+    return FitRoom(options, true);
+  }
+  RunContext context = MakeContext(options, session);
+  nlohmann::json result;
+  {
+    const StageTimer total(context, "total", "");
+    session = LinearizeSession(std::move(session), context);
+    result = StereoResultJson(session, StereoSession(session, context), context);
+  }
+  result["timing_s"] = context.timing_s;
+  WriteJson(context.out + "/result.json", result);
+  Print(options.json ? result.dump(2) + "\n" : StereoTable(result));
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"],
+               (context.out + "/result.json").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
 int SimulateCommand(const CommandOptions& options) {
-  const Session session = ReadSession(options.session);
+  const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
   Print(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
@@ -72,7 +113,7 @@ int SimulateCommand(const CommandOptions& options) {
 }
 
 int ChartCommand(const CommandOptions& options) {
-  Session session = ReadSession(options.session);
+  Session session = ReadRoomSession(options);
   if (!options.earlier_result.empty()) session = WithResult(std::move(session), options.earlier_result);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact =
@@ -94,7 +135,7 @@ int LinearizeCommand(const CommandOptions& options) {
 }
 
 int CalibrateCommand(const CommandOptions& options) {
-  const Session session = ReadSession(options.session);
+  const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = CalibrateSession(session, context);
   Print(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
@@ -103,7 +144,7 @@ int CalibrateCommand(const CommandOptions& options) {
 }
 
 int RegisterCommand(const CommandOptions& options) {
-  Session session = ReadSession(options.session);
+  Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   LoadRoom(session, context);
   session = LinearizeSession(std::move(session), context);

@@ -34,6 +34,9 @@ int LinearizeCommand(const CommandOptions& options);
 // of intrinsics (apps/stage_calibrate.h).
 int CalibrateCommand(const CommandOptions& options);
 int RegisterCommand(const CommandOptions& options);
+// Albedo of a room (after everything that RunCommand does), or of an object by photometric stereo: writes
+// OUT/result.json and what apps/stage_albedo.h and apps/stage_stereo.h say.
+int AlbedoCommand(const CommandOptions& options);
 // Reads OUT/result.json.
 int CheckCommand(const CommandOptions& options);
 

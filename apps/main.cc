@@ -111,6 +111,8 @@ int main(int argc, char** argv) {
           luxfit::CalibrateCommand),
       add("register", "a pose for every view, in the scene's frame", true, luxfit::RegisterCommand),
       add("fit", "luminaires and reflectances by inverting the radiosity model", true, luxfit::RunCommand),
+      add("albedo", "albedo in detail: of a room after its fit, or of an object by photometric stereo", true,
+          luxfit::AlbedoCommand),
       add("simulate", "illuminance at the readings' places, everything given and nothing fitted", true,
           luxfit::SimulateCommand),
       add("chart", "speed against accuracy of the forward model, everything given", true,

@@ -9,6 +9,7 @@
 #include "apps/internal/session_calibration.h"
 #include "apps/internal/session_camera.h"
 #include "apps/internal/session_files.h"
+#include "apps/internal/session_lights.h"
 #include "apps/internal/session_luminaires.h"
 #include "apps/internal/session_luxmeter.h"
 #include "apps/internal/session_photos.h"
@@ -59,7 +60,10 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
   std::vector<CsvTable> tables;
   if (photos) tables.push_back(ReadPhotoTable(*photos, folder));
   if (luxmeter) tables.push_back(ReadReadingTable(*luxmeter, folder));
-  if (const auto states = root.Find("states")) {
+  const auto lights = root.Find("lights");
+  if (lights) {
+    session.states = StatesOfLights(tables.front());
+  } else if (const auto states = root.Find("states")) {
     session.states = ReadStates(*states);
   } else {
     session.states = {OnlyState(tables, session.luminaires)};
@@ -68,6 +72,7 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
     session.photos = PhotosOf(tables.front(), folder, session.cameras, session.states);
     session.photos_path = AbsolutePath(tables.front().path);
   }
+  if (lights) session.lights = ReadLightsSection(*lights, folder, session.photos);
   if (luxmeter) session.luxmeter = LuxmeterOf(*luxmeter, folder, tables.back(), session.states);
   return session;
 }
@@ -84,6 +89,20 @@ void CheckStartViews(const TomlCursor& registration, const std::vector<SessionPh
     if (std::find(views.begin(), views.end(), view) == views.end())
       throw position.Error("expected a view of the photo table, got " + Quoted(view) +
                            DidYouMean(view, views));
+  }
+}
+
+// A session with [lights] is of an object: it has no room, and its lights are no luminaires of one.
+void ExpectObjectSession(const TomlCursor& root) {
+  const auto lights = root.Find("lights");
+  if (!lights) return;
+  root.Require("photos", "the photos of the object, one a light");
+  for (const char* key : {"scene", "tags", "registration", "states", "luminaires", "luminaire", "luxmeter"}) {
+    const auto other = root.Find(key);
+    if (other)
+      throw other->Error(
+          "expected no such section beside [lights], which makes the session one of an object; "
+          "remove either");
   }
 }
 
@@ -122,6 +141,12 @@ std::vector<std::string> InputFiles(const Session& session) {
   add(session.luxmeter.readings_path);
   add(session.luxmeter.sensitivity_path);
   for (const SessionLuminaire& luminaire : session.luminaires) add(luminaire.photometry_path);
+  if (session.lights) {
+    add(session.lights->mask);
+    add(session.lights->directions_path);
+    add(session.lights->mirror_mask);
+    add(session.lights->reference_mask);
+  }
   return files;
 }
 
@@ -132,7 +157,8 @@ Session ReadSession(const std::string& path) {
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
   root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "states",
-                   "luminaires", "luminaire", "luxmeter"});
+                   "luminaires", "luminaire", "luxmeter", "lights"});
+  ExpectObjectSession(root);
   const std::string folder = fs::path(path).parent_path().string();
   Session session;
   session.name = ReadName(root, path);
@@ -143,7 +169,8 @@ Session ReadSession(const std::string& path) {
     session.registration = ReadRegistrationSection(*registration, folder);
   if (const auto cameras = root.Find("camera")) {
     session.cameras = ReadCameras(*cameras, folder);
-    ExpectCalibrationTargets(root, *cameras, session);
+    // An object's photos are taken as orthographic: no lens is asked for.
+    if (!root.Find("lights")) ExpectCalibrationTargets(root, *cameras, session);
   }
   if (const auto calibration = root.Find("calibration"))
     session.calibration = ReadCalibrationSection(*calibration);

@@ -95,6 +95,24 @@ struct SessionState {
   std::map<std::string, double> dimming;  // luminaire id -> 0..1
 };
 
+// An object under distant lights switched in turn, seen from one place: photometric stereo.
+struct SessionLights {
+  struct Light {
+    Eigen::Vector3d to_light = Eigen::Vector3d::UnitZ();  // unit; x right, y up, z towards the camera
+    double strength = 1;
+  };
+  std::string view, mask;                       // of the object; the mask's absolute path
+  std::string directions_path;                  // of the table; empty: from the mirror sphere
+  std::map<std::string, Light> light_of_state;  // empty likewise
+  double direction_sigma_deg = 0;               // of the table; 0: exact
+  std::string mirror_view, mirror_mask;         // empty: no mirror sphere
+  bool strengths_known = true;                  // alike, or as in the table
+  std::string ambient_state;                    // all lights off; empty: none
+  std::string reference_mask;                   // pixels of known albedo; empty: none
+  double reference_albedo = 0;
+  int line = 0;
+};
+
 struct SessionLuminaire {
   std::string id;
   std::string photometry =
@@ -160,6 +178,7 @@ struct Session {
   std::vector<SessionLuminaire>
       luminaires;  // [[luminaire]], completed by those that [states] names, in that order
   SessionLuxmeter luxmeter;
+  std::optional<SessionLights> lights;   // an object instead of a room
   std::vector<std::string> input_files;  // every file read or referred to, for hashing
 };
 

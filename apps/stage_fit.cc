@@ -180,7 +180,8 @@ class FitStage {
     luminaire.position = given.position_m.value_or(guessed.position);
     luminaire.flux_lm = given.flux_lm.value_or(guessed.flux);
     const bool found = guessed.found || given.position_m.has_value();
-    constexpr double kAnyFluxLm = 1000;  // of a known place, where the guess says nothing: a start, not a value
+    constexpr double kAnyFluxLm =
+        1000;  // of a known place, where the guess says nothing: a start, not a value
     if (found && !(luminaire.flux_lm > 0)) luminaire.flux_lm = kAnyFluxLm;
     if (!found) {
       // Without a place it gives no light, so that the others can still be fitted.

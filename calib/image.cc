@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "calib/internal/radiance_header.h"
 #include "calib/internal/raw_photo.h"
@@ -120,6 +122,32 @@ Photo ReadPhoto(const std::string& path) {
                                ": cannot read the photo, expected 8 or 16 bit unsigned or float counts");
   }
   return photo;
+}
+
+void WriteExr(const std::string& path, const std::array<ImagePlane, 3>& rgb) {
+  for (const ImagePlane& plane : rgb) {
+    if (plane.rows() != rgb[0].rows() || plane.cols() != rgb[0].cols() || plane.size() == 0)
+      throw std::invalid_argument("WriteExr: expected three planes of one size");
+  }
+  cv::Mat image(static_cast<int>(rgb[0].rows()), static_cast<int>(rgb[0].cols()), CV_32FC3);
+  for (int v = 0; v < image.rows; ++v) {
+    for (int u = 0; u < image.cols; ++u)
+      image.at<cv::Vec3f>(v, u) = {rgb[2](v, u), rgb[1](v, u), rgb[0](v, u)};
+  }
+  const std::string temporary = path + ".part.exr";
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  bool written = false;
+  try {
+    written = cv::imwrite(temporary, image);
+  } catch (const cv::Exception&) {
+    written = false;
+  }
+  if (written) std::filesystem::rename(temporary, path, error);
+  if (!written || error) {
+    std::filesystem::remove(temporary, error);
+    throw std::runtime_error(path + ": expected a writable place; check the folder and the free space");
+  }
 }
 
 }  // namespace luxfit

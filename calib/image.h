@@ -35,6 +35,10 @@ struct Photo {
 // RAW (DNG, CR2, NEF, ARW, ...), PNG and TIFF (8 or 16 bit), EXR, TIFF, PFM and Radiance HDR (float), JPEG.
 Photo ReadPhoto(const std::string& path);
 
+// Three float planes of one size as an OpenEXR picture, put in place whole. Throws std::runtime_error naming
+// the file where it cannot be written, std::invalid_argument for planes that differ in size.
+void WriteExr(const std::string& path, const std::array<ImagePlane, 3>& rgb);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_CALIB_IMAGE_H_

@@ -56,12 +56,12 @@ struct LuminaireFit {
   std::string message;
   LightState state;
   std::vector<Parameter> parameters;
-  Eigen::MatrixXd covariance;             // of the parameters
-  std::vector<std::string> undetermined;  // parameters in directions without information
+  Eigen::MatrixXd covariance;                  // of the parameters
+  std::vector<std::string> undetermined;       // parameters in directions without information
   std::vector<NullDirection> null_directions;  // those directions, in words
-  std::vector<std::string> at_bound;      // parameters that stopped at a bound
-  Eigen::VectorXd predicted;              // every row: observations, then readings
-  Eigen::VectorXd weight;                 // robust weight of every row, 0: left out
+  std::vector<std::string> at_bound;           // parameters that stopped at a bound
+  Eigen::VectorXd predicted;                   // every row: observations, then readings
+  Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
   Eigen::VectorXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // of the predictions
   double relative_sigma = 0;         // f

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/support/stereo_scene.h"
+
 namespace luxfit {
 namespace {
 
@@ -18,16 +20,12 @@ PixelMask DiscMask() {
   return mask;
 }
 
-// A mirror sphere under a lamp of some size: bright where the mirrored view meets the lamp.
 ImagePlane MirrorPicture(const Eigen::Vector3d& to_light, double lamp_radius_rad) {
-  ImagePlane image = ImagePlane::Constant(180, 200, 3);
+  ImagePlane image(180, 200);
   for (int v = 0; v < image.rows(); ++v) {
     for (int u = 0; u < image.cols(); ++u) {
-      const Eigen::Vector2d d = (Eigen::Vector2d(u, v) - kCenterPx) / kRadiusPx;
-      if (d.squaredNorm() >= 1) continue;
-      const Eigen::Vector3d n(d.x(), -d.y(), std::sqrt(1 - d.squaredNorm()));
-      const Eigen::Vector3d seen = 2 * n.z() * n - Eigen::Vector3d::UnitZ();
-      image(v, u) = seen.dot(to_light) > std::cos(lamp_radius_rad) ? 255.0F : 20.0F;
+      const Eigen::Vector2d offset = (Eigen::Vector2d(u, v) - kCenterPx) / kRadiusPx;
+      image(v, u) = static_cast<float>(support::MirrorValue(offset, to_light, lamp_radius_rad));
     }
   }
   return image;

@@ -29,6 +29,7 @@ struct StereoPicture {
   Eigen::MatrixXd value;  // images x pixels of the large sphere
   Eigen::Matrix3Xd to_light, normal;
   Eigen::VectorXd albedo;
+  std::vector<Eigen::Vector2i> places;  // (u, v) of the pixels
 };
 
 // Lights on a cone about the view and some nearer to it.
@@ -60,6 +61,7 @@ inline StereoPicture RenderStereo(const StereoScene& scene, const Eigen::Matrix3
   const Eigen::Vector3d second(-0.75, 0.8, 1.1);
   constexpr double kSecondRadius = 0.3;
   std::vector<Eigen::Vector3d> normals;
+  StereoPicture picture;
   for (int v = 0; v < scene.pixels_across; ++v) {
     for (int u = 0; u < scene.pixels_across; ++u) {
       const double x = 2 * (u + 0.5) / scene.pixels_across - 1;
@@ -69,9 +71,9 @@ inline StereoPicture RenderStereo(const StereoScene& scene, const Eigen::Matrix3
       if (scene.has_second_sphere && HitsSphere(point, Eigen::Vector3d::UnitZ(), second, kSecondRadius))
         continue;
       normals.push_back(point);
+      picture.places.emplace_back(u, v);
     }
   }
-  StereoPicture picture;
   picture.to_light = to_light;
   picture.normal.resize(3, static_cast<Eigen::Index>(normals.size()));
   picture.albedo.resize(picture.normal.cols());
@@ -95,6 +97,16 @@ inline StereoPicture RenderStereo(const StereoScene& scene, const Eigen::Matrix3
   }
   picture.albedo *= 1 - scene.gloss;
   return picture;
+}
+
+// A mirror sphere at a pixel: bright where the mirrored view meets a lamp of some angular radius.
+inline double MirrorValue(const Eigen::Vector2d& offset_in_radii, const Eigen::Vector3d& to_light,
+                          double lamp_radius_rad) {
+  if (offset_in_radii.squaredNorm() >= 1) return 3;
+  const Eigen::Vector3d n(offset_in_radii.x(), -offset_in_radii.y(),
+                          std::sqrt(1 - offset_in_radii.squaredNorm()));
+  const Eigen::Vector3d seen = 2 * n.z() * n - Eigen::Vector3d::UnitZ();
+  return seen.dot(to_light) > std::cos(lamp_radius_rad) ? 255 : 20;
 }
 
 // Degrees; NaN where a normal is not solved.

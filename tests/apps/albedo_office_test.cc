@@ -1,0 +1,47 @@
+// `luxfit albedo` on fixtures/office, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/program.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+json Read(const std::string& path) {
+  std::ifstream file(path);
+  return json::parse(file);
+}
+
+// Photos of an independent renderer; every surface of the office is of one albedo.
+TEST(OfficeAlbedo, MaterialsComeOutAndStayWhole) {
+  const TempFolder folder;
+  const support::ProgramRun run =
+      support::RunProgram("albedo '" LUXFIT_FIXTURES "/office/session.toml' -o '" + folder.Path("out") + "'");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json result = Read(folder.Path("out/result.json"));
+  const json truth = Read(std::string(LUXFIT_FIXTURES) + "/office/truth.json");
+  int compared = 0;
+  for (const json& material : result["materials"]) {
+    const std::string name = material["name"];
+    const json& rgb = truth["materials"][name];
+    const double expected =
+        0.265 * rgb[0].get<double>() + 0.670 * rgb[1].get<double>() + 0.065 * rgb[2].get<double>();
+    EXPECT_NEAR(material["albedo"].get<double>(), expected, 0.012) << name;
+    EXPECT_NEAR(material["albedo_from_radiosity"].get<double>(), expected, 0.015) << name;
+    EXPECT_EQ(material["detail"], "material") << name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 7);
+  EXPECT_TRUE(std::filesystem::exists(folder.Path("out/albedo.csv")));
+  EXPECT_EQ(Read(folder.Path("out/stages/albedo.json"))["materials"].size(), 7U);
+}
+
+}  // namespace
+}  // namespace luxfit
