@@ -17,6 +17,8 @@ namespace {
 // Relative standard uncertainty of a reading whose meter's class is not given: between DIN 5032-7 classes L
 // and B.
 constexpr double kUnknownMeterSigma = 0.02;
+// Of a single reading of a meter whose class is given: placing it, and its display.
+constexpr double kReadingSigma = 0.01;
 // Observed elements used until the models are chosen: positions are then known to a few millimetres.
 constexpr int kMaxElementsToChoose = 3000;
 // A material with fewer observed elements is as good as unseen.
@@ -87,7 +89,17 @@ class FitStage {
 
   void FillReadings() {
     const SessionLuxmeter& meter = session_.luxmeter;
-    const double relative = meter.common_sigma > 0 ? meter.common_sigma : kUnknownMeterSigma;
+    const bool has_fitted =
+        std::any_of(meter.readings.begin(), meter.readings.end(),
+                    [](const SessionReading& r) { return r.role != ReadingRole::kCheck; });
+    const bool has_class = meter.common_sigma > 0;
+    // The calibration error is one and the same in all readings: a parameter where readings are fitted to,
+    // else a part of each.
+    start_.meter_scale_free = has_class && has_fitted;
+    if (start_.meter_scale_free)
+      priors_.push_back({ParameterKind::kLogMeterScale, 0, {}, 0, meter.common_sigma});
+    double relative = has_class ? kReadingSigma : kUnknownMeterSigma;
+    if (has_class && !has_fitted) relative = std::hypot(kReadingSigma, meter.common_sigma);
     for (const SessionReading& given : meter.readings) {
       Reading reading;
       reading.sensor = {given.position_m, given.normal, meter.response};
@@ -102,7 +114,13 @@ class FitStage {
       used_readings_ += reading.used ? 1 : 0;
       result_.data.readings.push_back(reading);
     }
-    if (!meter.readings.empty() && meter.common_sigma == 0) {
+    if (start_.meter_scale_free) {
+      context_.choices.push_back({"uncertainty of a reading",
+                                  fmt::format("{:g} % of each, {:g} % common to all (1 sigma)",
+                                              100 * kReadingSigma, 100 * meter.common_sigma),
+                                  {"each by itself", "one common scale"},
+                                  "luxmeter.class is a calibration's: more readings do not lessen it"});
+    } else if (!meter.readings.empty() && !has_class) {
       context_.choices.push_back(
           {"uncertainty of a reading",
            fmt::format("{:g} % (1 sigma)", 100 * kUnknownMeterSigma),

@@ -31,6 +31,7 @@ Eigen::Matrix3Xd EstimateAlbedoRgb(const Room& room, const LightData& data, cons
       Eigen::Matrix3Xd::Constant(3, fit.state.albedo.size(), std::numeric_limits<double>::quiet_NaN());
   LightState start = fit.state;
   start.camera_scale_free = false;
+  start.meter_scale_free = false;
   for (FreeQuantities& free : start.free) free = {false, false, false, false, false};
   FitLuminairesOptions options;
   options.covariance = false;

@@ -71,6 +71,7 @@ LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone)
   LightState state = start;
   state.albedo_free.assign(state.albedo_free.size(), false);
   state.camera_scale_free = false;
+  state.meter_scale_free = false;
   const size_t k = static_cast<size_t>(luminaire);
   if (alone) {
     state.luminaires = {start.luminaires[k]};

@@ -97,6 +97,8 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
   if (state.camera_scale_free) {
     parameters.push_back({ParameterKind::kLogCameraScale, 0, {}, -50, 50, "log camera scale"});
   }
+  if (state.meter_scale_free)
+    parameters.push_back({ParameterKind::kLogMeterScale, 0, {}, -1, 1, "log meter scale"});
   return parameters;
 }
 
@@ -109,6 +111,7 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
     if (p.kind == ParameterKind::kLogFlux) value = std::log(state.luminaires[index].flux_lm);
     if (p.kind == ParameterKind::kAlbedo) value = state.albedo[p.index];
     if (p.kind == ParameterKind::kLogCameraScale) value = std::log(state.camera_scale);
+    if (p.kind == ParameterKind::kLogMeterScale) value = std::log(state.meter_scale);
     if (p.kind == ParameterKind::kLuminaire) {
       Luminaire luminaire = state.luminaires[index];
       const int q = static_cast<int>(p.quantity);
@@ -133,6 +136,7 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
     if (p.kind == ParameterKind::kLogFlux) state.luminaires[index].flux_lm = std::exp(value);
     if (p.kind == ParameterKind::kAlbedo) state.albedo[p.index] = value;
     if (p.kind == ParameterKind::kLogCameraScale) state.camera_scale = std::exp(value);
+    if (p.kind == ParameterKind::kLogMeterScale) state.meter_scale = std::exp(value);
     if (p.kind != ParameterKind::kLuminaire) continue;
     Luminaire& luminaire = state.luminaires[index];
     switch (p.quantity) {
@@ -261,12 +265,13 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(state_of_row_[row])].cwiseProduct(flux);
     const int material = material_of_row_[row];
     // What turns illuminance into the row's own unit.
-    const double unit = material < 0 ? 1.0 : state.camera_scale / kPi;
-    const double gain = material < 0 ? 1.0 : unit * state.albedo[material];
+    const double unit = material < 0 ? state.meter_scale : state.camera_scale / kPi;
+    const double gain = material < 0 ? unit : unit * state.albedo[material];
     const double illuminance = light.total.row(r).cast<double>() * lumens;
     prediction.value[i] = gain * illuminance;
     if (i >= observations) {
-      prediction.reading_direct_lx[i - observations] = light.direct.row(r).cast<double>() * lumens;
+      const double direct = light.direct.row(r).cast<double>() * lumens;
+      prediction.reading_direct_lx[i - observations] = gain * direct;
     }
     for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
       const Parameter& parameter = parameters[p];
@@ -276,6 +281,8 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
         out = gain * lumens[k] * light.total(r, k);
       } else if (parameter.kind == ParameterKind::kLogCameraScale) {
         out = material < 0 ? 0.0 : gain * illuminance;
+      } else if (parameter.kind == ParameterKind::kLogMeterScale) {
+        out = material < 0 ? gain * illuminance : 0.0;
       } else if (parameter.kind == ParameterKind::kAlbedo) {
         double sum = 0;
         for (Eigen::Index j = 0; j < lamps; ++j) {

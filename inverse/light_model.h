@@ -1,12 +1,12 @@
 // The model that the fit inverts: parameters -> what photos and luxmeters should read, with its Jacobian.
 //
-//   photo:  Y_es  = c rho_m(e) / pi * sum_k d_sk Phi_k E_ek(theta)        relative luminance of element e in
-//   state s meter:  E_rs  = sum_k d_sk Phi_k E_rk(theta)                          lx
+//   photo:  Y_es = c rho_m(e) / pi * sum_k d_sk Phi_k E_ek(theta)   relative luminance of element e, state s
+//   meter:  E_rs = g sum_k d_sk Phi_k E_rk(theta)                   lx
 //
 // d: dimming, Phi: flux, E: illuminance per lumen (forward/illuminance.h), rho: albedo, c: camera scale,
-// relative luminance per cd/m2. Free parameters are stacked in one vector; fluxes, exponents and the camera
-// scale as logarithms, so that they stay positive and scales separate; positions and sizes in metres; tilts
-// in radians about the start's aim.
+// relative luminance per cd/m2, g: the meter's calibration, common to all its readings. Free parameters are
+// stacked in one vector; fluxes, exponents and the scales of camera and meter as logarithms, so that they
+// stay positive and scales separate; positions and sizes in metres; tilts in radians about the start's aim.
 //
 // Rows: observations in their order, then readings. Jacobian rows x parameters, exact for frozen visibility.
 // Throws std::invalid_argument for indices out of range.
@@ -54,9 +54,11 @@ struct LightState {
   std::vector<bool> albedo_free;
   double camera_scale = 1;  // relative luminance per cd/m2
   bool camera_scale_free = true;
+  double meter_scale = 1;
+  bool meter_scale_free = false;  // wants a prior: nothing else tells it from the fluxes
 };
 
-enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale };
+enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale };
 
 struct Parameter {
   ParameterKind kind = ParameterKind::kLuminaire;

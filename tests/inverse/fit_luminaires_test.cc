@@ -248,6 +248,32 @@ TEST_F(PhotosAlone, OneReadingSettlesTheScale) {
   EXPECT_NEAR(fit.reading_sigma_lx[0] / lx, 0.01, 0.002);  // and it alone says how well it is known
 }
 
+// Four readings of 1 %, of a meter that may be 5 % off as a whole: reading more does not help against that.
+TEST_F(PhotosAlone, ManyReadingsShareTheMetersCalibration) {
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(1.01, 1.02), {0.5, 0.6}, {1.5, 0.7}, {0.8, 1.4}}) {
+    const Eigen::Vector3d p(at.x(), at.y(), 1e-3);
+    const double lx =
+        support::PointLx(1, support::IsotropicCdPerLm, lamp_, p) + support::CubeIndirectLx(kRho);
+    data_.readings.push_back({{p, {0, 0, 1}}, 0, lx, 0.01 * lx, true});
+  }
+  const auto flux_sigma = [](const LuminaireFit& fit) {
+    for (size_t i = 0; i < fit.parameters.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (fit.parameters[i].kind == ParameterKind::kLogFlux) return std::sqrt(fit.covariance(row, row));
+    }
+    return 0.0;
+  };
+  const double alone = flux_sigma(FitLuminaires(room_, data_, start_));
+  start_.meter_scale_free = true;
+  const LuminaireFit fit =
+      FitLuminaires(room_, data_, start_, {{ParameterKind::kLogMeterScale, 0, {}, 0, 0.05}});
+  EXPECT_TRUE(fit.IsUsable()) << fit.message;
+  EXPECT_LT(alone, 0.05);  // of the readings' own 1 % and of what reflectances and flux share
+  EXPECT_NEAR(flux_sigma(fit), std::hypot(alone, 0.05), 0.003);
+  // What the same meter reads elsewhere is as well known as before: its calibration cancels.
+  EXPECT_LT(fit.reading_sigma_lx[0] / fit.predicted[fit.predicted.size() - 4], 0.02);
+}
+
 TEST_F(PhotosAlone, TheSameInputGivesTheSameBits) {
   const LuminaireFit first = FitLuminaires(room_, data_, start_),
                      second = FitLuminaires(room_, data_, start_);

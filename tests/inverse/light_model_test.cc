@@ -56,14 +56,16 @@ class SmallRoom : public testing::Test {
 };
 
 TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
+  state_.meter_scale_free = true;
+  state_.meter_scale = 1.07;
   LightModel model(room_, data_);
   model.FreezeVisibility(state_);
   const std::vector<Parameter> parameters = FreeParameters(room_, state_);
-  // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera scale.
-  ASSERT_EQ(parameters.size(), 17u);
+  // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera and meter scale.
+  ASSERT_EQ(parameters.size(), 18u);
   const Eigen::VectorXd x = PackParameters(state_, parameters);
   const Prediction prediction = model.Predict(state_, parameters, true);
-  ASSERT_EQ(prediction.jacobian.cols(), 17);
+  ASSERT_EQ(prediction.jacobian.cols(), 18);
   for (Eigen::Index p = 0; p < x.size(); ++p) {
     // Steps and tolerances as in forward's illuminance_test: truncation (h / d)^2 = 3e-4 times a few,
     // rounding of floats 1e-6 / h of the value. Logarithms and albedos curve less than 1 / r^2.
@@ -84,7 +86,10 @@ TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
       EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
           << parameters[static_cast<size_t>(p)].name;
     }
-    EXPECT_GT(numeric.head(observations).cwiseAbs().maxCoeff(), 0) << parameters[static_cast<size_t>(p)].name;
+    const bool is_of_meter = parameters[static_cast<size_t>(p)].kind == ParameterKind::kLogMeterScale;
+    const double moved =
+        (is_of_meter ? numeric.tail(readings) : numeric.head(observations)).cwiseAbs().maxCoeff();
+    EXPECT_GT(moved, 0) << parameters[static_cast<size_t>(p)].name;
   }
 }
 
