@@ -10,6 +10,7 @@
 #include "apps/stages.h"
 #include "inverse/albedo_rgb.h"
 #include "inverse/first_guess.h"
+#include "inverse/measured_indirect.h"
 
 namespace luxfit {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kUnknownMeterSigma = 0.02;
 // Of a single reading of a meter whose class is given: placing it, and its display.
 constexpr double kReadingSigma = 0.01;
 // Observed elements used until the models are chosen: positions are then known to a few millimetres.
-constexpr int kMaxElementsToChoose = 3000;
+constexpr int kMaxElementsToChoose = 2000;
 // A material with fewer observed elements is as good as unseen.
 constexpr int kMinElementsOfMaterial = 3;
 
@@ -41,34 +42,9 @@ class FitStage {
         context_, "fit",
         fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
                     result_.data.observations.size(), used_readings_, session_.luminaires.size()));
-    {
-      const StageTimer guess_timer(context_, "guess", "where the luminaires may be");
-      Start();
-    }
-    // The models are chosen from a part of the data; the last fit sees all of it.
-    LightData part = result_.data;
-    part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
-    FitLuminairesOptions quick;
-    quick.covariance = false;
-    LuminaireFit fit = FitLuminaires(room_, part, start_, priors_, quick);
-    if (fit.IsUsable()) {
-      std::vector<OpenChoice> open;
-      for (size_t k = 0; k < start_.luminaires.size(); ++k) {
-        const SessionLuminaire& given = session_.luminaires[k];
-        open.push_back(
-            {given.photometry == "auto" && result_.luminaire_found[k],
-             !given.shape.has_value() && given.photometry_path.empty() && result_.luminaire_found[k],
-             !given.aim.has_value() && result_.luminaire_found[k]});
-      }
-      const ModelChoice choice = [&] {
-        const StageTimer choose_timer(context_, "choose",
-                                      "the simplest model of each luminaire that the data support");
-        return ChooseLuminaireModels(room_, result_.data, fit.state, open, priors_);
-      }();
-      for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
-      for (const AimChoice& c : choice.aims) RecordAim(c);
-      fit = FitLuminaires(room_, result_.data, choice.state, priors_);
-    }
+    LightState state = StartByParts();
+    SettleScale(state);
+    LuminaireFit fit = FitToAll(state);
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
     result_.fit = std::move(fit);
     RecordOutcome();
@@ -76,6 +52,73 @@ class FitStage {
   }
 
  private:
+  // A start that needs no more than a few steps of the whole problem: places, models and fluxes of the
+  // luminaires. Photos hold the indirect light that they measured for that; readings alone need the
+  // radiosity.
+  LightState StartByParts() {
+    const bool photos = !result_.data.observations.empty();
+    LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
+    {
+      const StageTimer timer(context_, "guess", "where the luminaires may be");
+      Start(data);
+    }
+    LightState state = start_;
+    // Without readings, a flux tells the camera's scale, or it is given.
+    if (photos) state.camera_scale_free = state.camera_scale_free && flux_known_;
+    if (photos) state.meter_scale_free = false;
+    LightData part = data;
+    part.observations = ThinElements(data.observations, kMaxElementsToChoose);
+    FitLuminairesOptions quick;
+    quick.covariance = false;
+    LuminaireFit fit = FitLuminaires(room_, part, state, priors_, quick);
+    if (fit.status == FitStatus::kNoData) return start_;
+    if (photos) {
+      // With the radiosity solved, so that the models are compared in its light.
+      part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose / 2);
+      part.indirect_is_held = false;
+      fit = FitLuminaires(room_, part, fit.state, priors_, quick);
+      data = WithModelledIndirect(room_, result_.data, fit.state);
+    }
+    if (!fit.IsUsable()) return start_;
+    state = ChooseModels(data, fit.state);
+    state.camera_scale_free = start_.camera_scale_free;
+    state.meter_scale_free = start_.meter_scale_free;
+    return state;
+  }
+
+  LightState ChooseModels(const LightData& data, const LightState& state) {
+    const StageTimer timer(context_, "choose", "the simplest model of each luminaire that the data support");
+    std::vector<OpenChoice> open;
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      const SessionLuminaire& given = session_.luminaires[k];
+      const bool found = result_.luminaire_found[k];
+      open.push_back({found && given.photometry == "auto",
+                      found && !given.shape.has_value() && given.photometry_path.empty(),
+                      found && !given.aim.has_value()});
+    }
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open, priors_);
+    for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
+    for (const AimChoice& c : choice.aims) RecordAim(c);
+    return choice.state;
+  }
+
+  // The whole problem: on a part of the elements until nothing moves, then on all of them.
+  LuminaireFit FitToAll(const LightState& start) {
+    const StageTimer timer(context_, "refine", "the whole problem, interreflection solved");
+    LightData part = result_.data;
+    part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
+    if (part.observations.size() == result_.data.observations.size())
+      return FitLuminaires(room_, result_.data, start, priors_);
+    FitLuminairesOptions options;
+    options.covariance = false;
+    const LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
+    if (near.status == FitStatus::kNoData) return near;
+    options.covariance = true;
+    options.start_is_near = true;
+    options.initial_relative_sigma = near.relative_sigma;
+    return FitLuminaires(room_, result_.data, near.state, priors_, options);
+  }
+
   void FillStates() {
     for (const SessionState& state : session_.states) {
       Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session_.luminaires.size()));
@@ -167,8 +210,12 @@ class FitStage {
     }
   }
 
-  void Start() {
-    const FirstGuess guess = GuessLuminaires(room_, result_.data);
+  // `data`: with the indirect light that photos measured, or readings alone.
+  void Start(const LightData& data) {
+    std::vector<std::optional<Eigen::Vector3d>> known;
+    for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
+    const FirstGuess guess = GuessLuminaires(room_, data, known);
+    MatchKnownFluxes(guess);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
     }
@@ -178,7 +225,17 @@ class FitStage {
           {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
            "photograph each luminaire in at least one state without the others, or give position_m"});
     }
-    SettleScale();
+  }
+
+  // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
+  void MatchKnownFluxes(const FirstGuess& guess) {
+    double guessed = 0, known = 0;
+    for (size_t k = 0; k < session_.luminaires.size(); ++k) {
+      if (!session_.luminaires[k].flux_lm || !guess.luminaires[k].found) continue;
+      guessed += guess.luminaires[k].flux;
+      known += *session_.luminaires[k].flux_lm;
+    }
+    if (start_.camera_scale_free && guessed > 0 && known > 0) start_.camera_scale = guessed / known;
   }
 
   void AddLuminaire(const FirstGuess& guess, int index) {
@@ -196,7 +253,8 @@ class FitStage {
     free.size = luminaire.shape != LuminaireShape::kPoint && luminaire.shape != LuminaireShape::kSphere &&
                 !size_known;
     luminaire.position = given.position_m.value_or(guessed.position);
-    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux);
+    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux / start_.camera_scale);
+    if (!given.aim && guessed.found && given.photometry_path.empty()) luminaire.aim = guessed.aim;
     const bool found = guessed.found || given.position_m.has_value();
     constexpr double kAnyFluxLm =
         1000;  // of a known place, where the guess says nothing: a start, not a value
@@ -245,10 +303,10 @@ class FitStage {
 
   // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
   // camera.
-  void SettleScale() {
-    result_.absolute = used_readings_ > 0 || flux_known_ || !start_.camera_scale_free;
+  void SettleScale(LightState& state) {
+    result_.absolute = used_readings_ > 0 || flux_known_ || !state.camera_scale_free;
     if (!result_.absolute) {
-      start_.camera_scale_free = false;
+      state.camera_scale_free = false;
       context_.undetermined = true;
       context_.warnings.push_back(
           {"scale_undetermined",
@@ -256,27 +314,27 @@ class FitStage {
            "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
            "sigma"});
     }
-    if (result_.absolute && start_.camera_scale_free) MatchScale();
+    if (used_readings_ > 0 && state.camera_scale_free) MatchScale(state);
   }
 
-  // Start with fluxes in the readings' scale: one linear factor, solved exactly.
-  void MatchScale() {
-    const LightData& data = result_.data;
-    LightModel model(room_, data);
-    model.FreezeVisibility(start_);
-    const Eigen::VectorXd predicted = model.Predict(start_, {}, false).value;
-    double measured = 0, modelled = 0;
-    for (size_t i = 0; i < data.readings.size(); ++i) {
-      if (!data.readings[i].used) continue;
-      measured += data.readings[i].illuminance_lx;
-      modelled += predicted[static_cast<Eigen::Index>(data.observations.size() + i)];
+  // Fluxes in the readings' scale: one linear factor, solved exactly.
+  void MatchScale(LightState& state) const {
+    LightData readings;
+    readings.dimming = result_.data.dimming;
+    for (const Reading& reading : result_.data.readings) {
+      if (reading.used) readings.readings.push_back(reading);
     }
+    LightModel model(room_, readings);
+    model.FreezeVisibility(state);
+    const double modelled = model.Predict(state, {}, false).value.sum();
+    double measured = 0;
+    for (const Reading& reading : readings.readings) measured += reading.illuminance_lx;
     if (!(measured > 0) || !(modelled > 0)) return;
-    for (size_t k = 0; k < start_.luminaires.size(); ++k) {
-      if (start_.free[k].flux && !session_.luminaires[k].flux_lm)
-        start_.luminaires[k].flux_lm *= measured / modelled;
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      if (state.free[k].flux && !session_.luminaires[k].flux_lm)
+        state.luminaires[k].flux_lm *= measured / modelled;
     }
-    start_.camera_scale *= modelled / measured;
+    state.camera_scale *= modelled / measured;
   }
 
   void RecordChoice(const LuminaireChoice& choice) {
