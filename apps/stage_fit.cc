@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "apps/given_luminaire.h"
 #include "apps/stages.h"
+#include "forward/photometry.h"
 #include "inverse/albedo_rgb.h"
 #include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
@@ -24,6 +26,23 @@ constexpr double kReadingSigma = 0.01;
 constexpr int kMaxElementsToChoose = 2000;
 // A material with fewer observed elements is as good as unseen.
 constexpr int kMinElementsOfMaterial = 3;
+
+// Of a table that is asked for, until its strength is chosen.
+constexpr double kStartTableSigma = 0.1;
+
+std::string NameOf(RefinementKind kind) {
+  switch (kind) {
+    case RefinementKind::kHeading:
+      return "heading";
+    case RefinementKind::kAim:
+      return "aim";
+    case RefinementKind::kTable:
+      return "table of intensities";
+    case RefinementKind::kEmission:
+      return "emission over the opening";
+  }
+  return "";
+}
 
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
@@ -45,6 +64,10 @@ class FitStage {
     LightState state = StartByParts();
     SettleScale(state);
     LuminaireFit fit = FitToAll(state);
+    if (fit.IsUsable() && AsksForDirectShare()) {
+      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, priors_);
+      RecordDirectShare();
+    }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
     result_.fit = std::move(fit);
     RecordOutcome();
@@ -88,17 +111,17 @@ class FitStage {
 
   LightState ChooseModels(const LightData& data, const LightState& state) {
     const StageTimer timer(context_, "choose", "the simplest model of each luminaire that the data support");
-    std::vector<OpenChoice> open;
     for (size_t k = 0; k < state.luminaires.size(); ++k) {
       const SessionLuminaire& given = session_.luminaires[k];
       const bool found = result_.luminaire_found[k];
-      open.push_back({found && given.photometry == "auto",
-                      found && !given.shape.has_value() && given.photometry_path.empty(),
-                      found && !given.aim.has_value()});
+      open_.push_back({found && given.photometry == "auto",
+                       found && !given.shape.has_value() && given.photometry_path.empty(),
+                       found && !given.aim.has_value(), RefinementsOf(k)});
     }
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open, priors_);
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, priors_);
     for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
     for (const AimChoice& c : choice.aims) RecordAim(c);
+    for (const Refinement& r : choice.refinements) RecordRefinement(r);
     return choice.state;
   }
 
@@ -117,6 +140,28 @@ class FitStage {
     options.start_is_near = true;
     options.initial_relative_sigma = near.relative_sigma;
     return FitLuminaires(room_, result_.data, near.state, priors_, options);
+  }
+
+  // What is open of a luminaire beyond its simple model.
+  OpenRefinements RefinementsOf(size_t k) const {
+    const SessionLuminaire& given = session_.luminaires[k];
+    const Luminaire& start = start_.luminaires[k];
+    OpenRefinements open;
+    if (!result_.luminaire_found[k] || given.is_held) return open;
+    const bool is_file = !given.photometry_path.empty();
+    open.heading = is_file && !given.heading && !IsSymmetricAboutAim(*start.table);
+    open.table_asked_for = given.photometry == "table" && given.gamma_deg.empty();
+    open.aim = (is_file || open.table_asked_for) && !given.aim;
+    open.table = given.photometry == "auto" || open.table_asked_for;
+    open.emission = given.photometry_path.empty() && given.emission.size() == 0 &&
+                    given.shape.value_or("rectangle") == "rectangle" && given.gamma_deg.empty();
+    return open;
+  }
+
+  // Reflectances that only readings speak of.
+  bool AsksForDirectShare() const {
+    return result_.data.observations.empty() && used_readings_ > 0 &&
+           std::count(start_.albedo_free.begin(), start_.albedo_free.end(), true) > 0;
   }
 
   void FillStates() {
@@ -154,9 +199,11 @@ class FitStage {
       const double taken_lx = std::hypot(given.illuminance_lx + given.ambient_lx, given.ambient_lx);
       reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
       reading.used = given.role != ReadingRole::kCheck;
+      reading.sensor_index = SensorIndex(given.sensor);
       used_readings_ += reading.used ? 1 : 0;
       result_.data.readings.push_back(reading);
     }
+    FillSensorGains();
     if (start_.meter_scale_free) {
       context_.choices.push_back({"uncertainty of a reading",
                                   fmt::format("{:g} % of each, {:g} % common to all (1 sigma)",
@@ -170,6 +217,25 @@ class FitStage {
            {},
            "luxmeter.class is not given; class B (10 % expanded) would be 5 %, L 1.5 %"});
     }
+  }
+
+  int SensorIndex(const std::string& name) {
+    if (name.empty()) return -1;
+    return sensors_.emplace(name, static_cast<int>(sensors_.size())).first->second;
+  }
+
+  // Sensors of one meter, each with a gain of its own that its readings share.
+  void FillSensorGains() {
+    if (sensors_.empty()) return;
+    const double sigma = session_.luxmeter.sensor_sigma;
+    start_.sensor_gain = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(sensors_.size()));
+    start_.sensor_gains_free = used_readings_ > 0;
+    for (int i = 0; start_.sensor_gains_free && i < static_cast<int>(sensors_.size()); ++i)
+      priors_.push_back({ParameterKind::kLogSensorGain, i, {}, 0, sigma});
+    context_.choices.push_back({"gains of the meter's sensors",
+                                fmt::format("{} gains, each 1 ± {:g} beforehand", sensors_.size(), sigma),
+                                {},
+                                "the readings' table has a column sensor"});
   }
 
   // Reflectances, camera scale: known, to be estimated, or out of reach.
@@ -189,7 +255,7 @@ class FitStage {
         const Eigen::Vector3d weights = session_.cameras.empty() ? Eigen::Vector3d(0.265, 0.670, 0.065)
                                                                  : session_.cameras[0].luminance_weights;
         start_.albedo[static_cast<Eigen::Index>(m)] = weights.dot(known->second);
-      } else if (observed) {
+      } else if (observed || (result_.data.observations.empty() && used_readings_ > 0)) {
         start_.albedo_free[m] = true;
       } else if (!result_.data.observations.empty()) {
         context_.warnings.push_back(
@@ -245,6 +311,7 @@ class FitStage {
     Luminaire luminaire = known.luminaire;
     FreeQuantities free;
     RecordGivenPhotometry(known, context_);
+    free.table_sigma = given.photometry == "table" && given.gamma_deg.empty() ? kStartTableSigma : 0;
     const bool automatic = given.photometry == "auto";
     if (automatic && guessed.found) luminaire.cosine_exponent = std::max(1.0, guessed.cosine_exponent);
     free.exponent = luminaire.distribution == Distribution::kCosinePower;
@@ -271,12 +338,16 @@ class FitStage {
     }
     free.position = found && !(given.position_sigma_m && *given.position_sigma_m == 0);
     free.flux = found && !(given.flux_sigma_lm && *given.flux_sigma_lm == 0);
-    if (found) AddPriors(given, index);
-    if (!given.aim && !given.photometry_path.empty()) {
-      context_.choices.push_back({"aim of " + given.id,
-                                  "straight down",
-                                  {},
-                                  "no aim was given, and that of a given photometry is not estimated"});
+    if (given.is_held) {
+      free = {false, false, false, false, false};
+      flux_known_ = true;
+    }
+    if (found && !given.is_held) AddPriors(given, index);
+    if (!given.heading && !given.photometry_path.empty() && IsSymmetricAboutAim(*luminaire.table)) {
+      context_.choices.push_back({"heading of " + given.id,
+                                  "not estimated",
+                                  {"not estimated", "estimated"},
+                                  "its photometry is the same all round: no light tells a heading"});
     }
     result_.luminaire_found.push_back(found);
     start_.luminaires.push_back(luminaire);
@@ -363,6 +434,48 @@ class FitStage {
              choice.score_held, choice.score_free, choice.standard_error)});
   }
 
+  void RecordRefinement(const Refinement& step) {
+    const std::string& id = session_.luminaires[static_cast<size_t>(step.luminaire)].id;
+    std::string scores;
+    for (size_t i = 0; i < step.among.size(); ++i) {
+      scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", step.among[i], step.score[i]);
+      if (step.effective_parameters[i] > 1)
+        scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
+    }
+    const bool is_heading = step.kind == RefinementKind::kHeading;
+    const std::string rule =
+        is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
+    context_.choices.push_back(
+        {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
+         fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
+                     "one's difference from the first {:.3f})",
+                     rule, scores, step.standard_error)});
+  }
+
+  void RecordDirectShare() {
+    const DirectShare& share = *result_.direct_share;
+    std::vector<std::string> among;
+    std::string shares;
+    for (const DirectShareCandidate& c : share.candidates) {
+      among.push_back(c.name);
+      shares += fmt::format("{}{} {:.3f} ± {:.3f}{}", shares.empty() ? "" : ", ", c.name, c.share, c.sigma,
+                            c.is_admissible ? "" : " (does not explain the readings)");
+    }
+    const std::string interval =
+        fmt::format("{:.2f}, 95 % interval {:.2f} to {:.2f}", share.share, share.lower, share.upper);
+    context_.choices.push_back({"direct share of the readings", interval, among,
+                                "over all luminaire models that explain the readings as well: " + shares});
+    if (share.is_determined) return;
+    context_.undetermined = true;
+    context_.warnings.push_back(
+        {"direct_share_undetermined",
+         "the readings do not tell light that comes straight from light that comes by the walls: the direct "
+         "share is " +
+             interval + ", for other lobes and sizes with other reflectances explain the readings as well",
+         "photograph or measure one state with a dark cloth over the walls, or one lamp alone, or give "
+         "reflectances in [scene.albedo] or the luminaires' photometry"});
+  }
+
   void RecordOutcome() {
     const LuminaireFit& fit = result_.fit;
     context_.choices.push_back(
@@ -398,9 +511,11 @@ class FitStage {
   RunContext& context_;
   SessionFit result_;
   LightState start_;
+  std::vector<OpenChoice> open_;
   std::vector<ParameterPrior> priors_;
   int used_readings_ = 0;
   bool flux_known_ = false;
+  std::map<std::string, int> sensors_;  // by name, in the order of the table
 };
 
 // Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.

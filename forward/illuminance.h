@@ -33,11 +33,14 @@ enum class LuminaireQuantity {
   kTiltAlong,
   kTiltAcross,  // rad: aim + t1 along + t2 across, at t = 0
   kHeading,     // rad: turned about the aim, along towards across (clockwise seen from above)
+  kGammaNode,   // share of the flux of one node of its table (forward/luminaire_parts.h)
+  kCell,        // share of the flux of one cell
 };
 
 struct LuminaireParameter {
   int luminaire = 0;
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
+  int part = 0;  // of kGammaNode and kCell
 };
 
 struct Illuminance {

@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "inverse/part_smoothness.h"
+
 namespace luxfit {
 namespace {
 
@@ -21,13 +23,14 @@ struct FrozenProblem {
   Eigen::VectorXd data;
   Eigen::VectorXd root_weight;                         // sqrt(w) / sigma, 0 for rows left out
   std::vector<std::pair<int, ParameterPrior>> priors;  // parameter, knowledge
+  std::vector<SmoothnessRow> smoothness;
 };
 
 class ModelCost : public ceres::CostFunction {
  public:
   explicit ModelCost(const FrozenProblem& problem) : problem_(problem) {
-    set_num_residuals(
-        static_cast<int>(problem.data.size() + static_cast<Eigen::Index>(problem.priors.size())));
+    set_num_residuals(static_cast<int>(
+        problem.data.size() + static_cast<Eigen::Index>(problem.priors.size() + problem.smoothness.size())));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.parameters.size()));
   }
 
@@ -55,6 +58,13 @@ class ModelCost : public ceres::CostFunction {
       const Eigen::Index row = rows + static_cast<Eigen::Index>(p);
       r[row] = (x[parameter] - prior.mean) / prior.sigma;
       if (with_jacobian) jacobians[0][row * n + parameter] = 1 / prior.sigma;
+    }
+    Eigen::Index row = rows + static_cast<Eigen::Index>(problem_.priors.size());
+    for (const SmoothnessRow& smooth : problem_.smoothness) {
+      r[row] = smooth.Value(x);
+      for (size_t t = 0; with_jacobian && t < smooth.terms.size(); ++t)
+        jacobians[0][row * n + smooth.terms[t].first] = smooth.terms[t].second;
+      ++row;
     }
     return true;
   }
@@ -111,6 +121,7 @@ class OuterLoop {
     fit_.relative_sigma = options.initial_relative_sigma;
     fit_.parameters = FreeParameters(room, start);
     for (const ParameterPrior& prior : priors) AddPrior(prior);
+    smoothness_ = SmoothnessRows(start, fit_.parameters);
     values_.resize(model_.row_count());
     const size_t observations = data.observations.size();
     for (size_t i = 0; i < observations; ++i) {
@@ -131,7 +142,8 @@ class OuterLoop {
       fit_.outer_iterations = outer + 1;
       const LightState before = fit_.state;
       Refresh();
-      const FrozenProblem problem{model_, before, fit_.parameters, values_, root_weight_, priors_};
+      const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
+                                  root_weight_, priors_, smoothness_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
       const int rough_rounds = options_.start_is_near ? 0 : 2;
       fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= rough_rounds, x);
@@ -241,12 +253,16 @@ class OuterLoop {
       const Parameter& p = fit_.parameters[i];
       const double margin = 1e-6 * std::max(1.0, p.upper - p.lower);
       const double value = x[static_cast<Eigen::Index>(i)];
+      // Dark parts are nothing to warn of.
+      if (p.kind == ParameterKind::kLuminaire && p.reference != p.part) continue;
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
     const Eigen::MatrixXd jacobian = root_weight_.asDiagonal() * prediction.jacobian;
     const Eigen::VectorXd residual = (prediction.value - values_).cwiseProduct(root_weight_);
     Eigen::MatrixXd hessian = jacobian.transpose() * jacobian;
+    fit_.effective_parts = EffectiveParts(hessian, smoothness_, fit_.parameters);
+    AddSmoothness(smoothness_, hessian);
     for (const auto& [parameter, prior] : priors_)
       hessian(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
     const Eigen::MatrixXd inverse = InvertAndNameNullDirections(hessian);
@@ -309,6 +325,7 @@ class OuterLoop {
     scatter += ReadingScatter(residual.tail(readings)) * reading_jacobian.transpose() * reading_jacobian;
     for (const auto& [parameter, prior] : priors_)
       scatter(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    AddSmoothness(smoothness_, scatter);
     return scatter;
   }
 
@@ -327,6 +344,7 @@ class OuterLoop {
   LuminaireFit fit_;
   std::vector<std::pair<int, ParameterPrior>> priors_;
   std::vector<Luminaire> frozen_;  // where the visibility is of
+  std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, root_weight_;
   double relative_sigma_before_ = 0;
 };

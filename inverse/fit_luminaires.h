@@ -68,6 +68,7 @@ struct LuminaireFit {
   Eigen::VectorXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // of the predictions
   double relative_sigma = 0;         // f
+  double effective_parts = 0;        // of tables and uneven emission, with the covariance
   double cost = 0;
   int outer_iterations = 0;
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }

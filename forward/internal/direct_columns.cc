@@ -2,8 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <map>
+
 #include "forward/direct_light.h"
 #include "forward/internal/expect_valid.h"
+#include "forward/luminaire_parts.h"
 #include "forward/sensor.h"
 #include "forward/shadowed_light.h"
 
@@ -30,6 +33,9 @@ double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity)
       return direct.d_tilt[1];
     case LuminaireQuantity::kHeading:
       return direct.d_heading;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      break;  // light of a part, no derivative of the whole
   }
   return 0;
 }
@@ -45,7 +51,15 @@ class ColumnFiller {
  public:
   ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
                const DerivativeRequest& derivatives)
-      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {}
+      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
+    for (size_t p = 0; p < derivatives.parameters.size(); ++p) {
+      const LuminaireParameter& parameter = derivatives.parameters[p];
+      const bool is_cell = parameter.quantity == LuminaireQuantity::kCell;
+      if (!is_cell && parameter.quantity != LuminaireQuantity::kGammaNode) continue;
+      parts_.emplace(p, PartOf(luminaires[static_cast<size_t>(parameter.luminaire)],
+                               is_cell ? PartKind::kCell : PartKind::kGammaNode, parameter.part));
+    }
+  }
 
   // Columns for the luminaires, then for the parameters.
   template <typename Row, typename Shares>
@@ -66,6 +80,14 @@ class ColumnFiller {
     for (size_t p = 0; p < derivatives_.parameters.size(); ++p) {
       const LuminaireParameter& parameter = derivatives_.parameters[p];
       const size_t k = static_cast<size_t>(parameter.luminaire);
+      const auto part = parts_.find(p);
+      if (part != parts_.end()) {
+        const double seen = static_cast<double>(visible[parameter.luminaire]);
+        if (seen > 0)
+          row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
+              static_cast<float>(seen * SensorIlluminancePerLumen(part->second, spot.place).lx_per_lm);
+        continue;
+      }
       row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
           static_cast<float>(share[k] * DerivativeOf(direct[k], parameter.quantity));
     }
@@ -87,6 +109,7 @@ class ColumnFiller {
   const RayScene& rays_;
   const std::vector<Luminaire>& luminaires_;
   const DerivativeRequest& derivatives_;
+  std::map<size_t, Luminaire> parts_;  // by parameter
 };
 
 Spot SpotOf(const Patches& patches, int element) {
