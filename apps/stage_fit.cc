@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/given_luminaire.h"
+#include "apps/light_data.h"
 #include "apps/stages.h"
 #include "forward/photometry.h"
 #include "inverse/albedo_rgb.h"
@@ -17,11 +18,6 @@
 namespace luxfit {
 namespace {
 
-// Relative standard uncertainty of a reading whose meter's class is not given: between DIN 5032-7 classes L
-// and B.
-constexpr double kUnknownMeterSigma = 0.02;
-// Of a single reading of a meter whose class is given: placing it, and its display.
-constexpr double kReadingSigma = 0.01;
 // Observed elements used until the models are chosen: positions are then known to a few millimetres.
 constexpr int kMaxElementsToChoose = 2000;
 // A material with fewer observed elements is as good as unseen.
@@ -50,9 +46,14 @@ class FitStage {
   FitStage(const Session& session, const Room& room, const std::vector<Observation>& observations,
            RunContext& context)
       : session_(session), room_(room), context_(context) {
-    FillStates();
-    FillReadings();
-    result_.data.observations = MergeViews(observations).observations;
+    SessionLight light = LightOf(session, observations);
+    RecordReadings(session, light, context);
+    result_.data = std::move(light.data);
+    priors_ = std::move(light.priors);
+    used_readings_ = light.used_readings;
+    start_.meter_scale_free = light.meter_scale_free;
+    start_.sensor_gain = light.sensor_gain;
+    start_.sensor_gains_free = light.sensor_gains_free;
     FillKnown();
   }
 
@@ -125,6 +126,22 @@ class FitStage {
     return choice.state;
   }
 
+  // A size that shrank to nothing beside the others' light is a point.
+  LightState WithoutVanishedSizes(LightState state) {
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      Luminaire& luminaire = state.luminaires[k];
+      if (!state.free[k].size || !HasVanished(luminaire)) continue;
+      context_.choices.push_back({"shape of " + luminaire.id,
+                                  "point",
+                                  {ToString(luminaire.shape), "point"},
+                                  "its size shrank to nothing in the fit of all luminaires together"});
+      luminaire.shape = LuminaireShape::kPoint;
+      luminaire.size_m.setZero();
+      state.free[k].size = false;
+    }
+    return state;
+  }
+
   // The whole problem: on a part of the elements until nothing moves, then on all of them.
   LuminaireFit FitToAll(const LightState& start) {
     const StageTimer timer(context_, "refine", "the whole problem, interreflection solved");
@@ -136,10 +153,11 @@ class FitStage {
     options.covariance = false;
     const LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
     if (near.status == FitStatus::kNoData) return near;
+    const LightState refined = WithoutVanishedSizes(near.state);
     options.covariance = true;
     options.start_is_near = true;
     options.initial_relative_sigma = near.relative_sigma;
-    return FitLuminaires(room_, result_.data, near.state, priors_, options);
+    return FitLuminaires(room_, result_.data, refined, priors_, options);
   }
 
   // What is open of a luminaire beyond its simple model.
@@ -164,80 +182,6 @@ class FitStage {
            std::count(start_.albedo_free.begin(), start_.albedo_free.end(), true) > 0;
   }
 
-  void FillStates() {
-    for (const SessionState& state : session_.states) {
-      Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session_.luminaires.size()));
-      for (size_t k = 0; k < session_.luminaires.size(); ++k) {
-        const auto on = state.dimming.find(session_.luminaires[k].id);
-        if (on != state.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
-      }
-      result_.data.dimming.push_back(dimming);
-    }
-  }
-
-  void FillReadings() {
-    const SessionLuxmeter& meter = session_.luxmeter;
-    const bool has_fitted =
-        std::any_of(meter.readings.begin(), meter.readings.end(),
-                    [](const SessionReading& r) { return r.role != ReadingRole::kCheck; });
-    const bool has_class = meter.common_sigma > 0;
-    // The calibration error is one and the same in all readings: a parameter where readings are fitted to,
-    // else a part of each.
-    start_.meter_scale_free = has_class && has_fitted;
-    if (start_.meter_scale_free)
-      priors_.push_back({ParameterKind::kLogMeterScale, 0, {}, 0, meter.common_sigma});
-    double relative = has_class ? kReadingSigma : kUnknownMeterSigma;
-    if (has_class && !has_fitted) relative = std::hypot(kReadingSigma, meter.common_sigma);
-    for (const SessionReading& given : meter.readings) {
-      Reading reading;
-      reading.sensor = {given.position_m, given.normal, meter.response};
-      for (size_t s = 0; s < session_.states.size(); ++s) {
-        if (session_.states[s].id == given.state) reading.state = static_cast<int>(s);
-      }
-      reading.illuminance_lx = given.illuminance_lx;
-      // Of the reading as it was taken, and of the one that was subtracted from it.
-      const double taken_lx = std::hypot(given.illuminance_lx + given.ambient_lx, given.ambient_lx);
-      reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
-      reading.used = given.role != ReadingRole::kCheck;
-      reading.sensor_index = SensorIndex(given.sensor);
-      used_readings_ += reading.used ? 1 : 0;
-      result_.data.readings.push_back(reading);
-    }
-    FillSensorGains();
-    if (start_.meter_scale_free) {
-      context_.choices.push_back({"uncertainty of a reading",
-                                  fmt::format("{:g} % of each, {:g} % common to all (1 sigma)",
-                                              100 * kReadingSigma, 100 * meter.common_sigma),
-                                  {"each by itself", "one common scale"},
-                                  "luxmeter.class is a calibration's: more readings do not lessen it"});
-    } else if (!meter.readings.empty() && !has_class) {
-      context_.choices.push_back(
-          {"uncertainty of a reading",
-           fmt::format("{:g} % (1 sigma)", 100 * kUnknownMeterSigma),
-           {},
-           "luxmeter.class is not given; class B (10 % expanded) would be 5 %, L 1.5 %"});
-    }
-  }
-
-  int SensorIndex(const std::string& name) {
-    if (name.empty()) return -1;
-    return sensors_.emplace(name, static_cast<int>(sensors_.size())).first->second;
-  }
-
-  // Sensors of one meter, each with a gain of its own that its readings share.
-  void FillSensorGains() {
-    if (sensors_.empty()) return;
-    const double sigma = session_.luxmeter.sensor_sigma;
-    start_.sensor_gain = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(sensors_.size()));
-    start_.sensor_gains_free = used_readings_ > 0;
-    for (int i = 0; start_.sensor_gains_free && i < static_cast<int>(sensors_.size()); ++i)
-      priors_.push_back({ParameterKind::kLogSensorGain, i, {}, 0, sigma});
-    context_.choices.push_back({"gains of the meter's sensors",
-                                fmt::format("{} gains, each 1 ± {:g} beforehand", sensors_.size(), sigma),
-                                {},
-                                "the readings' table has a column sensor"});
-  }
-
   // Reflectances, camera scale: known, to be estimated, or out of reach.
   void FillKnown() {
     const std::vector<std::string>& materials = room_.scene.materials;
@@ -252,9 +196,7 @@ class FitStage {
       const bool observed = static_cast<int>(seen[m].size()) >= kMinElementsOfMaterial;
       const auto known = session_.scene->known_albedo_rgb.find(materials[m]);
       if (known != session_.scene->known_albedo_rgb.end()) {
-        const Eigen::Vector3d weights = session_.cameras.empty() ? Eigen::Vector3d(0.265, 0.670, 0.065)
-                                                                 : session_.cameras[0].luminance_weights;
-        start_.albedo[static_cast<Eigen::Index>(m)] = weights.dot(known->second);
+        start_.albedo[static_cast<Eigen::Index>(m)] = LuminanceWeights(session_).dot(known->second);
       } else if (observed || (result_.data.observations.empty() && used_readings_ > 0)) {
         start_.albedo_free[m] = true;
       } else if (!result_.data.observations.empty()) {
@@ -478,8 +420,9 @@ class FitStage {
 
   void RecordOutcome() {
     const LuminaireFit& fit = result_.fit;
-    context_.choices.push_back(
-        {"number of luminaires", std::to_string(session_.luminaires.size()), {}, "named in [states]"});
+    if (!session_.count_is_estimated)
+      context_.choices.push_back(
+          {"number of luminaires", std::to_string(session_.luminaires.size()), {}, "given by the session"});
     context_.choices.push_back({"colour",
                                 "luminance",
                                 {"luminance", "rgb"},
@@ -515,7 +458,6 @@ class FitStage {
   std::vector<ParameterPrior> priors_;
   int used_readings_ = 0;
   bool flux_known_ = false;
-  std::map<std::string, int> sensors_;  // by name, in the order of the table
 };
 
 // Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.

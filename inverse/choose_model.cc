@@ -98,12 +98,6 @@ FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int in
           fitted.relative_sigma};
 }
 
-bool HasVanished(const Luminaire& luminaire) {
-  constexpr double kVanishedM = 0.01;
-  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
-  return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
-}
-
 constexpr double kGoodPoint =
     0.01;  // model error of a point that a size could hardly better; luxmeters read to 3 %
 
@@ -239,6 +233,12 @@ void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, 
 }
 
 }  // namespace
+
+bool HasVanished(const Luminaire& luminaire) {
+  constexpr double kVanishedM = 0.01;
+  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
+  return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
+}
 
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
                                   const std::vector<OpenChoice>& open,

@@ -19,6 +19,7 @@ std::vector<SparseSource> HeldSources(const LuminaireGroup& group, const KnownPo
     if (known.empty() || !known[static_cast<size_t>(k)]) continue;
     held.emplace_back();
     held.back().luminaire.position = *known[static_cast<size_t>(k)];
+    held.back().is_held = true;
   }
   return held;
 }

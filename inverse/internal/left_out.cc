@@ -104,6 +104,20 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   return problem;
 }
 
+SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
+  SubProblem problem;
+  const std::vector<bool> every_state(data.dimming.size(), true);
+  problem.all.dimming = data.dimming;
+  problem.all.indirect_is_held = data.indirect_is_held;
+  problem.fit = problem.all;
+  if (data.observations.empty()) {
+    AddReadings(data, every_state, problem);
+  } else {
+    AddObservations(room, data, every_state, max_elements, problem);
+  }
+  return problem;
+}
+
 FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminaire& start,
                      const FreeQuantities& free, const FitEffort& effort) {
   const size_t k = static_cast<size_t>(problem.luminaire);

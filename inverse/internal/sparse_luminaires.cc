@@ -268,88 +268,137 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
-Eigen::MatrixXd Columns(const std::vector<Tried>& sources, size_t without) {
-  std::vector<Eigen::VectorXd> columns;
-  for (size_t j = 0; j < sources.size(); ++j) {
-    if (j != without) columns.push_back(sources[j].column);
+// One group's search: sources so far, each with its column.
+class GroupSearch {
+ public:
+  GroupSearch(const Room& room, const std::vector<Sensor>& places, const Eigen::AlignedBox3d& box,
+              const Equations& equations, double step_m, int refinements)
+      : room_(room),
+        places_(places),
+        box_(box),
+        equations_(equations),
+        step_m_(step_m),
+        refinements_(refinements) {}
+
+  void Start(const SparseSource& source) {
+    const Eigen::MatrixXf columns = LobeColumns(room_, places_, source.luminaire.position);
+    Tried tried;
+    tried.position = source.luminaire.position;
+    tried.lobe = source.lobe;
+    if (source.is_held) {
+      const std::vector<Tried> lobes =
+          BestOfLobes(equations_, Others(sources_.size()), {tried.position}, {columns});
+      const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
+      if (std::isfinite(best.cost)) tried.lobe = best.lobe;
+    }
+    tried.column = equations_.Weighted(columns.col(static_cast<Eigen::Index>(tried.lobe)));
+    sources_.push_back(tried);
+    is_held_.push_back(source.is_held);
   }
-  const Eigen::Index rows = columns.empty() ? 0 : columns[0].size();
-  Eigen::MatrixXd matrix(rows, static_cast<Eigen::Index>(columns.size()));
-  for (size_t j = 0; j < columns.size(); ++j) matrix.col(static_cast<Eigen::Index>(j)) = columns[j];
-  return matrix;
-}
+
+  // False where one more explains nothing more.
+  bool AddOne(const std::vector<Eigen::Vector3d>& grid, const std::vector<Eigen::MatrixXf>& columns) {
+    const Eigen::MatrixXd rest = Others(sources_.size());
+    const double before = equations_.Solve(rest).cost;
+    std::vector<Tried> lobes = BestOfLobes(equations_, rest, grid, columns);
+    // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
+    for (Tried& lobe : lobes) {
+      if (!std::isfinite(lobe.cost)) continue;
+      for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
+    }
+    const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
+    if (!(best.cost < before)) return false;
+    sources_.push_back(best);
+    is_held_.push_back(false);
+    return true;
+  }
+
+  // Those that were there before give way to the new one, and it to them: coarsely as often as it helps, then
+  // finely once.
+  void MoveAll() {
+    if (sources_.size() < 2) return;
+    constexpr int kSweeps = 5, kCoarse = 2;
+    for (int sweep = 0; sweep < kSweeps && MoveEach(0, std::min(kCoarse, refinements_)); ++sweep) {
+    }
+    MoveEach(std::min(kCoarse, refinements_), refinements_);
+  }
+
+  Equations::Solution Solve() const { return equations_.Solve(Others(sources_.size())); }
+  const std::vector<Tried>& sources() const { return sources_; }
+  bool is_held(size_t source) const { return is_held_[source]; }
+
+ private:
+  // Columns of all sources but one.
+  Eigen::MatrixXd Others(size_t without) const {
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(equations_.rows().size()), 0);
+    for (size_t j = 0; j < sources_.size(); ++j) {
+      if (j == without) continue;
+      columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
+      columns.col(columns.cols() - 1) = sources_[j].column;
+    }
+    return columns;
+  }
+
+  // About its place at a step halved `halvings` times, with its own lobe or with any.
+  Tried Refined(const Tried& source, int halvings, const Eigen::MatrixXd& rest, bool any_lobe) const {
+    const std::vector<Eigen::Vector3d> near =
+        Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
+    std::vector<Eigen::MatrixXf> columns(near.size());
+    tbb::parallel_for(size_t{0}, near.size(),
+                      [&](size_t i) { columns[i] = LobeColumns(room_, places_, near[i]); });
+    const std::vector<Tried> lobes = BestOfLobes(equations_, rest, near, columns);
+    const Tried& best =
+        any_lobe ? *std::min_element(lobes.begin(), lobes.end(), IsBetter) : lobes[source.lobe];
+    return IsBetter(best, source) ? best : source;
+  }
+
+  bool MoveEach(int from_halvings, int to_halvings) {
+    bool moved = false;
+    for (size_t j = 0; j < sources_.size(); ++j) {
+      if (is_held_[j]) continue;
+      const Eigen::MatrixXd rest = Others(j);
+      const Eigen::Vector3d from = sources_[j].position;
+      sources_[j].cost = equations_.SolveWith(equations_.MakeBase(rest), sources_[j].column).cost;
+      for (int r = from_halvings; r <= to_halvings; ++r) sources_[j] = Refined(sources_[j], r, rest, true);
+      moved = moved || sources_[j].position != from;
+    }
+    return moved;
+  }
+
+  const Room& room_;
+  const std::vector<Sensor>& places_;
+  const Eigen::AlignedBox3d& box_;
+  const Equations& equations_;
+  double step_m_;
+  int refinements_;
+  std::vector<Tried> sources_;
+  std::vector<bool> is_held_;
+};
 
 }  // namespace
 
-SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& held) const {
+SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start) const {
   SparseLuminaires found;
   const Equations equations(light_, group);
   constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
   if (equations.rows().size() < kFewestPlaces || grid_->places.empty()) return found;
-  const auto none = static_cast<Eigen::Index>(equations.rows().size());
-  const auto others = [&](const std::vector<Tried>& sources, size_t without) {
-    Eigen::MatrixXd columns = Columns(sources, without);
-    if (columns.cols() == 0) columns.resize(none, 0);
-    return columns;
-  };
-  // About its place, with its own lobe or with any.
-  const auto refine = [&](Tried source, double step, const Eigen::MatrixXd& rest, bool any_lobe) {
-    const std::vector<Eigen::Vector3d> places = Neighbours(source.position, step, grid_->box);
-    std::vector<Eigen::MatrixXf> columns(places.size());
-    tbb::parallel_for(size_t{0}, places.size(),
-                      [&](size_t i) { columns[i] = LobeColumns(room_, light_.places, places[i]); });
-    const std::vector<Tried> lobes = BestOfLobes(equations, rest, places, columns);
-    const Tried& best =
-        any_lobe ? *std::min_element(lobes.begin(), lobes.end(), IsBetter) : lobes[source.lobe];
-    return IsBetter(best, source) ? best : source;
-  };
-  std::vector<Tried> sources;
-  for (const SparseSource& given : held) {
-    const Eigen::MatrixXf columns = LobeColumns(room_, light_.places, given.luminaire.position);
-    const std::vector<Tried> lobes =
-        BestOfLobes(equations, others(sources, sources.size()), {given.luminaire.position}, {columns});
-    sources.push_back(*std::min_element(lobes.begin(), lobes.end(), IsBetter));
-    if (sources.back().column.size() == 0) sources.back().column = equations.Weighted(columns.col(1));
-    sources.back().position = given.luminaire.position;
-  }
-  while (static_cast<int>(sources.size()) < count) {
-    const Eigen::MatrixXd rest = others(sources, sources.size());
-    const double before = equations.Solve(rest).cost;
-    std::vector<Tried> lobes = BestOfLobes(equations, rest, grid_->places, grid_->columns);
-    // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
-    for (Tried& lobe : lobes) {
-      if (!std::isfinite(lobe.cost)) continue;
-      for (int r = 1; r <= refinements_; ++r) lobe = refine(lobe, std::ldexp(step_m_, -r), rest, false);
-    }
-    const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
-    if (!(best.cost < before)) break;
-    sources.push_back(best);
-    // Those that were there before give way, and the new one to them.
-    constexpr int kSweeps = 6;
-    bool moved = sources.size() > 1;
-    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
-      moved = false;
-      for (size_t j = held.size(); j < sources.size(); ++j) {
-        const Eigen::MatrixXd beside = others(sources, j);
-        const Eigen::Vector3d from = sources[j].position;
-        sources[j].cost = equations.SolveWith(equations.MakeBase(beside), sources[j].column).cost;
-        for (int r = 0; r <= refinements_; ++r)
-          sources[j] = refine(sources[j], std::ldexp(step_m_, -r), beside, true);
-        moved = moved || sources[j].position != from;
-      }
-    }
-  }
-  const Equations::Solution solution = equations.Solve(others(sources, sources.size()));
-  found.mean_square = solution.cost / static_cast<double>(none);
-  for (size_t j = 0; j < sources.size(); ++j) {
-    const Lobe& lobe = Lobes()[sources[j].lobe];
+  GroupSearch search(room_, light_.places, grid_->box, equations, step_m_, refinements_);
+  for (const SparseSource& source : start) search.Start(source);
+  while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid_->places, grid_->columns))
+    search.MoveAll();
+  const Equations::Solution solution = search.Solve();
+  found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
+  for (size_t j = 0; j < search.sources().size(); ++j) {
+    const Tried& tried = search.sources()[j];
+    const Lobe& lobe = Lobes()[tried.lobe];
     SparseSource source;
-    source.luminaire.position = sources[j].position;
+    source.luminaire.position = tried.position;
     source.luminaire.aim = lobe.aim;
     source.luminaire.distribution = lobe.distribution;
     source.luminaire.cosine_exponent = lobe.exponent;
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
-    source.is_held = j < held.size();
+    source.is_held = search.is_held(j);
+    source.lobe = tried.lobe;
     found.sources.push_back(source);
   }
   for (size_t m = 0; m < equations.materials().size(); ++m) {

@@ -26,6 +26,7 @@ struct SparseSource {
   Luminaire luminaire;  // position, aim, lobe
   double strength = 0;  // g
   bool is_held = false;
+  size_t lobe = 0;  // of those that are tried
 };
 
 struct SparseLuminaires {
@@ -42,9 +43,10 @@ class SparseSearch {
   SparseSearch(const SparseSearch&) = delete;
   SparseSearch& operator=(const SparseSearch&) = delete;
 
-  // The light of one group by `count` luminaires, of which `held` have a given place. Fewer sources come back
-  // where no more would help; none where fewer than 20 places show the group's light.
-  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& held = {}) const;
+  // The light of one group by `count` luminaires, of which `start` are there already: those that are held
+  // stay where they are. Fewer sources come back where no more would help; none where fewer than 20 places
+  // show the group's light.
+  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {}) const;
 
  private:
   struct Grid;
