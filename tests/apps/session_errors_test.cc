@@ -127,7 +127,7 @@ TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
               Holds("luxmeter.csv:4: id: expected one reading per id and state, got \"F1@Z\" in line 3 too",
                     "another id"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "z_m", "height"),
-              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux\", got "
+              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux[,sensor]\", got "
                     "\"id,x_m,y_m,height,nx,ny,nz,state,lux\"",
                     "column 4 must be \"z_m\""));
 }
@@ -273,12 +273,13 @@ TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
   EXPECT_THAT(ErrorAfter("tags.json", "0.2", "-0.2"), HasSubstr("tags.json:1: tag[0].size_m: expected > 0"));
 }
 
-// What the format knows and this version cannot serve yet.
-TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
+TEST_F(SessionErrorsTest, FilesOfAnotherKindAreRefusedByName) {
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
-  EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
-              HasSubstr("luminaires.count: \"estimate\" is not available"));
+  EXPECT_THAT(
+      ErrorAfter("count = 3", "count = \"estimate\""),
+      HasSubstr("luminaires.count: expected the number of luminaires that [states] names, or nothing, got "
+                "\"estimate\"; a number is estimated only without [states]"));
 }
 
 TEST_F(SessionErrorsTest, RegistrationIsChecked) {
