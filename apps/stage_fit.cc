@@ -111,6 +111,11 @@ class FitStage {
     open.table_asked_for = given.photometry == "table" && given.gamma_deg.empty();
     open.aim = (is_file || open.table_asked_for) && !given.aim;
     open.table = given.photometry == "auto" || open.table_asked_for;
+    // Finer models of the lamp would take up what is the walls', while these are not known.
+    if (AsksForDirectShare()) {
+      open.table = open.table_asked_for;
+      return open;
+    }
     open.emission = given.photometry_path.empty() && given.emission.size() == 0 &&
                     given.shape.value_or("rectangle") == "rectangle" && given.gamma_deg.empty();
     return open;
