@@ -240,7 +240,7 @@ class FitStage {
   }
 
   void Start() {
-    const FirstGuess guess = GuessLuminaires(room_, result_.data);
+    const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, result_.data);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
     }
@@ -251,6 +251,19 @@ class FitStage {
            "photograph each luminaire in at least one state without the others, or give position_m"});
     }
     SettleScale();
+  }
+
+  bool IsAllHeld() const {
+    return std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
+                       [](const SessionLuminaire& l) { return l.is_held; });
+  }
+
+  FirstGuess NothingToGuess() const {
+    FirstGuess guess;
+    guess.separable = true;
+    guess.luminaires.resize(session_.luminaires.size());
+    guess.albedo = start_.albedo;
+    return guess;
   }
 
   void AddLuminaire(const FirstGuess& guess, int index) {

@@ -127,7 +127,7 @@ TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
               Holds("luxmeter.csv:4: id: expected one reading per id and state, got \"F1@Z\" in line 3 too",
                     "another id"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "z_m", "height"),
-              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux\", got "
+              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux[,sensor]\", got "
                     "\"id,x_m,y_m,height,nx,ny,nz,state,lux\"",
                     "column 4 must be \"z_m\""));
 }
