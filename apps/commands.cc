@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/check_report.h"
+#include "apps/count_luminaires.h"
 #include "apps/earlier_result.h"
 #include "apps/input_error.h"
 #include "apps/luminaire_files.h"
@@ -62,6 +63,7 @@ int FitRoom(const CommandOptions& options, bool with_albedo) {
     const RegisteredSession registered = RegisterSession(session, context);
     ExpectSceneFrame(session, registered);
     const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
+    session = WithCountedLuminaires(std::move(session), room, observations, context);
     const SessionFit fit = FitSession(session, room, observations, context);
     const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
     result = ResultJson(session, room, registered, fit, files, context);

@@ -38,7 +38,7 @@ Session WithCorrectedExposures(Session session, RunContext& context, nlohmann::j
 Session WithFlatFields(Session session, RunContext& context, nlohmann::json& artifact);
 
 // Whether no luminaire is on in a state.
-bool IsAmbient(const SessionState& state);
+bool IsAmbient(const Session& session, const SessionState& state);
 
 // Readings without the light of the all-off state, measured at the same place; those of that state itself are
 // taken out. Warns ("ambient_in_readings") of places where it was not measured.

@@ -9,15 +9,16 @@
 
 namespace luxfit {
 
-bool IsAmbient(const SessionState& state) {
-  return std::all_of(state.dimming.begin(), state.dimming.end(),
-                     [](const auto& one) { return one.second == 0; });
+bool IsAmbient(const Session& session, const SessionState& state) {
+  // Without [states] everything is on, whatever that is.
+  return !session.count_is_estimated && std::all_of(state.dimming.begin(), state.dimming.end(),
+                                                    [](const auto& one) { return one.second == 0; });
 }
 
 Session WithoutAmbientReadings(Session session, RunContext& context) {
   std::set<std::string> ambient_states;
   for (const SessionState& state : session.states) {
-    if (IsAmbient(state)) ambient_states.insert(state.id);
+    if (IsAmbient(session, state)) ambient_states.insert(state.id);
   }
   if (ambient_states.empty() || session.luxmeter.readings.empty()) return session;
   std::map<std::string, double> ambient_lx;

@@ -174,11 +174,32 @@ Session ReadSession(const std::string& path) {
   }
   if (const auto calibration = root.Find("calibration"))
     session.calibration = ReadCalibrationSection(*calibration);
-  session.luminaires = ReadLuminaires(root, folder);
+  const NamedLuminaires named = ReadLuminaires(root, folder);
+  session.luminaires = named.luminaires;
+  session.count_is_estimated = named.count_is_estimated && !root.Find("lights");
+  session.max_luminaires = named.max;
   session = WithTables(root, folder, std::move(session));
+  if (!session.count_is_estimated) session = WithMoreLuminaires(std::move(session), named.count);
   if (const auto registration = root.Find("registration")) CheckStartViews(*registration, session.photos);
   session.input_files = InputFiles(session);
   return session;
+}
+
+Session WithMoreLuminaires(Session session, int count) {
+  for (int next = 1; static_cast<int>(session.luminaires.size()) < count; ++next) {
+    SessionLuminaire luminaire;
+    luminaire.id = "lamp" + std::to_string(next);
+    const bool is_taken = std::any_of(session.luminaires.begin(), session.luminaires.end(),
+                                      [&](const SessionLuminaire& one) { return one.id == luminaire.id; });
+    if (is_taken) continue;
+    for (SessionState& state : session.states) state.dimming[luminaire.id] = 1;
+    session.luminaires.push_back(luminaire);
+  }
+  return session;
+}
+
+Eigen::Vector3d LuminanceWeights(const Session& session) {
+  return session.cameras.empty() ? SessionCamera().luminance_weights : session.cameras[0].luminance_weights;
 }
 
 }  // namespace luxfit

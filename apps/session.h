@@ -121,7 +121,7 @@ struct SessionLuminaire {
   std::optional<double> cosine_exponent;
   std::vector<double> gamma_deg, cd_per_klm;  // of a given table; empty: to be estimated
   Eigen::ArrayXXd emission;                   // cells along the heading x across; empty: even
-  std::optional<std::string> shape;  // point | disc | rectangle | sphere
+  std::optional<std::string> shape;           // point | disc | rectangle | sphere
   std::vector<double> size_m;
   std::optional<Eigen::Vector3d> position_m;
   std::optional<double> position_sigma_m;
@@ -130,7 +130,7 @@ struct SessionLuminaire {
   std::optional<double> flux_lm;
   std::optional<double> flux_sigma_lm;
   bool is_held = false;  // an earlier fit's: nothing of it is estimated
-  int line = 0;  // of its [[luminaire]]; 0: only named in [states]
+  int line = 0;          // of its [[luminaire]]; 0: only named in [states]
 };
 
 enum class ReadingRole { kFit, kScale, kCheck };
@@ -181,13 +181,21 @@ struct Session {
   std::vector<SessionState>
       states;  // in file order; absent in the file: one state named by the tables, all on
   std::vector<SessionLuminaire>
-      luminaires;  // [[luminaire]], completed by those that [states] names, in that order
+      luminaires;                   // [[luminaire]], completed by those that [states] names, in that order
+  bool count_is_estimated = false;  // there may be more luminaires than those, all on in the only state
+  int max_luminaires = 12;
   SessionLuxmeter luxmeter;
   std::optional<SessionLights> lights;   // an object instead of a room
   std::vector<std::string> input_files;  // every file read or referred to, for hashing
 };
 
 Session ReadSession(const std::string& path);
+
+// With luminaires "lamp1", "lamp2", ... until there are `count`, on in every state.
+Session WithMoreLuminaires(Session session, int count);
+
+// Of its first camera; the format's own where there is none.
+Eigen::Vector3d LuminanceWeights(const Session& session);
 
 }  // namespace luxfit
 

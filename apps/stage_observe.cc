@@ -49,7 +49,7 @@ const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo)
   for (const SessionPhoto& other : session.photos) {
     const int state = StateIndex(session, other.state);
     if (other.view == photo.view && other.camera == photo.camera && state >= 0 &&
-        IsAmbient(session.states[static_cast<size_t>(state)]))
+        IsAmbient(session, session.states[static_cast<size_t>(state)]))
       return &other;
   }
   return nullptr;
@@ -57,7 +57,7 @@ const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo)
 
 bool HasAmbientState(const Session& session) {
   return std::any_of(session.photos.begin(), session.photos.end(), [&](const SessionPhoto& photo) {
-    return IsAmbient(session.states[static_cast<size_t>(StateIndex(session, photo.state))]);
+    return IsAmbient(session, session.states[static_cast<size_t>(StateIndex(session, photo.state))]);
   });
 }
 

@@ -72,6 +72,18 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives = {});
 
+// The direct part alone, of the receivers and in both `total` and `direct`, with its derivatives but those by
+// reflectances; for those who know the indirect light from elsewhere. Of `visibility` only the receivers'
+// part is needed (ComputeReceiverVisibility).
+Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,
+                                     const LuminaireVisibility& visibility,
+                                     const std::vector<Luminaire>& luminaires,
+                                     const DerivativeRequest& derivatives = {});
+
+// F M: illuminance of every element by the exitance of the patches (patches x columns to elements x columns).
+// Of a sparse room the same all over a patch.
+Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_ILLUMINANCE_H_

@@ -92,16 +92,10 @@ FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int in
   Luminaire luminaire = problem.state.luminaires[k];
   FreeQuantities free = problem.state.free[k];
   Apply(candidate, aim_is_free, options.start_size_m, luminaire, free);
-  FittedModel fitted = FitModel(room, problem, luminaire, free,
-                                {options.max_outer_iterations, options.max_inner_iterations});
+  FittedModel fitted =
+      FitModel(room, problem, luminaire, free, {options.max_outer_iterations, options.max_inner_iterations});
   return {index, aim_is_free, std::move(fitted.luminaire), std::move(fitted.predicted),
           fitted.relative_sigma};
-}
-
-bool HasVanished(const Luminaire& luminaire) {
-  constexpr double kVanishedM = 0.01;
-  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
-  return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
 }
 
 constexpr double kGoodPoint =
@@ -166,7 +160,7 @@ class LuminaireChooser {
     if (fitted.size() > 1) chosen.choice = ChooseAmong(fitted);
     chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
     if (!turns) return chosen;
-    const FittedCandidate held = FitCandidate(room_, problem_, chosen.fitted->candidate, false, options_);
+    const FittedCandidate& held = Fitted(chosen.fitted->candidate, false);
     chosen.aim = CompareAims(problem_, luminaire_, held, *chosen.fitted);
     if (!chosen.aim->is_free) chosen.fitted = held;
     return chosen;
@@ -174,27 +168,36 @@ class LuminaireChooser {
 
  private:
   // Of the most telling point that is allowed.
-  std::optional<AimChoice> AimOfAPoint() const {
+  std::optional<AimChoice> AimOfAPoint() {
     int trial = -1;
     for (const int c : allowed_) {
       const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(c)];
       if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
     }
     if (trial < 0) return {};
-    return CompareAims(problem_, luminaire_, FitCandidate(room_, problem_, trial, false, options_),
-                       FitCandidate(room_, problem_, trial, true, options_));
+    return CompareAims(problem_, luminaire_, Fitted(trial, false), Fitted(trial, true));
   }
 
-  std::vector<FittedCandidate> FitAll(bool turns) const {
+  // Each is fitted once.
+  const FittedCandidate& Fitted(int candidate, bool aim_is_free) {
+    const auto known = fitted_.find({candidate, aim_is_free});
+    if (known != fitted_.end()) return known->second;
+    return fitted_
+        .emplace(std::make_pair(candidate, aim_is_free),
+                 FitCandidate(room_, problem_, candidate, aim_is_free, options_))
+        .first->second;
+  }
+
+  std::vector<FittedCandidate> FitAll(bool turns) {
     std::vector<FittedCandidate> fitted;
     double relative_sigma = 1;
     for (const int c : allowed_) {
       if (SizeDoesNotMatter(problem_, fitted, relative_sigma, AllCandidates()[static_cast<size_t>(c)]))
         continue;
-      FittedCandidate candidate = FitCandidate(room_, problem_, c, turns, options_);
+      const FittedCandidate& candidate = Fitted(c, turns);
       // A size that shrank to nothing is the point over again, with a parameter more.
       if (open_.shape && HasVanished(candidate.luminaire)) continue;
-      fitted.push_back(std::move(candidate));
+      fitted.push_back(candidate);
       relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
     }
     return fitted;
@@ -218,6 +221,7 @@ class LuminaireChooser {
   OpenChoice open_;
   const ChooseModelOptions& options_;
   std::vector<int> allowed_;
+  std::map<std::pair<int, bool>, FittedCandidate> fitted_;
 };
 
 void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, LightState& state,
@@ -229,6 +233,12 @@ void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, 
 }
 
 }  // namespace
+
+bool HasVanished(const Luminaire& luminaire) {
+  constexpr double kVanishedM = 0.01;
+  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
+  return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
+}
 
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
                                   const std::vector<OpenChoice>& open,

@@ -75,6 +75,9 @@ struct ModelChoice {
   std::vector<Refinement> refinements;  // in the order they were tried, luminaire by luminaire
 };
 
+// Whether a disc or rectangle shrank below 1 cm: its light is that of a point.
+bool HasVanished(const Luminaire& luminaire);
+
 // `start` should be a converged fit with cosine-power points (or what is given).
 // Throws std::invalid_argument unless `open` has one entry a luminaire.
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,

@@ -29,8 +29,7 @@ Blocks BlocksOf(const LightData& data) {
       continue;
     }
     const Eigen::AlignedBox3d& box = box_of_state.at(r.state);
-    const Eigen::Array3d at =
-        (r.sensor.position - box.min()).array() / box.sizes().array().max(1e-9) * kSide;
+    const Eigen::Array3d at = (r.sensor.position - box.min()).array() / box.sizes().array().max(1e-9) * kSide;
     const Eigen::Array3i cell = at.cast<int>().min(kSide - 1);
     const std::array<int, 4> key{r.state, cell[0], cell[1], cell[2]};
     blocks.push_back(names.emplace(key, static_cast<int>(names.size())).first->second);
@@ -103,8 +102,7 @@ class Evaluated {
       const double sigma = std::hypot(r.sigma_lx, relative_sigma * r.illuminance_lx);
       const double weight = r.used && sigma > 0 ? 1 / sigma : 0;
       jacobian_.row(i) *= weight;
-      residual_[i] =
-          weight * (prediction_.value[prediction_.value.size() - readings + i] - r.illuminance_lx);
+      residual_[i] = weight * (prediction_.value[prediction_.value.size() - readings + i] - r.illuminance_lx);
     }
   }
 
@@ -183,8 +181,7 @@ struct Named {
 };
 
 std::vector<Named> FitVariants(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open,
-                               const std::vector<ParameterPrior>& priors,
+                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
                                const DirectShareOptions& options) {
   std::vector<Named> fits{{"as fitted", fit}};
   for (const LuminaireShape shape :
@@ -195,8 +192,8 @@ std::vector<Named> FitVariants(const Room& room, const LightData& data, const Lu
       if (!Apply({distribution, shape}, open, options.start_size_m, start)) continue;
       FitLuminairesOptions quick;
       quick.covariance = false;
-      fits.push_back({ToString(distribution) + " " + ToString(shape),
-                      FitLuminaires(room, data, start, priors, quick)});
+      fits.push_back(
+          {ToString(distribution) + " " + ToString(shape), FitLuminaires(room, data, start, priors, quick)});
     }
   }
   return fits;
@@ -221,8 +218,7 @@ double Sum(const std::map<int, double>& squares) {
 }  // namespace
 
 DirectShare ProfileDirectShare(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open,
-                               const std::vector<ParameterPrior>& priors,
+                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
                                const DirectShareOptions& options) {
   const Blocks blocks = BlocksOf(data);
   const std::vector<Named> fits = FitVariants(room, data, fit, open, priors, options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "inverse/part_smoothness.h"
 
@@ -29,8 +30,7 @@ class ModelCost : public ceres::CostFunction {
  public:
   explicit ModelCost(const FrozenProblem& problem) : problem_(problem) {
     set_num_residuals(static_cast<int>(
-        problem.data.size() +
-        static_cast<Eigen::Index>(problem.priors.size() + problem.smoothness.size())));
+        problem.data.size() + static_cast<Eigen::Index>(problem.priors.size() + problem.smoothness.size())));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.parameters.size()));
   }
 
@@ -38,8 +38,13 @@ class ModelCost : public ceres::CostFunction {
     const Eigen::Index n = static_cast<Eigen::Index>(problem_.parameters.size()), rows = problem_.data.size();
     const Eigen::Map<const Eigen::VectorXd> x(blocks[0], n);
     const bool with_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    const Prediction prediction = problem_.model.Predict(
-        WithParameters(problem_.base, problem_.parameters, x), problem_.parameters, with_jacobian);
+    // A step is first asked for its cost, and if that is good, as nearly all are, for its Jacobian.
+    if (!prediction_ || predicted_at_ != x) {
+      prediction_ = problem_.model.Predict(WithParameters(problem_.base, problem_.parameters, x),
+                                           problem_.parameters, true);
+      predicted_at_ = x;
+    }
+    const Prediction& prediction = *prediction_;
     if (!prediction.value.allFinite()) return false;
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r.head(rows) = (prediction.value - problem_.data).cwiseProduct(problem_.root_weight);
@@ -66,6 +71,8 @@ class ModelCost : public ceres::CostFunction {
 
  private:
   const FrozenProblem& problem_;
+  mutable Eigen::VectorXd predicted_at_;
+  mutable std::optional<Prediction> prediction_;
 };
 
 // `is_near`: steps need no damping. A direction that one reading alone fixes (the scale of all fluxes) has so
@@ -135,13 +142,14 @@ class OuterLoop {
       fit_.outer_iterations = outer + 1;
       const LightState before = fit_.state;
       Refresh();
-      const FrozenProblem problem{model_, before, fit_.parameters, values_, root_weight_, priors_,
-                                  smoothness_};
+      const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
+                                  root_weight_, priors_, smoothness_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
-      constexpr int kRoughRounds = 2;
-      fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= kRoughRounds, x);
+      const int rough_rounds = options_.start_is_near ? 0 : 2;
+      fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= rough_rounds, x);
       fit_.state = WithParameters(before, fit_.parameters, x);
-      settled = outer >= 2 && LargestMove(before, fit_.state) < options_.position_tolerance_m &&
+      settled = outer >= rough_rounds &&
+                LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
@@ -169,7 +177,12 @@ class OuterLoop {
 
   // Visibility, model error and weights at the present state.
   void Refresh() {
-    model_.FreezeVisibility(fit_.state, options_.visibility_order);
+    // Shadow edges move about as much as what casts them: rows at an edge are left out anyway.
+    constexpr double kStillM = 2e-3;
+    if (frozen_.empty() || LargestMove(frozen_, fit_.state.luminaires) > kStillM) {
+      model_.FreezeVisibility(fit_.state, options_.visibility_order);
+      frozen_ = fit_.state.luminaires;
+    }
     const std::vector<bool> penumbra = model_.InPenumbra();
     fit_.predicted = model_.Predict(fit_.state, {}, false).value;
     const Eigen::VectorXd residual = fit_.predicted - values_;
@@ -219,10 +232,13 @@ class OuterLoop {
     }
   }
 
-  static double LargestMove(const LightState& a, const LightState& b) {
+  // Of any point of any luminaire, m.
+  static double LargestMove(const std::vector<Luminaire>& a, const std::vector<Luminaire>& b) {
     double move = 0;
-    for (size_t k = 0; k < a.luminaires.size(); ++k) {
-      move = std::max(move, (a.luminaires[k].position - b.luminaires[k].position).norm());
+    for (size_t k = 0; k < a.size(); ++k) {
+      const double turn = (a[k].aim - b[k].aim).norm() * 0.5 * a[k].size_m.maxCoeff();
+      const double growth = 0.5 * (a[k].size_m - b[k].size_m).cwiseAbs().maxCoeff();
+      move = std::max(move, (a[k].position - b[k].position).norm() + turn + growth);
     }
     return move;
   }
@@ -327,6 +343,7 @@ class OuterLoop {
   LightModel model_;
   LuminaireFit fit_;
   std::vector<std::pair<int, ParameterPrior>> priors_;
+  std::vector<Luminaire> frozen_;  // where the visibility is of
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, root_weight_;
   double relative_sigma_before_ = 0;

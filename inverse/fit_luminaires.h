@@ -49,6 +49,9 @@ struct FitLuminairesOptions {
   double position_tolerance_m = 5e-4;  // outer loop ends when nothing moves more
   int visibility_order = 3;            // points a side of a luminaire tested for occlusion
   bool covariance = true;
+  // The start came from a fit to a part of the same data: relative_sigma begins at the initial one of these
+  // options, steps need no damping, and one round that moves nothing is enough.
+  bool start_is_near = false;
 };
 
 struct LuminaireFit {

@@ -241,6 +241,8 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
 }
 
 LightModel::LightModel(const Room& room, const LightData& data) : room_(room), data_(data) {
+  if (data.indirect_is_held && !data.readings.empty())
+    throw std::invalid_argument("LightModel: expected no readings where the indirect light was measured");
   std::vector<int> elements;
   for (const Observation& o : data.observations) {
     if (o.element < 0 || o.element >= static_cast<int>(room.patches.elements.size())) {
@@ -277,11 +279,12 @@ LightModel::LightModel(const Room& room, const LightData& data) : room_(room), d
     }
   }
   receivers_ = MakeReceivers(room, elements, sensors);
-  PrepareGather(room, receivers_);
+  if (!data.indirect_is_held) PrepareGather(room, receivers_);
 }
 
 void LightModel::FreezeVisibility(const LightState& state, int order) {
-  visibility_ = ComputeVisibility(room_, receivers_, state.luminaires, order);
+  visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
+      room_, receivers_, state.luminaires, order);
 }
 
 std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
@@ -294,6 +297,13 @@ std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
     }
   }
   return mixed;
+}
+
+Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& request) const {
+  if (data_.indirect_is_held)
+    return ComputeDirectIlluminance(room_, receivers_, visibility_, state.luminaires, request);
+  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
+  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
 }
 
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
@@ -312,9 +322,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
       }
     }
   }
-  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
-  const Illuminance light =
-      ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
+  const Illuminance light = Light(state, request);
   const Eigen::Index lamps = static_cast<Eigen::Index>(state.luminaires.size());
   const Eigen::Index materials = static_cast<Eigen::Index>(request.materials.size());
   Eigen::VectorXd flux(lamps);
@@ -325,8 +333,8 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
   for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
     const Parameter& of = parameters[p];
     if (IsPart(of))
-      reference_share[p] = PartShares(state.luminaires[static_cast<size_t>(of.index)],
-                                      PartKindOf(of.quantity))[of.reference];
+      reference_share[p] =
+          PartShares(state.luminaires[static_cast<size_t>(of.index)], PartKindOf(of.quantity))[of.reference];
   }
 
   Prediction prediction;
@@ -345,7 +353,10 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const double unit = material < 0 ? state.meter_scale * sensor_gain : state.camera_scale / kPi;
     const double gain = material < 0 ? unit : unit * state.albedo[material];
     const double illuminance = light.total.row(r).cast<double>() * lumens;
-    prediction.value[i] = gain * illuminance;
+    // Of a white surface, in the row's own unit.
+    const double white =
+        unit * illuminance + (data_.indirect_is_held ? data_.observations[row].relative_indirect : 0.0);
+    prediction.value[i] = material < 0 ? white : state.albedo[material] * white;
     if (i >= observations) {
       const double direct = light.direct.row(r).cast<double>() * lumens;
       prediction.reading_direct_lx[i - observations] = gain * direct;
@@ -367,10 +378,10 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
         out = gain * lumens[k] * reference_share[p] * (part - static_cast<double>(light.total(r, k)));
       } else if (parameter.kind == ParameterKind::kAlbedo) {
         double sum = 0;
-        for (Eigen::Index j = 0; j < lamps; ++j) {
+        for (Eigen::Index j = 0; j < lamps && !data_.indirect_is_held; ++j) {
           sum += lumens[j] * light.d_albedo(r, j * materials + column_of_parameter[p]);
         }
-        out = gain * sum + (material == parameter.index ? unit * illuminance : 0.0);
+        out = gain * sum + (material == parameter.index ? white : 0.0);
       } else {
         out = gain * lumens[k] * light.d_luminaire(r, column_of_parameter[p]);
         if (parameter.quantity == LuminaireQuantity::kExponent) {

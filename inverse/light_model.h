@@ -9,8 +9,12 @@
 // stacked in one vector; fluxes, exponents and the scales of camera and meter as logarithms, so that they
 // stay positive and scales separate; positions and sizes in metres; tilts in radians about the start's aim.
 //
+// Where the indirect light was measured (LightData::indirect_is_held), E is direct alone and a photo's
+// row
+//   Y_es = rho_m(e) (I_es + c / pi * sum_k d_sk Phi_k D_ek(theta)).
+//
 // Rows: observations in their order, then readings. Jacobian rows x parameters, exact for frozen visibility.
-// Throws std::invalid_argument for indices out of range.
+// Throws std::invalid_argument for indices out of range, and for readings beside measured indirect light.
 #ifndef LUXFIT_INVERSE_LIGHT_MODEL_H_
 #define LUXFIT_INVERSE_LIGHT_MODEL_H_
 
@@ -52,6 +56,9 @@ struct LightData {
   std::vector<Eigen::VectorXd> dimming;  // one a state, by luminaire
   std::vector<Observation> observations;
   std::vector<Reading> readings;
+  // Indirect light is the observations' own (inverse/measured_indirect.h): no radiosity is solved, and there
+  // are no readings.
+  bool indirect_is_held = false;
 };
 
 struct LightState {
@@ -110,6 +117,9 @@ class LightModel {
   int row_count() const { return static_cast<int>(receiver_of_row_.size()); }
 
  private:
+  // Per lumen, at the receivers.
+  Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
+
   const Room& room_;
   const LightData& data_;
   Receivers receivers_;

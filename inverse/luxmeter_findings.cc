@@ -96,17 +96,21 @@ void Explain(Disagreement& d) {
     return;
   }
   const bool is_place = d.of == Disagreement::Of::kPlace;
-  d.meaning = (is_place ? d.id + " disagrees in all its states" : d.id + " in state " + d.state + " disagrees") +
-              ": " + Side(d) + (is_place ? " its prediction at most" : " its prediction");
+  d.meaning =
+      (is_place ? d.id + " disagrees in all its states" : d.id + " in state " + d.state + " disagrees") +
+      ": " + Side(d) + (is_place ? " its prediction at most" : " its prediction");
   if (is_place) {
-    d.remedy = "its place or the way the meter faced is not what the table says, or something stands near "
-               "it that the mesh does not have: measure its place again";
+    d.remedy =
+        "its place or the way the meter faced is not what the table says, or something stands near "
+        "it that the mesh does not have: measure its place again";
   } else if (d.z < 0) {
-    d.remedy = "the meter may have been shaded (by whoever read it), tilted, or read before the lamp had "
-               "warmed up: read it again";
+    d.remedy =
+        "the meter may have been shaded (by whoever read it), tilted, or read before the lamp had "
+        "warmed up: read it again";
   } else {
-    d.remedy = "light that the session does not name (daylight, a screen, a lamp on) or another range of the "
-               "meter: read it again, with a reading of all off";
+    d.remedy =
+        "light that the session does not name (daylight, a screen, a lamp on) or another range of the "
+        "meter: read it again, with a reading of all off";
   }
 }
 

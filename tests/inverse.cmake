@@ -1,5 +1,7 @@
 luxfit_test(inverse observe_test LINK luxfit::inverse)
 luxfit_test(inverse light_model_test LINK luxfit::inverse)
+luxfit_test(inverse measured_indirect_test LINK luxfit::inverse)
+luxfit_test(inverse nonnegative_least_squares_test LINK luxfit::inverse)
 luxfit_test(inverse first_guess_test LINK luxfit::inverse)
 luxfit_test(inverse fit_luminaires_test LINK luxfit::inverse)
 luxfit_test(inverse choose_model_test LINK luxfit::inverse)

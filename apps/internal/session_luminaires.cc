@@ -77,13 +77,14 @@ void ReadTable(const TomlCursor& table, SessionLuminaire& luminaire) {
                       Quoted(luminaire.photometry) + "; remove one of them");
   if (!gamma || !intensity)
     throw given.Error(
-        "expected gamma_deg and cd_per_klm together, got one of them; add the other, or remove it to have the "
+        "expected gamma_deg and cd_per_klm together, got one of them; add the other, or remove it to have "
+        "the "
         "table estimated");
   luminaire.gamma_deg = ReadNumbers(*gamma, "a list of angles from the aim");
   luminaire.cd_per_klm = ReadNumbers(*intensity, "a list of intensities");
-  const bool rising = std::adjacent_find(luminaire.gamma_deg.begin(), luminaire.gamma_deg.end(),
-                                         [](double a, double b) { return b <= a; }) ==
-                      luminaire.gamma_deg.end();
+  const bool rising =
+      std::adjacent_find(luminaire.gamma_deg.begin(), luminaire.gamma_deg.end(),
+                         [](double a, double b) { return b <= a; }) == luminaire.gamma_deg.end();
   if (luminaire.gamma_deg.size() < 2 || !rising || luminaire.gamma_deg.back() > 180)
     throw gamma->Error("expected two angles or more that rise from 0 to at most 180, got " + gamma->Shown() +
                        "; sort them");
@@ -116,8 +117,9 @@ Eigen::ArrayXXd ReadEmission(const TomlCursor& emission, const SessionLuminaire&
 }
 
 SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folder) {
-  table.ExpectKeys({"id", "photometry", "cosine_exponent", "gamma_deg", "cd_per_klm", "emission", "shape", "size_m", "position_m",
-                    "position_sigma_m", "aim", "heading", "flux_lm", "flux_sigma_lm"});
+  table.ExpectKeys({"id", "photometry", "cosine_exponent", "gamma_deg", "cd_per_klm", "emission", "shape",
+                    "size_m", "position_m", "position_sigma_m", "aim", "heading", "flux_lm",
+                    "flux_sigma_lm"});
   SessionLuminaire luminaire;
   luminaire.line = table.place().line;
   if (const auto photometry = table.Find("photometry")) {
@@ -154,24 +156,38 @@ SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folde
   return luminaire;
 }
 
-void CheckLuminairesSection(const TomlCursor& section, size_t named) {
-  section.ExpectKeys({"count", "max"});
-  if (const auto most = section.Find("max")) {
-    const int max = most->WholeNumber("a number of luminaires");
-    if (static_cast<size_t>(max) < named)
-      throw most->Error("expected at least the " + std::to_string(named) +
+// How many there are; only a session without [states] may leave that open.
+void ReadCount(const TomlCursor& session, NamedLuminaires& named) {
+  const auto known = static_cast<int>(named.luminaires.size());
+  const bool has_states = session.Find("states").has_value();
+  named.count = known;
+  named.count_is_estimated = !has_states && known == 0;
+  const auto section = session.Find("luminaires");
+  if (!section) return;
+  section->ExpectKeys({"count", "max"});
+  if (const auto most = section->Find("max")) {
+    named.max = most->WholeNumber("a number of luminaires");
+    if (named.max < std::max(1, known))
+      throw most->Error("expected at least the " + std::to_string(known) +
                         " luminaires that are named, got " + most->Shown() + "; raise it or remove the key");
   }
-  const auto count = section.Find("count");
+  const auto count = section->Find("count");
   if (!count) return;
   if (count->IsText()) {
     count->OneOf({"estimate"});
-    throw NotAvailable(*count, "luminaires named by [states] or [[luminaire]]");
+    if (has_states)
+      throw count->Error(
+          "expected the number of luminaires that [states] names, or nothing, got \"estimate\"; " +
+          std::string("a number is estimated only without [states], where all are on"));
+    named.count_is_estimated = true;
+    return;
   }
-  const int number = count->WholeNumber("\"estimate\" or a number of luminaires");
-  if (static_cast<size_t>(number) != named)
-    throw count->Error("expected " + std::to_string(named) + ", the number of luminaires that [states] and " +
-                       "[[luminaire]] name, got " + count->Shown() + "; name the others, or remove the key");
+  named.count = count->WholeNumber("\"estimate\" or a number of luminaires");
+  named.count_is_estimated = false;
+  if (has_states ? named.count != known : named.count < std::max(1, known))
+    throw count->Error("expected " + std::string(has_states ? "" : "at least ") + std::to_string(known) +
+                       ", the number of luminaires that [states] and [[luminaire]] name, got " +
+                       count->Shown() + "; name the others, or remove the key");
 }
 
 }  // namespace
@@ -193,8 +209,9 @@ std::vector<SessionState> ReadStates(const TomlCursor& section) {
   return states;
 }
 
-std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session, const std::string& folder) {
-  std::vector<SessionLuminaire> luminaires;
+NamedLuminaires ReadLuminaires(const TomlCursor& session, const std::string& folder) {
+  NamedLuminaires named;
+  std::vector<SessionLuminaire>& luminaires = named.luminaires;
   if (const auto list = session.Find("luminaire")) {
     const std::vector<TomlCursor> tables = list->Elements("a list of tables [[luminaire]]");
     for (const TomlCursor& table : tables) luminaires.push_back(ReadLuminaire(table, folder));
@@ -212,8 +229,8 @@ std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session, const st
       }
     }
   }
-  if (const auto section = session.Find("luminaires")) CheckLuminairesSection(*section, luminaires.size());
-  return luminaires;
+  ReadCount(session, named);
+  return named;
 }
 
 }  // namespace luxfit

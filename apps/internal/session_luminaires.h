@@ -19,9 +19,15 @@ namespace luxfit {
 // In file order, dimming of each luminaire named.
 std::vector<SessionState> ReadStates(const TomlCursor& section);
 
-// [[luminaire]] in file order, then those that only [states] names, in its order. `session` is the whole
-// document, `folder` where it lies.
-std::vector<SessionLuminaire> ReadLuminaires(const TomlCursor& session, const std::string& folder);
+// [[luminaire]] in file order, then those that only [states] names, in its order.
+struct NamedLuminaires {
+  std::vector<SessionLuminaire> luminaires;
+  int count = 0;                    // of all there are, named or not
+  bool count_is_estimated = false;  // there may be more
+  int max = 12;                     // of those
+};
+// `session` is the whole document, `folder` where it lies.
+NamedLuminaires ReadLuminaires(const TomlCursor& session, const std::string& folder);
 
 }  // namespace luxfit
 

@@ -141,10 +141,6 @@ Eigen::Vector3d TomlCursor::Direction(const std::string& expected) const {
   return vector.normalized();
 }
 
-std::runtime_error NotAvailable(const TomlCursor& value, const std::string& expected) {
-  return value.Error(value.Shown() + " is not available in this version; expected " + expected);
-}
-
 std::vector<std::string> UniqueIds(const std::vector<TomlCursor>& tables) {
   std::vector<std::string> ids;
   std::vector<int> lines;

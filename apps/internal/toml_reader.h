@@ -65,9 +65,6 @@ struct TomlCursor::Member {
   TomlCursor value;
 };
 
-// For a value that the format knows and this version cannot serve yet.
-std::runtime_error NotAvailable(const TomlCursor& value, const std::string& expected);
-
 // The key `id` of every table of a list; throws where it is missing or two share one.
 std::vector<std::string> UniqueIds(const std::vector<TomlCursor>& tables);
 

@@ -123,6 +123,11 @@ class ColumnFiller {
   std::map<PartsOf, PartLight> parts_;
 };
 
+Spot SpotOf(const Patches& patches, int element) {
+  const Element& e = patches.elements[static_cast<size_t>(element)];
+  return {{e.center, e.normal, {}}, &e, patches.IsTriangle(e.patch)};
+}
+
 }  // namespace
 
 DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
@@ -130,24 +135,39 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives) {
   ExpectValid(luminaires);
-  const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
-  const Eigen::Index columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
+  const auto elements = static_cast<int>(room.patches.elements.size());
+  const auto columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
   const ColumnFiller filler(room.rays, luminaires, derivatives);
   DirectColumns result{Eigen::MatrixXf::Zero(elements, columns),
                        Eigen::MatrixXf::Zero(receivers.count(), columns)};
-  tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
-    const Element& element = room.patches.elements[static_cast<size_t>(e)];
-    filler.Fill({{element.center, element.normal, {}}, &element, room.patches.IsTriangle(element.patch)},
-                visibility.elements.row(e), result.elements.row(e));
+  tbb::parallel_for(0, elements, [&](int e) {
+    filler.Fill(SpotOf(room.patches, e), visibility.elements.row(e), result.elements.row(e));
   });
-  const Eigen::Index observed = static_cast<Eigen::Index>(receivers.elements.size());
-  tbb::parallel_for(Eigen::Index{0}, static_cast<Eigen::Index>(receivers.count()), [&](Eigen::Index r) {
+  const auto observed = static_cast<int>(receivers.elements.size());
+  tbb::parallel_for(0, receivers.count(), [&](int r) {
     if (r < observed) {
       result.receivers.row(r) = result.elements.row(receivers.elements[static_cast<size_t>(r)]);
     } else {
       const Sensor& sensor = receivers.points[static_cast<size_t>(r)];
       filler.Fill({sensor}, visibility.receivers.row(r), result.receivers.row(r));
     }
+  });
+  return result;
+}
+
+Eigen::MatrixXf ComputeReceiverColumns(const Room& room, const Receivers& receivers,
+                                       const LuminaireVisibility& visibility,
+                                       const std::vector<Luminaire>& luminaires,
+                                       const DerivativeRequest& derivatives) {
+  ExpectValid(luminaires);
+  const auto columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
+  const ColumnFiller filler(room.rays, luminaires, derivatives);
+  Eigen::MatrixXf result = Eigen::MatrixXf::Zero(receivers.count(), columns);
+  const auto observed = static_cast<int>(receivers.elements.size());
+  tbb::parallel_for(0, receivers.count(), [&](int r) {
+    const Spot spot = r < observed ? SpotOf(room.patches, receivers.elements[static_cast<size_t>(r)])
+                                   : Spot{receivers.points[static_cast<size_t>(r)]};
+    filler.Fill(spot, visibility.receivers.row(r), result.row(r));
   });
   return result;
 }

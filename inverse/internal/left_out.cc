@@ -86,7 +86,9 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
     state_used.push_back(alone ? OnAlone(dimming, luminaire) : dimming[luminaire] > 0);
     problem.all.dimming.push_back(alone ? Eigen::VectorXd::Constant(1, dimming[luminaire]).eval() : dimming);
   }
+  problem.all.indirect_is_held = data.indirect_is_held;
   problem.fit.dimming = problem.all.dimming;
+  problem.fit.indirect_is_held = data.indirect_is_held;
   if (photos) {
     AddObservations(room, data, state_used, max_elements, problem);
   } else {
@@ -98,6 +100,20 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
     if (prior.index != luminaire) continue;
     prior.index = problem.luminaire;
     problem.priors.push_back(prior);
+  }
+  return problem;
+}
+
+SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
+  SubProblem problem;
+  const std::vector<bool> every_state(data.dimming.size(), true);
+  problem.all.dimming = data.dimming;
+  problem.all.indirect_is_held = data.indirect_is_held;
+  problem.fit = problem.all;
+  if (data.observations.empty()) {
+    AddReadings(data, every_state, problem);
+  } else {
+    AddObservations(room, data, every_state, max_elements, problem);
   }
   return problem;
 }

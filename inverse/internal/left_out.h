@@ -30,6 +30,9 @@ struct SubProblem {
 SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
                           const std::vector<ParameterPrior>& priors, int max_elements);
 
+// All of the data, cut likewise; state, luminaire and priors are left to the caller.
+SubProblem CutAll(const Room& room, const LightData& data, int max_elements);
+
 // One model fitted to what is not left out.
 struct FittedModel {
   Luminaire luminaire;

@@ -143,8 +143,7 @@ class Refiner {
     std::vector<LuminaireShape> shapes{held_.luminaire.shape};
     const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
     if (may_be_point && !open_.table_asked_for) shapes.push_back(LuminaireShape::kPoint);
-    const std::vector<double> nodes =
-        NodesFor(room_, problem_, held_.luminaire, options_.node_step_deg);
+    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire, options_.node_step_deg);
     for (const LuminaireShape shape : shapes) {
       Luminaire start = WithTable(held_.luminaire, nodes);
       FreeQuantities free = held_.free;
