@@ -173,6 +173,11 @@ class FitStage {
     open.table_asked_for = given.photometry == "table" && given.gamma_deg.empty();
     open.aim = (is_file || open.table_asked_for) && !given.aim;
     open.table = given.photometry == "auto" || open.table_asked_for;
+    // Finer models of the lamp would take up what is the walls', while these are not known.
+    if (AsksForDirectShare()) {
+      open.table = open.table_asked_for;
+      return open;
+    }
     open.emission = given.photometry_path.empty() && given.emission.size() == 0 &&
                     given.shape.value_or("rectangle") == "rectangle" && given.gamma_deg.empty();
     return open;
@@ -224,7 +229,7 @@ class FitStage {
   void Start(const LightData& data) {
     std::vector<std::optional<Eigen::Vector3d>> known;
     for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
-    const FirstGuess guess = GuessLuminaires(room_, data, known);
+    const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known);
     MatchKnownFluxes(guess);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
@@ -246,6 +251,20 @@ class FitStage {
       known += *session_.luminaires[k].flux_lm;
     }
     if (start_.camera_scale_free && guessed > 0 && known > 0) start_.camera_scale = guessed / known;
+  }
+
+  bool IsAllHeld() const {
+    return !session_.luminaires.empty() &&
+           std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
+                       [](const SessionLuminaire& l) { return l.is_held; });
+  }
+
+  FirstGuess NothingToGuess() const {
+    FirstGuess guess;
+    guess.separable = true;
+    guess.luminaires.resize(session_.luminaires.size());
+    guess.albedo = start_.albedo;
+    return guess;
   }
 
   void AddLuminaire(const FirstGuess& guess, int index) {

@@ -2,59 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "forward/disc_factor.h"
 #include "forward/internal/cell_sum.h"
 #include "forward/internal/luminous_surface.h"
-#include "forward/photometry.h"
+#include "forward/internal/surface_rule.h"
 #include "forward/polygon_factor.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kMaxOrder = 24;
-
-// Quadrature rules are made once: they depend on nothing but shape and order.
-const std::vector<SurfaceSample>& SurfaceRule(LuminaireShape shape, int order) {
-  using Rules = std::array<std::vector<SurfaceSample>, kMaxOrder + 1>;
-  static const auto make = [](LuminaireShape s) {
-    Rules rules;
-    for (int n = 1; n <= kMaxOrder; ++n) rules[static_cast<size_t>(n)] = SampleSurface(s, n);
-    return rules;
-  };
-  static const Rules rectangle = make(LuminaireShape::kRectangle), disc = make(LuminaireShape::kDisc);
-  static const std::vector<SurfaceSample> point = SampleSurface(LuminaireShape::kPoint, 1);
-  if (shape == LuminaireShape::kRectangle) return rectangle[static_cast<size_t>(order)];
-  if (shape == LuminaireShape::kDisc) return disc[static_cast<size_t>(order)];
-  return point;
-}
-
-// Exponent of the cosine-power lobe that is as narrow.
-double SharpnessOf(const Luminaire& luminaire) {
-  switch (luminaire.distribution) {
-    case Distribution::kIsotropic:
-    case Distribution::kLambertian:
-      break;
-    case Distribution::kCosinePower:
-      return std::max(luminaire.cosine_exponent, 1.0);
-    case Distribution::kMeasured:
-      if (luminaire.table) return std::max(2 * kPi * luminaire.table->peak_cd_per_lm - 1, 1.0);
-  }
-  return 1;
-}
-
-// A lobe cos^m is 1 / sqrt(m) wide. Where the receiver's plane cuts the surface, the integrand has a kink.
-int OrderFor(const LuminousSurface& surface, const Eigen::Vector3d& p, bool is_cut) {
-  const double distance = std::max((p - surface.luminaire().position).norm(), 1e-3);
-  const double order = std::ceil(2 + 2 * std::sqrt(SharpnessOf(surface.luminaire()) + 3) *
-                                         surface.sides().maxCoeff() / distance) *
-                       (is_cut ? 3 : 1);
-  return order < kMaxOrder ? static_cast<int>(order) : kMaxOrder;  // NaN too
-}
 
 // E = pi L F, L = Phi / (pi A), with F in closed form.
 DirectIlluminance LambertianRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
@@ -100,12 +57,7 @@ DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Ve
   const Luminaire& luminaire = surface.luminaire();
   const LuminaireAxes& axes = surface.axes();
   DirectIlluminance sum;
-  const double height_of_centre = normal.dot(luminaire.position - p);
-  const double reach = 0.5 * (std::abs(surface.sides()[0] * normal.dot(axes.along)) +
-                              std::abs(surface.sides()[1] * normal.dot(axes.across)));
-  if (height_of_centre < -reach) return sum;
-  const int order = surface.has_extent() ? OrderFor(surface, p, height_of_centre < reach) : 1;
-  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, order)) {
+  for (const SurfaceSample& sample : SurfaceRuleFor(surface, p, normal)) {
     const Eigen::Vector2d place(sample.a, sample.b);
     const Eigen::Vector3d to_lamp = surface.PointOf(place) - p;
     const double r2 = to_lamp.squaredNorm();
@@ -163,7 +115,7 @@ double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const E
   const LuminousSurface surface(luminaire);
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
   double seen = 0, in_front = 0, heights = 0;
-  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::clamp(order, 1, kMaxOrder))) {
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1))) {
     const Eigen::Vector3d point = surface.PointOf({sample.a, sample.b});
     const double height = normal.dot(point - p_in_world);
     heights += height;

@@ -179,18 +179,16 @@ void AddOutlineDerivatives(const RayScene& rays, const LuminousSurface& surface,
 
 double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                     const Eigen::Vector3d& normal, const ShadowOptions& options) {
-  if (HasUnevenEmission(luminaire)) {
-    const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
-    return unoccluded == 0 || std::isnan(unoccluded)
-               ? unoccluded
-               : VisibleIlluminancePerLumen(rays, luminaire, p_in_world, normal, options) / unoccluded;
-  }
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
   const double height = normal.dot(luminaire.position - p_in_world);
   if (std::isnan(height)) return height;
   const LuminousSurface surface(luminaire);
   if (!surface.has_extent()) return height > 0 && !rays.Occluded(start, luminaire.position) ? 1 : 0;
-  return ShareOf(VisibleCells(rays, surface, start, options), surface, p_in_world, normal);
+  const double share = ShareOf(VisibleCells(rays, surface, start, options), surface, p_in_world, normal);
+  // Seen whole or not at all it does not matter where the light comes from.
+  if (!HasUnevenEmission(luminaire) || share == 0 || share == 1) return share;
+  const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
+  return VisibleIlluminancePerLumen(rays, luminaire, p_in_world, normal, options) / unoccluded;
 }
 
 double VisibleIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,

@@ -3,10 +3,11 @@
 #include <tbb/parallel_for.h>
 
 #include <map>
+#include <utility>
 
 #include "forward/direct_light.h"
 #include "forward/internal/expect_valid.h"
-#include "forward/luminaire_parts.h"
+#include "forward/internal/part_light.h"
 #include "forward/sensor.h"
 #include "forward/shadowed_light.h"
 
@@ -52,12 +53,12 @@ class ColumnFiller {
   ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
                const DerivativeRequest& derivatives)
       : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
-    for (size_t p = 0; p < derivatives.parameters.size(); ++p) {
-      const LuminaireParameter& parameter = derivatives.parameters[p];
+    for (const LuminaireParameter& parameter : derivatives.parameters) {
       const bool is_cell = parameter.quantity == LuminaireQuantity::kCell;
       if (!is_cell && parameter.quantity != LuminaireQuantity::kGammaNode) continue;
-      parts_.emplace(p, PartOf(luminaires[static_cast<size_t>(parameter.luminaire)],
-                               is_cell ? PartKind::kCell : PartKind::kGammaNode, parameter.part));
+      parts_.try_emplace({parameter.luminaire, parameter.quantity},
+                         luminaires[static_cast<size_t>(parameter.luminaire)],
+                         is_cell ? PartKind::kCell : PartKind::kGammaNode);
     }
   }
 
@@ -77,15 +78,14 @@ class ColumnFiller {
       direct[k] = Shadowed(spot, luminaires_[k]);
       share[k] = 1;  // its derivatives are those of the visible part already
     }
+    const std::map<PartsOf, Eigen::VectorXd> light_of_parts = LightOfParts(spot.place, visible);
     for (size_t p = 0; p < derivatives_.parameters.size(); ++p) {
       const LuminaireParameter& parameter = derivatives_.parameters[p];
       const size_t k = static_cast<size_t>(parameter.luminaire);
-      const auto part = parts_.find(p);
-      if (part != parts_.end()) {
-        const double seen = static_cast<double>(visible[parameter.luminaire]);
-        if (seen > 0)
-          row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
-              static_cast<float>(seen * SensorIlluminancePerLumen(part->second, spot.place).lx_per_lm);
+      const auto part = light_of_parts.find({parameter.luminaire, parameter.quantity});
+      if (part != light_of_parts.end()) {
+        row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
+            static_cast<float>(part->second[parameter.part]);
         continue;
       }
       row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
@@ -94,6 +94,17 @@ class ColumnFiller {
   }
 
  private:
+  using PartsOf = std::pair<int, LuminaireQuantity>;
+
+  // Of every part, times what the place sees of the whole.
+  template <typename Shares>
+  std::map<PartsOf, Eigen::VectorXd> LightOfParts(const Sensor& place, const Shares& visible) const {
+    std::map<PartsOf, Eigen::VectorXd> light;
+    for (const auto& [of, parts] : parts_)
+      light[of] = static_cast<double>(visible[of.first]) * parts.At(place);
+    return light;
+  }
+
   DirectIlluminance Shadowed(const Spot& spot, const Luminaire& luminaire) const {
     if (spot.element == nullptr)
       return ShadowedIlluminancePerLumen(rays_, luminaire, spot.place.position, spot.place.normal);
@@ -109,7 +120,7 @@ class ColumnFiller {
   const RayScene& rays_;
   const std::vector<Luminaire>& luminaires_;
   const DerivativeRequest& derivatives_;
-  std::map<size_t, Luminaire> parts_;  // by parameter
+  std::map<PartsOf, PartLight> parts_;
 };
 
 Spot SpotOf(const Patches& patches, int element) {

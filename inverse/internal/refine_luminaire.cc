@@ -165,12 +165,24 @@ class Refiner {
     Step step{RefinementKind::kEmission, {{"even", held_}}};
     FreeQuantities free = held_.free;
     free.emission_sigma = 1;
+    int without_gain = 0;
+    double best = Score(step.candidates.front());
     for (const int cells : {2, 3, 4, 6, 8}) {
+      // Finer ones cost the square: no further where two in a row brought nothing.
+      if (without_gain == 2) break;
       Luminaire start = held_.luminaire;
       start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
       step.candidates.push_back({Formatted("%g x %g cells", cells, cells), Fit(start, free)});
+      const double score = Score(step.candidates.back());
+      without_gain = score < best ? 0 : without_gain + 1;
+      best = std::min(best, score);
     }
     return Judged(std::move(step));
+  }
+
+  // By the model error of what is held, so that candidates can be compared before all are there.
+  double Score(const Candidate& candidate) const {
+    return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
   }
 
   static double SmallestSigma(const std::vector<Candidate>& candidates) {

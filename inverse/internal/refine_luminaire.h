@@ -5,7 +5,7 @@
 //   table     a rotationally symmetric table of intensities over gamma, every 7.5 degrees (forward/
 //             luminaire_parts.h), smooth by second differences (inverse/part_smoothness.h) of a strength that
 //             is tried in factors of 3; with the shape as it is, or as a point
-//   emission  a rectangle of cells that emit unevenly, 2 x 2 to 8 x 8
+//   emission  a rectangle of cells that emit unevenly, 2 x 2 to 8 x 8, until two in a row bring nothing
 //
 // Each candidate is fitted to four fifths of the data that speak of the luminaire and scored on the rest
 // (inverse/internal/left_out.h). Of a step's candidates the one with the fewest effective parameters within
