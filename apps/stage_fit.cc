@@ -254,9 +254,8 @@ class FitStage {
   }
 
   bool IsAllHeld() const {
-    return !session_.luminaires.empty() &&
-           std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
-                       [](const SessionLuminaire& l) { return l.is_held; });
+    return !session_.luminaires.empty() && std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
+                                                       [](const SessionLuminaire& l) { return l.is_held; });
   }
 
   FirstGuess NothingToGuess() const {
@@ -459,8 +458,47 @@ class FitStage {
          "reflectances in [scene.albedo] or the luminaires' photometry"});
   }
 
+  // Observations that the best fit does not explain: luminaires fitted beside them may be anywhere.
+  void WarnOfMisfit() {
+    const LuminaireFit& fit = result_.fit;
+    constexpr double kUnexplained = 0.25;                     // weight of five sigmas and more
+    constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
+    std::map<std::string, std::pair<int, int>> of_material;   // unexplained, all
+    std::pair<int, int> all;
+    for (size_t i = 0; i < result_.data.observations.size() && fit.weight.size() > 0; ++i) {
+      const double weight = fit.weight[static_cast<Eigen::Index>(i)];
+      if (weight == 0) continue;
+      const auto element = static_cast<size_t>(result_.data.observations[i].element);
+      const auto patch = static_cast<size_t>(room_.patches.elements[element].patch);
+      const auto material = static_cast<size_t>(room_.patches.patches[patch].material);
+      for (std::pair<int, int>* count : {&all, &of_material[room_.scene.materials[material]]}) {
+        count->first += weight < kUnexplained ? 1 : 0;
+        ++count->second;
+      }
+    }
+    const double share = all.second > 0 ? static_cast<double>(all.first) / all.second : 0;
+    if (all.second == 0 || (share < kLargeShare && fit.relative_sigma < kLargeError)) return;
+    std::string worst;
+    for (const auto& [material, count] : of_material) {
+      if (count.first > share * count.second)
+        worst += fmt::format("{}{} ({:.0f} %)", worst.empty() ? "" : ", ", material,
+                             100.0 * count.first / count.second);
+    }
+    context_.warnings.push_back(
+        {"model_misfit",
+         fmt::format(
+             "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no "
+             "better than {:.1f} %: most on {}; luminaires may lie far from where they are given, "
+             "beyond their sigmas",
+             100 * share, 100 * fit.relative_sigma, worst.empty() ? "all surfaces alike" : worst),
+         "compare the mesh with the photos: furniture that is missing or was moved, mirrors, windows, a "
+         "luminaire that "
+         "[states] does not name"});
+  }
+
   void RecordOutcome() {
     const LuminaireFit& fit = result_.fit;
+    WarnOfMisfit();
     if (!session_.count_is_estimated)
       context_.choices.push_back(
           {"number of luminaires", std::to_string(session_.luminaires.size()), {}, "given by the session"});

@@ -114,6 +114,23 @@ class Equations {
     return column(rows_).cast<double>().cwiseProduct(root_weight_);
   }
 
+  // Weighs down the rows that a solution does not explain (Cauchy, at three times the median residual's
+  // sigma): surfaces that are not what the mesh says.
+  void Reweigh(const Eigen::MatrixXd& sources) {
+    const Solution solution = Solve(sources);
+    const Eigen::VectorXd residual = others_ * solution.other + sources * solution.strength - target_;
+    std::vector<double> sizes(residual.begin(), residual.end());
+    for (double& size : sizes) size = std::abs(size);
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    constexpr double kSigmas = 3;
+    const double scale = kSigmas * std::max(*middle / 0.6745, 1e-6);
+    const Eigen::VectorXd down = (1 + (residual / scale).array().square()).rsqrt();
+    others_ = down.asDiagonal() * others_;
+    target_ = down.cwiseProduct(target_);
+    root_weight_ = down.cwiseProduct(root_weight_);
+  }
+
   // min over g, q >= 0 with `sources` (columns, weighted) as g's.
   struct Solution {
     Eigen::VectorXd strength, other;
@@ -323,7 +340,8 @@ class GroupSearch {
     MoveEach(std::min(kCoarse, refinements_), refinements_);
   }
 
-  Equations::Solution Solve() const { return equations_.Solve(Others(sources_.size())); }
+  Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
+  Equations::Solution Solve() const { return equations_.Solve(Columns()); }
   const std::vector<Tried>& sources() const { return sources_; }
   bool is_held(size_t source) const { return is_held_[source]; }
 
@@ -379,13 +397,19 @@ class GroupSearch {
 
 SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start) const {
   SparseLuminaires found;
-  const Equations equations(light_, group);
+  Equations equations(light_, group);
   constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
   if (equations.rows().size() < kFewestPlaces || grid_->places.empty()) return found;
-  GroupSearch search(room_, light_.places, grid_->box, equations, step_m_, refinements_);
-  for (const SparseSource& source : start) search.Start(source);
-  while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid_->places, grid_->columns))
-    search.MoveAll();
+  // Once to see what is unlike all else, once without that.
+  const auto searched = [&] {
+    GroupSearch search(room_, light_.places, grid_->box, equations, step_m_, refinements_);
+    for (const SparseSource& source : start) search.Start(source);
+    while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid_->places, grid_->columns))
+      search.MoveAll();
+    return search;
+  };
+  equations.Reweigh(searched().Columns());
+  const GroupSearch search = searched();
   const Equations::Solution solution = search.Solve();
   found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
   for (size_t j = 0; j < search.sources().size(); ++j) {

@@ -7,6 +7,7 @@
 // D: direct illuminance per lumen. Places are the cells of a grid through the room, with a few lobes at each.
 // Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
 // solved anew; the place is then refined by halving the grid about it, and so are the others' in turn.
+// Robust: the search is done twice, the second time with rows that the first did not explain weighed down.
 // Distances m. Rows weigh by a relative error of 10 %, with a floor where there is little light.
 // Sources: Lawson and Hanson (1974), ch. 23 (NNLS); Boyd, Schiebinger, Recht (2017), "The alternating descent
 // conditional gradient method for sparse inverse problems" (add, solve, move).
