@@ -252,9 +252,8 @@ class FitStage {
   }
 
   bool IsAllHeld() const {
-    return !session_.luminaires.empty() &&
-           std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
-                       [](const SessionLuminaire& l) { return l.is_held; });
+    return !session_.luminaires.empty() && std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
+                                                       [](const SessionLuminaire& l) { return l.is_held; });
   }
 
   FirstGuess NothingToGuess() const {
