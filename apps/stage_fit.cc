@@ -12,6 +12,7 @@
 #include "apps/stages.h"
 #include "forward/photometry.h"
 #include "inverse/albedo_rgb.h"
+#include "inverse/contradiction.h"
 #include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
 
@@ -123,6 +124,7 @@ class FitStage {
     for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
     for (const AimChoice& c : choice.aims) RecordAim(c);
     for (const Refinement& r : choice.refinements) RecordRefinement(r);
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, priors_)) WarnOf(c);
     return choice.state;
   }
 
@@ -380,6 +382,26 @@ class FitStage {
          "simplest within one standard error of the best on patches left out (mean squared normalised "
          "error: " +
              scores + ")"});
+  }
+
+  void WarnOf(const Contradiction& found) {
+    const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(found.luminaire)];
+    const Luminaire& better = found.better;
+    std::string lobe = ToString(better.distribution);
+    if (better.distribution == Distribution::kCosinePower)
+      lobe += fmt::format(" {:.2f}", better.cosine_exponent);
+    context_.warnings.push_back(
+        {"photometry_contradicted",
+         fmt::format(
+             "what is given of luminaire {} ({}{}) does not explain its light: a {} {} at ({:.2f}, {:.2f}, "
+             "{:.2f}) m leaves {:.0f} % of the squared error on patches left out; position and flux fitted "
+             "with what is given are not as sure as their sigmas say",
+             given.id, given.photometry, given.shape ? ", " + *given.shape : "", lobe, ToString(better.shape),
+             better.position.x(), better.position.y(), better.position.z(),
+             100 * found.score_better / found.score_given),
+         fmt::format(
+             "check photometry, shape and aim of {}, or set photometry = \"auto\" and leave shape out",
+             given.id)});
   }
 
   void RecordAim(const AimChoice& choice) {

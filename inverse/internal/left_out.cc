@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace luxfit {
 namespace {
@@ -164,7 +165,12 @@ PairedDifference Difference(const std::map<int, GroupScore>& a, const std::map<i
   for (const auto& [group, score] : a)
     squares += std::pow(score.sum - b.at(group).sum - score.count * result.mean, 2);
   const double groups = static_cast<double>(a.size());
-  if (groups > 1) result.standard_error = std::sqrt(squares * groups / (groups - 1)) / total;
+  // Student's t of few groups is wider than a Gaussian: its standard deviation is sqrt(n / (n - 2)), n =
+  // groups - 1.
+  const double freedom = groups - 1;
+  result.standard_error = freedom > 2
+                              ? std::sqrt(squares * groups / freedom * freedom / (freedom - 2)) / total
+                              : std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -66,7 +66,8 @@ struct PairedDifference {
   double mean = 0, standard_error = 0;
 };
 
-// Mean over rows of a - b, with the standard error of a mean over groups weighted by their rows.
+// Mean over rows of a - b, with the standard error of a mean over groups weighted by their rows: that of
+// Student's t, infinite for three groups and fewer.
 PairedDifference Difference(const std::map<int, GroupScore>& a, const std::map<int, GroupScore>& b);
 
 }  // namespace luxfit

@@ -273,12 +273,13 @@ TEST_F(SessionErrorsTest, TagMapErrorsAreThoseOfItsFile) {
   EXPECT_THAT(ErrorAfter("tags.json", "0.2", "-0.2"), HasSubstr("tags.json:1: tag[0].size_m: expected > 0"));
 }
 
-// What the format knows and this version cannot serve yet.
-TEST_F(SessionErrorsTest, LaterFeaturesAreRefusedByName) {
+TEST_F(SessionErrorsTest, FilesOfAnotherKindAreRefusedByName) {
   EXPECT_THAT(ErrorAfter("cam0.yaml", "cam0.json"),
               HasSubstr("camera[0].intrinsics: expected a file of intrinsics (OpenCV YAML or XML, mrcal "));
-  EXPECT_THAT(ErrorAfter("count = 3", "count = \"estimate\""),
-              HasSubstr("luminaires.count: \"estimate\" is not available"));
+  EXPECT_THAT(
+      ErrorAfter("count = 3", "count = \"estimate\""),
+      HasSubstr("luminaires.count: expected the number of luminaires that [states] names, or nothing, got "
+                "\"estimate\"; a number is estimated only without [states]"));
 }
 
 TEST_F(SessionErrorsTest, RegistrationIsChecked) {

@@ -162,6 +162,25 @@ TEST_F(SessionTest, WithoutStatesTheTablesNameOne) {
   ASSERT_EQ(session.states.size(), 1u);
   EXPECT_EQ(session.states[0].id, "Z");
   EXPECT_EQ(session.states[0].dimming, (std::map<std::string, double>{{"B", 1.0}}));
+  EXPECT_FALSE(session.count_is_estimated);
+}
+
+TEST_F(SessionTest, LuminairesThatNobodyNamesAreCountedOrToBeCounted) {
+  folder_.Replace("session.toml", "[states]\nZ = { Z = 1.0 }\nall = { A = 0.5, Z = 1 }\n", "");
+  folder_.Replace("photos.csv", "v0,all", "v0,Z");
+  folder_.Replace("luxmeter.csv", "2,all", "2,Z");
+  folder_.Replace("session.toml", "L1@all", "L1");
+  const Session given = Read();
+  ASSERT_EQ(given.luminaires.size(), 3u);  // count = 3
+  EXPECT_EQ(given.luminaires[0].id, "B");
+  EXPECT_EQ(given.luminaires[2].id, "lamp2");
+  EXPECT_EQ(given.states[0].dimming.at("lamp2"), 1);
+  EXPECT_FALSE(given.count_is_estimated);
+  folder_.Replace("session.toml", "count = 3", "count = \"estimate\"");
+  const Session open = Read();
+  EXPECT_TRUE(open.count_is_estimated);
+  EXPECT_EQ(open.max_luminaires, 12);
+  EXPECT_EQ(open.luminaires.size(), 1u);
 }
 
 TEST_F(SessionTest, ByteOrderMarksAndCrlfAreTolerated) {

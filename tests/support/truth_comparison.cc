@@ -23,13 +23,27 @@ const json* Find(const json& list, const std::string& key, const std::string& va
   return found == list.end() ? nullptr : &*found;
 }
 
+// Of the same id; luminaires that the program had to name ("lamp1", ...): the nearest.
+const json* FittedOf(const json& luminaires, const json& lamp) {
+  if (const json* same = Find(luminaires, "id", lamp["id"])) return same;
+  const auto distance = [&](const json& one) {
+    return (Vector(one["position_m"]) - Vector(lamp["position"])).norm();
+  };
+  const json* nearest = nullptr;
+  for (const json& one : luminaires) {
+    const bool is_named_by_us = one["id"].get<std::string>().rfind("lamp", 0) == 0;
+    if (is_named_by_us && (nearest == nullptr || distance(one) < distance(*nearest))) nearest = &one;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 TruthComparison CompareWithTruth(const json& result, const json& truth) {
   TruthComparison comparison;
   for (const json& lamp : truth["lamps"]) {
     const std::string id = lamp["id"];
-    const json* fitted = Find(result["luminaires"], "id", id);
+    const json* fitted = FittedOf(result["luminaires"], lamp);
     if (fitted == nullptr || !(*fitted)["flux_lm"].is_number()) {
       ++comparison.luminaires_missing;
       continue;
