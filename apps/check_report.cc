@@ -103,16 +103,17 @@ std::string CheckText(const json& check) {
   constexpr size_t kMaxRows = 64;
   const json& table = check["table"];
   if (table.empty() || table[0]["readings"] == 0) return "";
-  std::string text = "\nof           readings  mean lx   mean error %   mean |error| lx   % of mean   largest %\n";
+  std::string text =
+      "\nof           readings  mean lx   mean error %   mean |error| lx   % of mean   largest %\n";
   const size_t first = table.size() > kMaxRows ? table.size() - 2 : 0;
   for (size_t i = first; i < table.size(); ++i) {
     const json& row = table[i];
-    text += fmt::format("{:<12} {:>8} {:>8.1f} {:>14} {:>17.2f} {:>11.2f} {:>11.2f}\n",
-                        row["of"].get<std::string>(), row["readings"].get<int>(),
-                        row["mean_lux"].get<double>(),
-                        fmt::format("{:+.2f}", row["mean_error_percent"].get<double>()),
-                        row["mean_abs_error_lux"].get<double>(), row["mean_abs_error_percent"].get<double>(),
-                        row["max_abs_error_percent"].get<double>());
+    text +=
+        fmt::format("{:<12} {:>8} {:>8.1f} {:>14} {:>17.2f} {:>11.2f} {:>11.2f}\n",
+                    row["of"].get<std::string>(), row["readings"].get<int>(), row["mean_lux"].get<double>(),
+                    fmt::format("{:+.2f}", row["mean_error_percent"].get<double>()),
+                    row["mean_abs_error_lux"].get<double>(), row["mean_abs_error_percent"].get<double>(),
+                    row["max_abs_error_percent"].get<double>());
   }
   const json& common = check["common"];
   text += fmt::format("measured / predicted in common: {:.4f} ± {:.4f}{}\n", common["factor"].get<double>(),

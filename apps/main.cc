@@ -121,11 +121,12 @@ int main(int argc, char** argv) {
           luxfit::CheckCommand)};
 
   app.get_subcommand("check")->add_option(
-      "--subset", options.subset, "a row for the readings of this pattern too: id or id@state, * for any text");
+      "--subset", options.subset,
+      "a row for the readings of this pattern too: id or id@state, * for any text");
   for (const char* name : {"run", "fit"}) {
-    app.get_subcommand(name)->add_option(
-        "--luminaires", options.earlier_luminaires,
-        "result.json of an earlier fit: its luminaires count as given, such as those read with covered walls");
+    app.get_subcommand(name)->add_option("--luminaires", options.earlier_luminaires,
+                                         "result.json of an earlier fit: its luminaires count as given, such "
+                                         "as those read with covered walls");
   }
   for (const char* name : {"simulate", "chart"}) {
     app.get_subcommand(name)

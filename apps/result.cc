@@ -113,16 +113,15 @@ json LuminairesJson(const Session& session, const SessionFit& fit, const std::ve
     const auto sigma = [&](LuminaireQuantity quantity) {
       return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
     };
-    json entry = {
-        {"id", luminaire.id},
-        {"position_m", Vector(luminaire.position)},
-        {"position_sigma_m",
-         {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
-          sigma(LuminaireQuantity::kPositionZ)}},
-        {"aim", Vector(luminaire.aim)},
-        {"photometry", PhotometryName(luminaire, session.luminaires[k])},
-        {"shape", ToString(luminaire.shape)},
-        {"size_m", SizeJson(luminaire)}};
+    json entry = {{"id", luminaire.id},
+                  {"position_m", Vector(luminaire.position)},
+                  {"position_sigma_m",
+                   {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
+                    sigma(LuminaireQuantity::kPositionZ)}},
+                  {"aim", Vector(luminaire.aim)},
+                  {"photometry", PhotometryName(luminaire, session.luminaires[k])},
+                  {"shape", ToString(luminaire.shape)},
+                  {"size_m", SizeJson(luminaire)}};
     // Without an absolute scale a number of lumens would be made up.
     const bool is_known = fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[k].flux);
     entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();

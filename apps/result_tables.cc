@@ -59,7 +59,8 @@ std::string MaterialTable(const json& result) {
 
 std::string LuxmeterTable(const json& result) {
   std::string text =
-      "\nreading      state        measured lx   predicted lx       95 % interval       error %     z  role\n";
+      "\nreading      state        measured lx   predicted lx       95 % interval       error %     z  "
+      "role\n";
   for (const json& r : result["luxmeter"]) {
     const bool both = r["measured_lux"].is_number() && r["predicted_lux"].is_number();
     const double measured = both ? r["measured_lux"].get<double>() : 0;

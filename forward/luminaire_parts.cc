@@ -47,10 +47,10 @@ Eigen::VectorXd PartShares(const Luminaire& luminaire, PartKind kind) {
 
 Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen::VectorXd& shares) {
   const bool has_parts = kind == PartKind::kCell ? IsUneven(luminaire) : IsRotational(luminaire);
-  const Eigen::Index parts =
-      !has_parts                ? 0
-      : kind == PartKind::kCell ? luminaire.emission.size()
-                                : static_cast<Eigen::Index>(luminaire.table->gamma_rad.size());
+  const Eigen::Index parts = !has_parts ? 0
+                             : kind == PartKind::kCell
+                                 ? luminaire.emission.size()
+                                 : static_cast<Eigen::Index>(luminaire.table->gamma_rad.size());
   if (parts == 0 || shares.size() != parts)
     throw std::invalid_argument("WithPartShares: expected one share a part of the luminaire");
   const double sum = shares.sum();
@@ -72,7 +72,8 @@ Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen:
 
 Luminaire PartOf(const Luminaire& luminaire, PartKind kind, int part) {
   const Eigen::Index parts = PartShares(luminaire, kind).size();
-  if (part < 0 || part >= parts) throw std::invalid_argument("PartOf: expected a part that the luminaire has");
+  if (part < 0 || part >= parts)
+    throw std::invalid_argument("PartOf: expected a part that the luminaire has");
   Luminaire alone = WithPartShares(luminaire, kind, Eigen::VectorXd::Unit(parts, part));
   if (kind == PartKind::kGammaNode) {
     // The number of points on the luminous surface goes by the lobe's peak.

@@ -80,9 +80,8 @@ Eigen::VectorXf LuminaireFormFactors(const RayScene& rays, const Patches& patche
   for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
     // The plastic number's recurrence spreads the starts over the surface.
     const double n = static_cast<double>(k + 1);
-    const Eigen::Vector3d start =
-        surface.PointOf(EmittingPlaceAt(surface, {Fraction(0.75487766624669276 * n),
-                                                  Fraction(0.56984029099805327 * n)}));
+    const Eigen::Vector3d start = surface.PointOf(
+        EmittingPlaceAt(surface, {Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n)}));
     const RayHit hit = rays.Trace(start, sample.directions.col(k));
     if (hit.facet < 0 || !hit.front) continue;
     if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/internal/expect_valid.h"
 #include "forward/internal/cell_sum.h"
+#include "forward/internal/expect_valid.h"
 #include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
@@ -138,8 +138,8 @@ DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Se
   if (sensor.response.kind == ResponseKind::kCosine)
     return DirectIlluminancePerLumen(luminaire, sensor.position, sensor.normal);
   if (HasUnevenEmission(luminaire)) {
-    return SumOverCells(
-        luminaire, [&](const Luminaire& cell) { return SensorIlluminancePerLumen(cell, sensor); });
+    return SumOverCells(luminaire,
+                        [&](const Luminaire& cell) { return SensorIlluminancePerLumen(cell, sensor); });
   }
   constexpr int kOrder = 8;
   DirectIlluminance sum;

@@ -15,6 +15,9 @@
 // freeing it lowers the score on what was left out by more than a standard error do the candidates turn, too,
 // and only where the same holds of the chosen one does it stay free.
 //
+// Then what OpenChoice::refinements asks for: a table of intensities, uneven emission, heading and aim of a
+// given photometry (inverse/refinement.h), each kept only where what was left out asks for it.
+//
 // What the caller fixed (a given distribution, shape or aim) is not varied.
 // Source: Breiman, Friedman, Olshen, Stone (1984), "Classification and Regression Trees", sec. 3.4
 // (one-standard-error rule).

@@ -13,8 +13,8 @@
 // in a grid of 4 cells a side of their box), because the residuals of neighbours share their model error.
 // Determined: the interval reaches no further than `tolerance` of the share to either side.
 //
-// Source: house; Cameron and Miller (2015) (clusters); for the ambiguity, Marschner (1998), "Inverse Rendering
-// for Computer Graphics", ch. 6.
+// Source: house; Cameron and Miller (2015) (clusters); for the ambiguity, Marschner (1998), "Inverse
+// Rendering for Computer Graphics", ch. 6.
 #ifndef LUXFIT_INVERSE_DIRECT_SHARE_H_
 #define LUXFIT_INVERSE_DIRECT_SHARE_H_
 
@@ -47,8 +47,7 @@ struct DirectShareOptions {
 
 // `fit`: of readings, with reflectances free; `open`: as for ChooseLuminaireModels.
 DirectShare ProfileDirectShare(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open,
-                               const std::vector<ParameterPrior>& priors,
+                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
                                const DirectShareOptions& options = {});
 
 }  // namespace luxfit

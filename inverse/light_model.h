@@ -48,7 +48,7 @@ struct Reading {
   int state = 0;
   double illuminance_lx = 0;
   double sigma_lx = 0;
-  bool used = false;  // false: only predicted
+  bool used = false;      // false: only predicted
   int sensor_index = -1;  // of several of one meter, each with a gain of its own; -1: the meter's only one
 };
 
@@ -69,9 +69,9 @@ struct LightState {
   double camera_scale = 1;  // relative luminance per cd/m2
   bool camera_scale_free = true;
   double meter_scale = 1;
-  bool meter_scale_free = false;  // wants a prior: nothing else tells it from the fluxes
-  Eigen::VectorXd sensor_gain;    // by Reading::sensor; empty: 1
-  bool sensor_gains_free = false; // want priors likewise
+  bool meter_scale_free = false;   // wants a prior: nothing else tells it from the fluxes
+  Eigen::VectorXd sensor_gain;     // by Reading::sensor; empty: 1
+  bool sensor_gains_free = false;  // want priors likewise
 };
 
 enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };

@@ -1,7 +1,8 @@
 // Smoothness of what a luminaire's parts give, as rows of least squares.
 //
 //   table, nodes j of gamma:    (I_{j-1} - 2 I_j + I_{j+1}) / (s I_ref)      s = FreeQuantities::table_sigma
-//   cells i, j of a rectangle:  (f_i - f_j) / (s f_ref), i and j neighbours  s = FreeQuantities::emission_sigma
+//   cells i, j of a rectangle:  (f_i - f_j) / (s f_ref), i and j neighbours  s =
+//   FreeQuantities::emission_sigma
 //
 // I: intensity at a node, f: share of a cell; ref: the largest share at the start. A table is mirrored at
 // gamma = 0. The second difference at 90 degrees is left free: there, in the plane of its opening, the light

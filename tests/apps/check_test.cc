@@ -68,7 +68,8 @@ class Check : public testing::Test {
   static std::string Row(const std::string& id, double x, double y, const std::string& state, double factor) {
     const double to_x = x - 0.2, to_y = y + 0.1, height = 2;
     const double r = std::sqrt(to_x * to_x + to_y * to_y + height * height);
-    const double lux = (state == "half" ? 0.5 : 1) * 1200 / (4 * 3.14159265358979323846) * height / (r * r * r);
+    const double lux =
+        (state == "half" ? 0.5 : 1) * 1200 / (4 * 3.14159265358979323846) * height / (r * r * r);
     return fmt::format("{},{},{},0,0,0,1,{},{:.6f}\n", id, x, y, state, lux * factor);
   }
 

@@ -57,8 +57,8 @@ TEST(LuminaireParts, NodeFluxOfAnIsotropicTableIsTheWholeHemisphere) {
 }
 
 TEST(LuminaireParts, LightIsTheSumOverPartsByShare) {
-  for (const auto& [lamp, kind] : {std::pair{BatwingPoint(), PartKind::kGammaNode},
-                                   std::pair{UnevenPanel(), PartKind::kCell}}) {
+  for (const auto& [lamp, kind] :
+       {std::pair{BatwingPoint(), PartKind::kGammaNode}, std::pair{UnevenPanel(), PartKind::kCell}}) {
     const Eigen::VectorXd shares = PartShares(lamp, kind);
     double sum = 0;
     for (int j = 0; j < static_cast<int>(shares.size()); ++j) sum += shares[j] * LxAt(PartOf(lamp, kind, j));

@@ -68,8 +68,8 @@ TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
   const Luminaire& lamp = fit.state.luminaires[0];
   ASSERT_EQ(lamp.distribution, Distribution::kMeasured);
   EXPECT_LT((lamp.position - kLamp).norm(), 0.02);
-  // To 70 degrees, where readings lie: 288 readings of 1 %, and straight lines over 7.5 degrees (0.13^2 / 8 of
-  // a second derivative of 8 times the peak: 2 %).
+  // To 70 degrees, where readings lie: 288 readings of 1 %, and straight lines over 7.5 degrees (0.13^2 / 8
+  // of a second derivative of 8 times the peak: 2 %).
   const double peak = BatwingCdPerLm(std::sqrt(0.5)) * 900;
   for (size_t j = 0; j < lamp.table->gamma_rad.size(); ++j) {
     const double gamma = lamp.table->gamma_rad[j];

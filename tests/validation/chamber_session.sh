@@ -1,18 +1,18 @@
 #!/bin/sh
 # Turns the readings of the plant chamber (PalmStudio, Zenodo 10.5281/zenodo.12704284; not shipped) into a session that
 # fits its lamp, and for bare walls their reflectances, to one condition.
-#   chamber_session.sh READINGS_CSV CONDITION OUT_FOLDER      CONDITION: BlackFelt or noFelt
+#   chamber_session.sh READINGS_CSV CONDITION OUT_FOLDER [N]      CONDITION: BlackFelt or noFelt; N: every Nth sensor
 # As its authors do: y <= 0.13 m is dropped (probe ends behind the felt), zeros too, and x is shifted by +0.07 m.
 # World: z = 0 in the lamp plane, up; readings in umol m-2 s-1 stand in for lx (proportional for a fixed spectrum).
 # The bar's sensors, 1.6 cm apart along y, are the same at every x and depth: column sensor.
 # noFelt has the chamber as a box, 1.14 x 1.13 x 1.52 m inside. How far the lamp plane is below its ceiling is not
 # published: 0.2 m here.
 set -eu
-readings=$1 condition=$2 out=$3
+readings=$1 condition=$2 out=$3 every=${4:-1}
 mkdir -p "$out"
-awk -F, -v condition="$condition" '
+awk -F, -v condition="$condition" -v every="$every" '
   BEGIN { print "id,x_m,y_m,z_m,nx,ny,nz,state,lux,sensor" }
-  $1 == condition && $3 > 0.13 && $5 > 0 {
+  $1 == condition && $3 > 0.13 && $5 > 0 && int($3 / 0.016 + 0.5) % every == int(every / 2) {
     printf "d%s_%d,%.4f,%.4f,%.4f,0,0,1,%s,%s,y%s\n", $4, ++n, $2 + 0.07, $3, -$4, condition, $5, $3
   }' "$readings" > "$out/luxmeter.csv"
 cat > "$out/session.toml" <<TOML
