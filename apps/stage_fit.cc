@@ -231,6 +231,7 @@ class FitStage {
     for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
     const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known);
     MatchKnownFluxes(guess);
+    for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(group);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
     }
@@ -240,6 +241,24 @@ class FitStage {
           {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
            "photograph each luminaire in at least one state without the others, or give position_m"});
     }
+  }
+
+  // Which of several that are always on together is which, their light does not say. Luminaires that nobody
+  // named have no other name to be mistaken for.
+  void WarnOfInterchangeable(const std::vector<int>& group) {
+    std::vector<std::string> ids;
+    for (const int k : group) {
+      const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(k)];
+      if (!given.position_m && !session_.count_is_estimated) ids.push_back(given.id);
+    }
+    if (ids.size() < 2) return;
+    context_.warnings.push_back(
+        {"luminaires_interchangeable",
+         fmt::format(
+             "luminaires {} are always on together: their places are found, but not which is at which; they "
+             "are given in the order of x",
+             fmt::join(ids, ", ")),
+         fmt::format("photograph {} without the others, or give position_m", ids.front())});
   }
 
   // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
