@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/check_report.h"
 #include "apps/earlier_result.h"
 #include "apps/input_error.h"
 #include "apps/luminaire_files.h"
@@ -49,6 +50,8 @@ Session ReadRoomSession(const CommandOptions& options) {
 // Everything up to the fit, and the albedo in finer detail where asked for.
 int FitRoom(const CommandOptions& options, bool with_albedo) {
   Session session = ReadRoomSession(options);
+  if (!options.earlier_luminaires.empty())
+    session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
   std::string plan;
@@ -196,10 +199,13 @@ int CheckCommand(const CommandOptions& options) {
         options.out +
         "/result.json: format: expected \"luxfit-result-1\"; run `luxfit run` into this folder");
   }
+  const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
   if (options.json) {
-    Print(nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}}.dump(2) + "\n");
+    Print(nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}
+              .dump(2) +
+          "\n");
   } else {
-    Print(LuxmeterTable(result));
+    Print(LuxmeterTable(result) + CheckText(check));
   }
   return result["status"] == "done" ? 0 : 1;
 }

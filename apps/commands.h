@@ -21,6 +21,8 @@ struct CommandOptions {
   int threads = 0;           // 0: all cores
   // Of simulate and chart.
   double error_percent = 1;
+  std::string subset;              // of check: a pattern of readings with a row of its own
+  std::string earlier_luminaires;  // of run and fit: path of a result.json whose luminaires count as given
   // Of chart.
   double budget_s = 120;
   std::string earlier_result;  // path of a result.json whose luminaires and reflectances count as given

@@ -29,28 +29,68 @@ void Replace(SessionLuminaire& luminaire, const json& fitted, const std::string&
   luminaire.size_m = fitted.at("size_m").get<std::vector<double>>();
   // A photometric file stays the session's own.
   if (luminaire.photometry_path.empty()) luminaire.photometry = fitted.at("photometry").get<std::string>();
+  if (fitted.contains("heading")) luminaire.heading = VectorFrom(fitted.at("heading"));
+  if (fitted.contains("gamma_deg")) {
+    luminaire.gamma_deg = fitted.at("gamma_deg").get<std::vector<double>>();
+    luminaire.cd_per_klm = fitted.at("cd_per_klm").get<std::vector<double>>();
+  }
+  if (fitted.contains("emission")) {
+    const json& rows = fitted.at("emission");
+    luminaire.emission.resize(static_cast<Eigen::Index>(rows.at(0).size()),
+                              static_cast<Eigen::Index>(rows.size()));
+    for (size_t j = 0; j < rows.size(); ++j) {
+      for (size_t i = 0; i < rows[0].size(); ++i)
+        luminaire.emission(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            rows[j].at(i).get<double>();
+    }
+  }
   if (fitted.contains("cosine_exponent")) luminaire.cosine_exponent = fitted["cosine_exponent"].get<double>();
 }
 
-}  // namespace
-
-Session WithResult(Session session, const std::string& path) {
-  const json result = ReadJson(path);
+json ReadResult(const std::string& path) {
+  json result = ReadJson(path);
   if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
     throw InputError({path, 0}, "format",
                      "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
                      "wrote");
+  return result;
+}
+
+void ReplaceLuminaires(Session& session, const json& result, bool is_held, const std::string& path) {
+  for (const json& fitted : result.at("luminaires")) {
+    const std::string id = fitted.at("id").get<std::string>();
+    const auto known = std::find_if(session.luminaires.begin(), session.luminaires.end(),
+                                    [&](const SessionLuminaire& l) { return l.id == id; });
+    if (known == session.luminaires.end())
+      throw InputError({path, 0}, "luminaires",
+                       "expected luminaires of " + session.path + ", got " + Quoted(id) +
+                           "; give the result of this session");
+    Replace(*known, fitted, path);
+    known->is_held = is_held;
+  }
+}
+
+std::runtime_error NotWhole(const std::string& path, const json::exception& e) {
+  return InputError({path, 0}, "", std::string("expected a whole result of luxfit; ") + e.what());
+}
+
+}  // namespace
+
+Session WithLuminairesOf(Session session, const std::string& path) {
+  const json result = ReadResult(path);
   try {
-    for (const json& fitted : result.at("luminaires")) {
-      const std::string id = fitted.at("id").get<std::string>();
-      const auto known = std::find_if(session.luminaires.begin(), session.luminaires.end(),
-                                      [&](const SessionLuminaire& l) { return l.id == id; });
-      if (known == session.luminaires.end())
-        throw InputError({path, 0}, "luminaires",
-                         "expected luminaires of " + session.path + ", got " + Quoted(id) +
-                             "; give the result of this session");
-      Replace(*known, fitted, path);
-    }
+    ReplaceLuminaires(session, result, true, path);
+  } catch (const json::exception& e) {
+    throw NotWhole(path, e);
+  }
+  session.input_files.push_back(path);
+  return session;
+}
+
+Session WithResult(Session session, const std::string& path) {
+  const json result = ReadResult(path);
+  try {
+    ReplaceLuminaires(session, result, false, path);
     for (const json& material : result.at("materials")) {
       if (!session.scene) break;
       const json &rgb = material.at("albedo_rgb"), &grey = material.at("albedo");
@@ -62,7 +102,7 @@ Session WithResult(Session session, const std::string& path) {
       }
     }
   } catch (const json::exception& e) {
-    throw InputError({path, 0}, "", std::string("expected a whole result of luxfit; ") + e.what());
+    throw NotWhole(path, e);
   }
   session.input_files.push_back(path);
   return session;

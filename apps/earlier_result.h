@@ -1,7 +1,6 @@
 // A session whose luminaires and reflectances are those of an earlier fit.
 //
-// What the result holds replaces what the session says (heading apart, which no fit estimates); what the fit
-// did not determine stays as the session has it, and is missing where that says nothing.
+// What the result holds replaces what the session says; what the fit did not determine stays as the session has it, and is missing where that says nothing.
 //
 // Throws std::runtime_error naming the file where it is no result of luxfit, or one without fluxes in lm.
 #ifndef LUXFIT_APPS_EARLIER_RESULT_H_
@@ -12,6 +11,9 @@
 #include "apps/session.h"
 
 namespace luxfit {
+
+// The same with luminaires alone, which no fit then changes; reflectances stay the session's.
+Session WithLuminairesOf(Session session, const std::string& path);
 
 Session WithResult(Session session, const std::string& path);
 

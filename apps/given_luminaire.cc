@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "forward/luminaire_parts.h"
+
 namespace luxfit {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr double kFluxTolerance = 0.03;
 Distribution DistributionFrom(const std::string& photometry) {
   if (photometry == "isotropic") return Distribution::kIsotropic;
   if (photometry == "lambertian") return Distribution::kLambertian;
+  if (photometry == "table") return Distribution::kMeasured;
   return Distribution::kCosinePower;
 }
 
@@ -22,6 +25,18 @@ LuminaireShape ShapeFrom(const std::string& shape) {
   if (shape == "rectangle") return LuminaireShape::kRectangle;
   if (shape == "sphere") return LuminaireShape::kSphere;
   return LuminaireShape::kPoint;
+}
+
+// A table to be estimated starts as Lambertian, every 7.5 degrees.
+std::shared_ptr<const IntensityTable> GivenTable(const SessionLuminaire& given) {
+  constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+  std::vector<double> gamma_rad, intensity = given.cd_per_klm;
+  for (const double gamma_deg : given.gamma_deg) gamma_rad.push_back(kRadPerDeg * gamma_deg);
+  for (int j = 0; given.gamma_deg.empty() && j <= 12; ++j) {
+    gamma_rad.push_back(kRadPerDeg * 7.5 * j);
+    intensity.push_back(std::max(std::cos(gamma_rad.back()), 1e-3));
+  }
+  return std::make_shared<IntensityTable>(RotationalTable(gamma_rad, intensity));
 }
 
 }  // namespace
@@ -40,6 +55,7 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
     luminaire.size_m = result.file->size_m;
     luminaire.flux_lm = result.file->luminaire_flux_lm;
   }
+  if (given.photometry == "table") luminaire.table = GivenTable(given);
   if (given.shape) {
     const LuminaireShape shape = ShapeFrom(*given.shape);
     // The file's size belongs to the file's shape.
@@ -47,6 +63,7 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
     luminaire.shape = shape;
   }
   if (!given.size_m.empty()) luminaire.size_m = {given.size_m.front(), given.size_m.back()};
+  luminaire.emission = given.emission;
   if (given.cosine_exponent) luminaire.cosine_exponent = *given.cosine_exponent;
   if (given.position_m) luminaire.position = *given.position_m;
   if (given.aim) luminaire.aim = *given.aim;

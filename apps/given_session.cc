@@ -39,6 +39,9 @@ void ExpectGiven(const Session& session, const std::string& command) {
       throw MissingKey(
           session, k, "cosine_exponent",
           "expected the exponent of the cosine-power lobe, got nothing; add cosine_exponent = 3");
+    if (given.photometry == "table" && given.gamma_deg.empty())
+      throw MissingKey(session, k, "gamma_deg",
+                       "expected the nodes of the table, got nothing; add gamma_deg and cd_per_klm");
     if (!given.flux_lm && given.photometry_path.empty())
       throw MissingKey(session, k, "flux_lm", "expected a flux, got nothing; add flux_lm = 3000");
   }

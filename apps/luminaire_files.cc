@@ -20,13 +20,14 @@ bool IsInFiles(const Parameter& parameter) {
   return parameter.kind == ParameterKind::kLuminaire &&
          (parameter.quantity == LuminaireQuantity::kExponent ||
           parameter.quantity == LuminaireQuantity::kSizeAlong ||
-          parameter.quantity == LuminaireQuantity::kSizeAcross);
+          parameter.quantity == LuminaireQuantity::kSizeAcross ||
+          parameter.quantity == LuminaireQuantity::kGammaNode);
 }
 
 bool IsDetermined(const SessionFit& fit, size_t luminaire) {
   const LuminaireFit& solved = fit.fit;
   const bool is_solved = solved.IsUsable() || solved.covariance.size() > 0;
-  if (!fit.absolute || !is_solved || !fit.luminaire_found[luminaire]) return false;
+  if (!fit.absolute || !is_solved || !fit.TellsDirectLight() || !fit.luminaire_found[luminaire]) return false;
   const auto names = [](const std::vector<std::string>& list, const Parameter& p) {
     return std::count(list.begin(), list.end(), p.name) > 0;
   };
@@ -59,7 +60,9 @@ PhotometryLabels LabelsOf(const Session& session, const Luminaire& luminaire,
   labels.luminaire = luminaire.id + ": " + Described(luminaire);
   labels.issue_date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   labels.remarks = {fmt::format("fitted to measurements in a room, flux {:.6g} lm", luminaire.flux_lm)};
-  if (luminaire.distribution == Distribution::kMeasured)
+  if (luminaire.emission.size() > 0)
+    labels.remarks.push_back("the opening shines unevenly, which these files cannot say");
+  if (!photometry_path.empty())
     labels.remarks.push_back("distribution of " + std::filesystem::path(photometry_path).filename().string());
   return labels;
 }

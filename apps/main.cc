@@ -155,6 +155,13 @@ int main(int argc, char** argv) {
       add("check", "measured against predicted luxmeter readings of an earlier run", false,
           luxfit::CheckCommand)};
 
+  app.get_subcommand("check")->add_option(
+      "--subset", options.subset, "a row for the readings of this pattern too: id or id@state, * for any text");
+  for (const char* name : {"run", "fit"}) {
+    app.get_subcommand(name)->add_option(
+        "--luminaires", options.earlier_luminaires,
+        "result.json of an earlier fit: its luminaires count as given, such as those read with covered walls");
+  }
   for (const char* name : {"simulate", "chart"}) {
     app.get_subcommand(name)
         ->add_option("--error", options.error_percent,

@@ -5,7 +5,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/check_report.h"
 #include "apps/stages.h"
+#include "forward/photometry.h"
 #include "inverse/luxmeter_check.h"
 
 namespace luxfit {
@@ -55,7 +57,7 @@ json MaterialsJson(const Session& session, const Room& room, const SessionFit& f
     const bool given = session.scene->known_albedo_rgb.count(name) > 0;
     const bool estimated = fit.fit.state.albedo_free[m];
     const double sigma = SigmaOf(fit.fit, ParameterKind::kAlbedo, static_cast<int>(m));
-    const bool determined = given || (estimated && std::isfinite(sigma));
+    const bool determined = given || (estimated && std::isfinite(sigma) && fit.TellsDirectLight());
     json material = {
         {"name", name},
         {"source", given ? "given" : (determined ? "estimated" : (estimated ? "undetermined" : "unseen"))}};
@@ -69,10 +71,37 @@ json MaterialsJson(const Session& session, const Room& room, const SessionFit& f
   return materials;
 }
 
+// Whether light or shape depends on the heading.
+bool DependsOnHeading(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle ||
+         (luminaire.distribution == Distribution::kMeasured && !IsSymmetricAboutAim(*luminaire.table));
+}
+
+// Nodes as in session files: cd per 1000 lm of the luminaire's flux.
+void AddNodes(const IntensityTable& table, json& entry) {
+  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  for (size_t j = 0; j < table.gamma_rad.size(); ++j) {
+    entry["gamma_deg"].push_back(kDegrees * table.gamma_rad[j]);
+    entry["cd_per_klm"].push_back(1000 * table.cd_per_lm[j]);
+  }
+}
+
+json EmissionJson(const Eigen::ArrayXXd& emission) {
+  json rows = json::array();
+  for (const auto column : emission.colwise())
+    rows.push_back(std::vector<double>(column.begin(), column.end()));
+  return rows;
+}
+
 json SizeJson(const Luminaire& luminaire) {
   if (luminaire.shape == LuminaireShape::kPoint) return json::array();
   if (luminaire.shape == LuminaireShape::kRectangle) return {luminaire.size_m[0], luminaire.size_m[1]};
   return json::array({luminaire.size_m[0]});
+}
+
+std::string PhotometryName(const Luminaire& luminaire, const SessionLuminaire& given) {
+  if (luminaire.distribution != Distribution::kMeasured) return ToString(luminaire.distribution);
+  return given.photometry_path.empty() ? "table" : given.photometry;
 }
 
 json LuminairesJson(const Session& session, const SessionFit& fit, const std::vector<LuminaireFiles>& files) {
@@ -91,20 +120,27 @@ json LuminairesJson(const Session& session, const SessionFit& fit, const std::ve
          {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
           sigma(LuminaireQuantity::kPositionZ)}},
         {"aim", Vector(luminaire.aim)},
-        {"photometry", luminaire.distribution == Distribution::kMeasured ? session.luminaires[k].photometry
-                                                                         : ToString(luminaire.distribution)},
+        {"photometry", PhotometryName(luminaire, session.luminaires[k])},
         {"shape", ToString(luminaire.shape)},
         {"size_m", SizeJson(luminaire)}};
     // Without an absolute scale a number of lumens would be made up.
-    entry["flux_lm"] = fit.absolute ? json(luminaire.flux_lm) : json();
+    const bool is_known = fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[k].flux);
+    entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();
     entry["flux_sigma_lm"] =
-        fit.absolute ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
+        is_known ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
     if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
     if (fit.fit.state.free[k].tilt) {
       constexpr double kDegrees = 180 / 3.14159265358979323846;
       entry["aim_sigma_deg"] = {kDegrees * sigma(LuminaireQuantity::kTiltAlong),
                                 kDegrees * sigma(LuminaireQuantity::kTiltAcross)};
     }
+    if (DependsOnHeading(luminaire)) entry["heading"] = Vector(AxesOf(luminaire).along);
+    if (fit.fit.state.free[k].heading) {
+      constexpr double kDegrees = 180 / 3.14159265358979323846;
+      entry["heading_sigma_deg"] = kDegrees * sigma(LuminaireQuantity::kHeading);
+    }
+    if (entry["photometry"] == "table") AddNodes(*luminaire.table, entry);
+    if (luminaire.emission.size() > 0) entry["emission"] = EmissionJson(luminaire.emission);
     if (luminaire.distribution == Distribution::kCosinePower) {
       entry["cosine_exponent"] = luminaire.cosine_exponent;
       entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
@@ -141,16 +177,24 @@ void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
     const SessionReading& given = session.luxmeter.readings[i];
     const Eigen::Index row = static_cast<Eigen::Index>(i);
     const double sigma = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
+    const double model_sigma = fit.fit.relative_sigma * fit.fit.predicted[first + row];
+    const double whole_sigma = std::hypot(sigma, model_sigma);
     const CheckedReading reading{given.illuminance_lx, fit.fit.predicted[first + row],
-                                 fit.data.readings[i].sigma_lx, sigma};
+                                 fit.data.readings[i].sigma_lx, whole_sigma};
     json entry = {{"id", given.id},
                   {"state", given.state},
                   {"role", RoleName(given.role)},
                   {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
     const bool predicted = IsPredicted(session, fit, given.state);
     entry["predicted_lux"] = predicted ? json(reading.predicted_lx) : json();
-    entry["direct_lux"] = predicted ? json(fit.fit.reading_direct_lx[row]) : json();
+    entry["direct_lux"] = predicted && fit.TellsDirectLight() ? json(fit.fit.reading_direct_lx[row]) : json();
     entry["sigma_lux"] = predicted ? json(sigma) : json();
+    entry["prediction_sigma_lux"] = predicted ? json(whole_sigma) : json();
+    if (predicted) {
+      constexpr double kTwoSided95 = 1.96;
+      entry["interval95_lux"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * whole_sigma),
+                                 reading.predicted_lx + kTwoSided95 * whole_sigma};
+    }
     if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
     if (given.is_measured && predicted) entry["z"] = ZScore(reading);
     result["luxmeter"].push_back(entry);
@@ -161,6 +205,21 @@ void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
                        {"mean_abs_error_percent", summary.mean_abs_error_percent},
                        {"max_abs_error_percent", summary.max_abs_error_percent},
                        {"readings_checked", summary.readings_checked}};
+  result["check"] = CheckJson(result["luxmeter"]);
+}
+
+json DirectShareJson(const DirectShare& share) {
+  json candidates = json::array();
+  for (const DirectShareCandidate& c : share.candidates)
+    candidates.push_back({{"model", c.name},
+                          {"share", c.share},
+                          {"sigma", c.sigma},
+                          {"rms", c.rms},
+                          {"admissible", c.is_admissible}});
+  return {{"share", share.share},
+          {"interval95", {share.lower, share.upper}},
+          {"determined", share.is_determined},
+          {"candidates", candidates}};
 }
 
 }  // namespace
@@ -189,6 +248,7 @@ json ResultJson(const Session& session, const Room& room, const RegisteredSessio
   result["materials"] = MaterialsJson(session, room, fit);
   result["luminaires"] = LuminairesJson(session, fit, files);
   AddLuxmeter(session, fit, result);
+  if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);
   result["timing_s"] = context.timing_s;

@@ -17,6 +17,12 @@ std::string PlusMinus(const json& value, const json& sigma, const char* format) 
   return Number(value, format) + " ± " + Number(sigma, format);
 }
 
+std::string Interval(const json& reading) {
+  if (!reading.contains("interval95_lux")) return "-";
+  const json& interval = reading["interval95_lux"];
+  return Number(interval[0], "{:.2f}") + " to " + Number(interval[1], "{:.2f}");
+}
+
 std::string SizeText(const json& size) {
   std::string text;
   for (const json& side : size) text += (text.empty() ? "" : " x ") + Number(side, "{:.2f}");
@@ -52,15 +58,16 @@ std::string MaterialTable(const json& result) {
 }  // namespace
 
 std::string LuxmeterTable(const json& result) {
-  std::string text = "\nreading      state        measured lx   predicted lx       error %     z  role\n";
+  std::string text =
+      "\nreading      state        measured lx   predicted lx       95 % interval       error %     z  role\n";
   for (const json& r : result["luxmeter"]) {
     const bool both = r["measured_lux"].is_number() && r["predicted_lux"].is_number();
     const double measured = both ? r["measured_lux"].get<double>() : 0;
     const std::string error =
         measured > 0 ? fmt::format("{:+.2f}", 100 * (r["predicted_lux"].get<double>() / measured - 1)) : "-";
-    text += fmt::format("{:<12} {:<10} {:>12}   {:<18} {:>7} {:>5}  {}\n", r["id"].get<std::string>(),
+    text += fmt::format("{:<12} {:<10} {:>12}   {:<18} {:<19} {:>7} {:>5}  {}\n", r["id"].get<std::string>(),
                         r["state"].get<std::string>(), Number(r["measured_lux"], "{:.2f}"),
-                        PlusMinus(r["predicted_lux"], r["sigma_lux"], "{:.2f}"), error,
+                        PlusMinus(r["predicted_lux"], r["sigma_lux"], "{:.2f}"), Interval(r), error,
                         r.contains("z") ? Number(r["z"], "{:.1f}") : "-", r["role"].get<std::string>());
   }
   const json& s = result["summary"];

@@ -116,9 +116,11 @@ struct SessionLights {
 struct SessionLuminaire {
   std::string id;
   std::string photometry =
-      "auto";                   // isotropic | lambertian | cosine_power | auto | a file as the session has it
+      "auto";  // isotropic | lambertian | cosine_power | table | auto | a file as the session has it
   std::string photometry_path;  // absolute path of that .ies or .ldt; empty: none
   std::optional<double> cosine_exponent;
+  std::vector<double> gamma_deg, cd_per_klm;  // of a given table; empty: to be estimated
+  Eigen::ArrayXXd emission;                   // cells along the heading x across; empty: even
   std::optional<std::string> shape;  // point | disc | rectangle | sphere
   std::vector<double> size_m;
   std::optional<Eigen::Vector3d> position_m;
@@ -127,6 +129,7 @@ struct SessionLuminaire {
   std::optional<Eigen::Vector3d> heading;  // unit
   std::optional<double> flux_lm;
   std::optional<double> flux_sigma_lm;
+  bool is_held = false;  // an earlier fit's: nothing of it is estimated
   int line = 0;  // of its [[luminaire]]; 0: only named in [states]
 };
 
@@ -141,7 +144,8 @@ struct SessionReading {
   double illuminance_lx = 0;  // 0 where not measured; without ambient light after the linearize stage
   double ambient_lx = 0;      // measured there with all luminaires off, and subtracted
   ReadingRole role = ReadingRole::kCheck;
-  int line = 0;  // in the readings table
+  std::string sensor;  // of several of one meter, each with a gain of its own; empty: the meter's only one
+  int line = 0;        // in the readings table
 };
 
 struct SessionLuxmeter {
@@ -153,6 +157,7 @@ struct SessionLuxmeter {
   // Relative standard uncertainty of one reading that all readings share (calibration), from the class; 0 if
   // none given.
   double common_sigma = 0;
+  double sensor_sigma = 0.03;  // relative, of the gains of sensors that the table names
 };
 
 // How cameras without intrinsics are calibrated.

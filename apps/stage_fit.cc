@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "apps/given_luminaire.h"
 #include "apps/stages.h"
+#include "forward/photometry.h"
 #include "inverse/albedo_rgb.h"
 #include "inverse/first_guess.h"
+#include "inverse/measured_indirect.h"
 
 namespace luxfit {
 namespace {
@@ -20,9 +23,26 @@ constexpr double kUnknownMeterSigma = 0.02;
 // Of a single reading of a meter whose class is given: placing it, and its display.
 constexpr double kReadingSigma = 0.01;
 // Observed elements used until the models are chosen: positions are then known to a few millimetres.
-constexpr int kMaxElementsToChoose = 3000;
+constexpr int kMaxElementsToChoose = 2000;
 // A material with fewer observed elements is as good as unseen.
 constexpr int kMinElementsOfMaterial = 3;
+
+// Of a table that is asked for, until its strength is chosen.
+constexpr double kStartTableSigma = 0.1;
+
+std::string NameOf(RefinementKind kind) {
+  switch (kind) {
+    case RefinementKind::kHeading:
+      return "heading";
+    case RefinementKind::kAim:
+      return "aim";
+    case RefinementKind::kTable:
+      return "table of intensities";
+    case RefinementKind::kEmission:
+      return "emission over the opening";
+  }
+  return "";
+}
 
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
@@ -41,33 +61,12 @@ class FitStage {
         context_, "fit",
         fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
                     result_.data.observations.size(), used_readings_, session_.luminaires.size()));
-    {
-      const StageTimer guess_timer(context_, "guess", "where the luminaires may be");
-      Start();
-    }
-    // The models are chosen from a part of the data; the last fit sees all of it.
-    LightData part = result_.data;
-    part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
-    FitLuminairesOptions quick;
-    quick.covariance = false;
-    LuminaireFit fit = FitLuminaires(room_, part, start_, priors_, quick);
-    if (fit.IsUsable()) {
-      std::vector<OpenChoice> open;
-      for (size_t k = 0; k < start_.luminaires.size(); ++k) {
-        const SessionLuminaire& given = session_.luminaires[k];
-        open.push_back(
-            {given.photometry == "auto" && result_.luminaire_found[k],
-             !given.shape.has_value() && given.photometry_path.empty() && result_.luminaire_found[k],
-             !given.aim.has_value() && result_.luminaire_found[k]});
-      }
-      const ModelChoice choice = [&] {
-        const StageTimer choose_timer(context_, "choose",
-                                      "the simplest model of each luminaire that the data support");
-        return ChooseLuminaireModels(room_, result_.data, fit.state, open, priors_);
-      }();
-      for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
-      for (const AimChoice& c : choice.aims) RecordAim(c);
-      fit = FitLuminaires(room_, result_.data, choice.state, priors_);
+    LightState state = StartByParts();
+    SettleScale(state);
+    LuminaireFit fit = FitToAll(state);
+    if (fit.IsUsable() && AsksForDirectShare()) {
+      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, priors_);
+      RecordDirectShare();
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
     result_.fit = std::move(fit);
@@ -76,6 +75,95 @@ class FitStage {
   }
 
  private:
+  // A start that needs no more than a few steps of the whole problem: places, models and fluxes of the
+  // luminaires. Photos hold the indirect light that they measured for that; readings alone need the
+  // radiosity.
+  LightState StartByParts() {
+    const bool photos = !result_.data.observations.empty();
+    LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
+    {
+      const StageTimer timer(context_, "guess", "where the luminaires may be");
+      Start(data);
+    }
+    LightState state = start_;
+    // Without readings, a flux tells the camera's scale, or it is given.
+    if (photos) state.camera_scale_free = state.camera_scale_free && flux_known_;
+    if (photos) state.meter_scale_free = false;
+    LightData part = data;
+    part.observations = ThinElements(data.observations, kMaxElementsToChoose);
+    FitLuminairesOptions quick;
+    quick.covariance = false;
+    LuminaireFit fit = FitLuminaires(room_, part, state, priors_, quick);
+    if (fit.status == FitStatus::kNoData) return start_;
+    if (photos) {
+      // With the radiosity solved, so that the models are compared in its light.
+      part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose / 2);
+      part.indirect_is_held = false;
+      fit = FitLuminaires(room_, part, fit.state, priors_, quick);
+      data = WithModelledIndirect(room_, result_.data, fit.state);
+    }
+    if (!fit.IsUsable()) return start_;
+    state = ChooseModels(data, fit.state);
+    state.camera_scale_free = start_.camera_scale_free;
+    state.meter_scale_free = start_.meter_scale_free;
+    return state;
+  }
+
+  LightState ChooseModels(const LightData& data, const LightState& state) {
+    const StageTimer timer(context_, "choose", "the simplest model of each luminaire that the data support");
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      const SessionLuminaire& given = session_.luminaires[k];
+      const bool found = result_.luminaire_found[k];
+      open_.push_back({found && given.photometry == "auto",
+                       found && !given.shape.has_value() && given.photometry_path.empty(),
+                       found && !given.aim.has_value(), RefinementsOf(k)});
+    }
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, priors_);
+    for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
+    for (const AimChoice& c : choice.aims) RecordAim(c);
+    for (const Refinement& r : choice.refinements) RecordRefinement(r);
+    return choice.state;
+  }
+
+  // The whole problem: on a part of the elements until nothing moves, then on all of them.
+  LuminaireFit FitToAll(const LightState& start) {
+    const StageTimer timer(context_, "refine", "the whole problem, interreflection solved");
+    LightData part = result_.data;
+    part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
+    if (part.observations.size() == result_.data.observations.size())
+      return FitLuminaires(room_, result_.data, start, priors_);
+    FitLuminairesOptions options;
+    options.covariance = false;
+    const LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
+    if (near.status == FitStatus::kNoData) return near;
+    options.covariance = true;
+    options.start_is_near = true;
+    options.initial_relative_sigma = near.relative_sigma;
+    return FitLuminaires(room_, result_.data, near.state, priors_, options);
+  }
+
+  // What is open of a luminaire beyond its simple model.
+  OpenRefinements RefinementsOf(size_t k) const {
+    const SessionLuminaire& given = session_.luminaires[k];
+    const Luminaire& start = start_.luminaires[k];
+    OpenRefinements open;
+    if (!result_.luminaire_found[k] || given.is_held) return open;
+    const bool is_file = !given.photometry_path.empty();
+    open.heading = is_file && !given.heading && !IsSymmetricAboutAim(*start.table);
+    open.table_asked_for = given.photometry == "table" && given.gamma_deg.empty();
+    open.aim = (is_file || open.table_asked_for) && !given.aim;
+    open.table = given.photometry == "auto" || open.table_asked_for;
+    open.emission = given.photometry_path.empty() && given.emission.size() == 0 &&
+                    given.shape.value_or("rectangle") == "rectangle" && given.gamma_deg.empty();
+    return open;
+  }
+
+  // Reflectances that only readings speak of.
+  bool AsksForDirectShare() const {
+    return result_.data.observations.empty() && used_readings_ > 0 &&
+           std::count(start_.albedo_free.begin(), start_.albedo_free.end(), true) > 0;
+  }
+
   void FillStates() {
     for (const SessionState& state : session_.states) {
       Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session_.luminaires.size()));
@@ -111,9 +199,11 @@ class FitStage {
       const double taken_lx = std::hypot(given.illuminance_lx + given.ambient_lx, given.ambient_lx);
       reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
       reading.used = given.role != ReadingRole::kCheck;
+      reading.sensor_index = SensorIndex(given.sensor);
       used_readings_ += reading.used ? 1 : 0;
       result_.data.readings.push_back(reading);
     }
+    FillSensorGains();
     if (start_.meter_scale_free) {
       context_.choices.push_back({"uncertainty of a reading",
                                   fmt::format("{:g} % of each, {:g} % common to all (1 sigma)",
@@ -127,6 +217,25 @@ class FitStage {
            {},
            "luxmeter.class is not given; class B (10 % expanded) would be 5 %, L 1.5 %"});
     }
+  }
+
+  int SensorIndex(const std::string& name) {
+    if (name.empty()) return -1;
+    return sensors_.emplace(name, static_cast<int>(sensors_.size())).first->second;
+  }
+
+  // Sensors of one meter, each with a gain of its own that its readings share.
+  void FillSensorGains() {
+    if (sensors_.empty()) return;
+    const double sigma = session_.luxmeter.sensor_sigma;
+    start_.sensor_gain = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(sensors_.size()));
+    start_.sensor_gains_free = used_readings_ > 0;
+    for (int i = 0; start_.sensor_gains_free && i < static_cast<int>(sensors_.size()); ++i)
+      priors_.push_back({ParameterKind::kLogSensorGain, i, {}, 0, sigma});
+    context_.choices.push_back({"gains of the meter's sensors",
+                                fmt::format("{} gains, each 1 ± {:g} beforehand", sensors_.size(), sigma),
+                                {},
+                                "the readings' table has a column sensor"});
   }
 
   // Reflectances, camera scale: known, to be estimated, or out of reach.
@@ -146,7 +255,7 @@ class FitStage {
         const Eigen::Vector3d weights = session_.cameras.empty() ? Eigen::Vector3d(0.265, 0.670, 0.065)
                                                                  : session_.cameras[0].luminance_weights;
         start_.albedo[static_cast<Eigen::Index>(m)] = weights.dot(known->second);
-      } else if (observed) {
+      } else if (observed || (result_.data.observations.empty() && used_readings_ > 0)) {
         start_.albedo_free[m] = true;
       } else if (!result_.data.observations.empty()) {
         context_.warnings.push_back(
@@ -167,8 +276,12 @@ class FitStage {
     }
   }
 
-  void Start() {
-    const FirstGuess guess = GuessLuminaires(room_, result_.data);
+  // `data`: with the indirect light that photos measured, or readings alone.
+  void Start(const LightData& data) {
+    std::vector<std::optional<Eigen::Vector3d>> known;
+    for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
+    const FirstGuess guess = GuessLuminaires(room_, data, known);
+    MatchKnownFluxes(guess);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
     }
@@ -178,7 +291,17 @@ class FitStage {
           {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
            "photograph each luminaire in at least one state without the others, or give position_m"});
     }
-    SettleScale();
+  }
+
+  // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
+  void MatchKnownFluxes(const FirstGuess& guess) {
+    double guessed = 0, known = 0;
+    for (size_t k = 0; k < session_.luminaires.size(); ++k) {
+      if (!session_.luminaires[k].flux_lm || !guess.luminaires[k].found) continue;
+      guessed += guess.luminaires[k].flux;
+      known += *session_.luminaires[k].flux_lm;
+    }
+    if (start_.camera_scale_free && guessed > 0 && known > 0) start_.camera_scale = guessed / known;
   }
 
   void AddLuminaire(const FirstGuess& guess, int index) {
@@ -188,6 +311,7 @@ class FitStage {
     Luminaire luminaire = known.luminaire;
     FreeQuantities free;
     RecordGivenPhotometry(known, context_);
+    free.table_sigma = given.photometry == "table" && given.gamma_deg.empty() ? kStartTableSigma : 0;
     const bool automatic = given.photometry == "auto";
     if (automatic && guessed.found) luminaire.cosine_exponent = std::max(1.0, guessed.cosine_exponent);
     free.exponent = luminaire.distribution == Distribution::kCosinePower;
@@ -196,7 +320,8 @@ class FitStage {
     free.size = luminaire.shape != LuminaireShape::kPoint && luminaire.shape != LuminaireShape::kSphere &&
                 !size_known;
     luminaire.position = given.position_m.value_or(guessed.position);
-    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux);
+    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux / start_.camera_scale);
+    if (!given.aim && guessed.found && given.photometry_path.empty()) luminaire.aim = guessed.aim;
     const bool found = guessed.found || given.position_m.has_value();
     constexpr double kAnyFluxLm =
         1000;  // of a known place, where the guess says nothing: a start, not a value
@@ -213,12 +338,16 @@ class FitStage {
     }
     free.position = found && !(given.position_sigma_m && *given.position_sigma_m == 0);
     free.flux = found && !(given.flux_sigma_lm && *given.flux_sigma_lm == 0);
-    if (found) AddPriors(given, index);
-    if (!given.aim && !given.photometry_path.empty()) {
-      context_.choices.push_back({"aim of " + given.id,
-                                  "straight down",
-                                  {},
-                                  "no aim was given, and that of a given photometry is not estimated"});
+    if (given.is_held) {
+      free = {false, false, false, false, false};
+      flux_known_ = true;
+    }
+    if (found && !given.is_held) AddPriors(given, index);
+    if (!given.heading && !given.photometry_path.empty() && IsSymmetricAboutAim(*luminaire.table)) {
+      context_.choices.push_back({"heading of " + given.id,
+                                  "not estimated",
+                                  {"not estimated", "estimated"},
+                                  "its photometry is the same all round: no light tells a heading"});
     }
     result_.luminaire_found.push_back(found);
     start_.luminaires.push_back(luminaire);
@@ -245,10 +374,10 @@ class FitStage {
 
   // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
   // camera.
-  void SettleScale() {
-    result_.absolute = used_readings_ > 0 || flux_known_ || !start_.camera_scale_free;
+  void SettleScale(LightState& state) {
+    result_.absolute = used_readings_ > 0 || flux_known_ || !state.camera_scale_free;
     if (!result_.absolute) {
-      start_.camera_scale_free = false;
+      state.camera_scale_free = false;
       context_.undetermined = true;
       context_.warnings.push_back(
           {"scale_undetermined",
@@ -256,27 +385,27 @@ class FitStage {
            "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
            "sigma"});
     }
-    if (result_.absolute && start_.camera_scale_free) MatchScale();
+    if (used_readings_ > 0 && state.camera_scale_free) MatchScale(state);
   }
 
-  // Start with fluxes in the readings' scale: one linear factor, solved exactly.
-  void MatchScale() {
-    const LightData& data = result_.data;
-    LightModel model(room_, data);
-    model.FreezeVisibility(start_);
-    const Eigen::VectorXd predicted = model.Predict(start_, {}, false).value;
-    double measured = 0, modelled = 0;
-    for (size_t i = 0; i < data.readings.size(); ++i) {
-      if (!data.readings[i].used) continue;
-      measured += data.readings[i].illuminance_lx;
-      modelled += predicted[static_cast<Eigen::Index>(data.observations.size() + i)];
+  // Fluxes in the readings' scale: one linear factor, solved exactly.
+  void MatchScale(LightState& state) const {
+    LightData readings;
+    readings.dimming = result_.data.dimming;
+    for (const Reading& reading : result_.data.readings) {
+      if (reading.used) readings.readings.push_back(reading);
     }
+    LightModel model(room_, readings);
+    model.FreezeVisibility(state);
+    const double modelled = model.Predict(state, {}, false).value.sum();
+    double measured = 0;
+    for (const Reading& reading : readings.readings) measured += reading.illuminance_lx;
     if (!(measured > 0) || !(modelled > 0)) return;
-    for (size_t k = 0; k < start_.luminaires.size(); ++k) {
-      if (start_.free[k].flux && !session_.luminaires[k].flux_lm)
-        start_.luminaires[k].flux_lm *= measured / modelled;
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      if (state.free[k].flux && !session_.luminaires[k].flux_lm)
+        state.luminaires[k].flux_lm *= measured / modelled;
     }
-    start_.camera_scale *= modelled / measured;
+    state.camera_scale *= modelled / measured;
   }
 
   void RecordChoice(const LuminaireChoice& choice) {
@@ -303,6 +432,48 @@ class FitStage {
              "normalised error: straight down {:.3f}, estimated {:.3f}, standard error of the difference "
              "{:.3f})",
              choice.score_held, choice.score_free, choice.standard_error)});
+  }
+
+  void RecordRefinement(const Refinement& step) {
+    const std::string& id = session_.luminaires[static_cast<size_t>(step.luminaire)].id;
+    std::string scores;
+    for (size_t i = 0; i < step.among.size(); ++i) {
+      scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", step.among[i], step.score[i]);
+      if (step.effective_parameters[i] > 1)
+        scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
+    }
+    const bool is_heading = step.kind == RefinementKind::kHeading;
+    const std::string rule =
+        is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
+    context_.choices.push_back(
+        {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
+         fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
+                     "one's difference from the first {:.3f})",
+                     rule, scores, step.standard_error)});
+  }
+
+  void RecordDirectShare() {
+    const DirectShare& share = *result_.direct_share;
+    std::vector<std::string> among;
+    std::string shares;
+    for (const DirectShareCandidate& c : share.candidates) {
+      among.push_back(c.name);
+      shares += fmt::format("{}{} {:.3f} ± {:.3f}{}", shares.empty() ? "" : ", ", c.name, c.share, c.sigma,
+                            c.is_admissible ? "" : " (does not explain the readings)");
+    }
+    const std::string interval =
+        fmt::format("{:.2f}, 95 % interval {:.2f} to {:.2f}", share.share, share.lower, share.upper);
+    context_.choices.push_back({"direct share of the readings", interval, among,
+                                "over all luminaire models that explain the readings as well: " + shares});
+    if (share.is_determined) return;
+    context_.undetermined = true;
+    context_.warnings.push_back(
+        {"direct_share_undetermined",
+         "the readings do not tell light that comes straight from light that comes by the walls: the direct "
+         "share is " +
+             interval + ", for other lobes and sizes with other reflectances explain the readings as well",
+         "photograph or measure one state with a dark cloth over the walls, or one lamp alone, or give "
+         "reflectances in [scene.albedo] or the luminaires' photometry"});
   }
 
   void RecordOutcome() {
@@ -340,9 +511,11 @@ class FitStage {
   RunContext& context_;
   SessionFit result_;
   LightState start_;
+  std::vector<OpenChoice> open_;
   std::vector<ParameterPrior> priors_;
   int used_readings_ = 0;
   bool flux_known_ = false;
+  std::map<std::string, int> sensors_;  // by name, in the order of the table
 };
 
 // Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "forward/mesh_check.h"
 #include "forward/room.h"
 #include "inverse/choose_model.h"
+#include "inverse/direct_share.h"
 #include "inverse/fit_luminaires.h"
 #include "inverse/observe.h"
 
@@ -104,6 +106,10 @@ struct SessionFit {
   std::vector<bool> luminaire_found;
   Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
   bool absolute = false;        // whether fluxes are in lm
+  std::optional<DirectShare> direct_share;  // of fits to readings alone with reflectances free
+
+  // Whether light that comes straight is told from light that comes by the walls.
+  bool TellsDirectLight() const { return !direct_share || direct_share->is_determined; }
 };
 SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
                       RunContext& context);

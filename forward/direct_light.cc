@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "forward/disc_factor.h"
+#include "forward/internal/cell_sum.h"
 #include "forward/internal/luminous_surface.h"
 #include "forward/photometry.h"
 #include "forward/polygon_factor.h"
@@ -137,6 +138,11 @@ DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Ve
 
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                                             const Eigen::Vector3d& normal) {
+  if (HasUnevenEmission(luminaire)) {
+    return SumOverCells(luminaire, [&](const Luminaire& cell) {
+      return DirectIlluminancePerLumen(cell, p_in_world, normal);
+    });
+  }
   const LuminousSurface surface(luminaire);
   if (!HasClosedForm(surface, p_in_world)) return SumOverSurface(surface, p_in_world, normal);
   return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal)

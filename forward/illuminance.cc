@@ -118,4 +118,29 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
   return result;
 }
 
+Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,
+                                     const LuminaireVisibility& visibility,
+                                     const std::vector<Luminaire>& luminaires,
+                                     const DerivativeRequest& derivatives) {
+  const Eigen::MatrixXf columns =
+      ComputeReceiverColumns(room, receivers, visibility, luminaires, derivatives);
+  const auto lamps = static_cast<Eigen::Index>(luminaires.size());
+  Illuminance result;
+  result.direct = columns.leftCols(lamps);
+  result.total = result.direct;
+  result.d_luminaire = columns.rightCols(columns.cols() - lamps);
+  return result;
+}
+
+Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance) {
+  if (!room.sparse) return Product(room.form_factors.element_to_patch, patch_exitance);
+  const Eigen::VectorXf root_area = room.transport.patch_area_m2.cwiseSqrt();
+  const Eigen::MatrixXf at_patches =
+      root_area.cwiseInverse().asDiagonal() * room.sparse->Times(root_area.asDiagonal() * patch_exitance);
+  Eigen::MatrixXf at_elements(static_cast<Eigen::Index>(room.patches.elements.size()), patch_exitance.cols());
+  for (Eigen::Index e = 0; e < at_elements.rows(); ++e)
+    at_elements.row(e) = at_patches.row(room.patches.elements[static_cast<size_t>(e)].patch);
+  return at_elements;
+}
+
 }  // namespace luxfit

@@ -33,11 +33,14 @@ enum class LuminaireQuantity {
   kTiltAlong,
   kTiltAcross,  // rad: aim + t1 along + t2 across, at t = 0
   kHeading,     // rad: turned about the aim, along towards across (clockwise seen from above)
+  kGammaNode,   // share of the flux of one node of its table (forward/luminaire_parts.h)
+  kCell,        // share of the flux of one cell
 };
 
 struct LuminaireParameter {
   int luminaire = 0;
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
+  int part = 0;  // of kGammaNode and kCell
 };
 
 struct Illuminance {
@@ -68,6 +71,18 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const LuminaireVisibility& visibility,
                                const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives = {});
+
+// The direct part alone, of the receivers and in both `total` and `direct`, with its derivatives but those by
+// reflectances; for those who know the indirect light from elsewhere. Of `visibility` only the receivers'
+// part is needed (ComputeReceiverVisibility).
+Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,
+                                     const LuminaireVisibility& visibility,
+                                     const std::vector<Luminaire>& luminaires,
+                                     const DerivativeRequest& derivatives = {});
+
+// F M: illuminance of every element by the exitance of the patches (patches x columns to elements x columns).
+// Of a sparse room the same all over a patch.
+Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance);
 
 }  // namespace luxfit
 

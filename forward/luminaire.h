@@ -39,6 +39,8 @@ struct Luminaire {
   std::shared_ptr<const IntensityTable> table = nullptr;  // of measured only; normalised to 1 lm
   LuminaireShape shape = LuminaireShape::kPoint;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
+  // Of a rectangle: shares of the flux of its cells, along the heading x across, that sum to 1; empty: even.
+  Eigen::ArrayXXd emission;
   double flux_lm = 1;
 };
 

@@ -1,9 +1,11 @@
 #include "forward/luminaire_rays.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/internal/cell_sum.h"
 #include "forward/internal/expect_valid.h"
 #include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
@@ -29,6 +31,21 @@ double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, doub
         IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * kPi * (k + 0.5) / turns))
             .cd_per_lm;
   return sum / turns;
+}
+
+// The unit square mapped onto the surface with the density of its emission.
+Eigen::Vector2d EmittingPlaceAt(const LuminousSurface& surface, Eigen::Vector2d unit) {
+  const Eigen::ArrayXXd& emission = surface.luminaire().emission;
+  if (!HasUnevenEmission(surface.luminaire())) return surface.PlaceAt(unit);
+  // Column by column: the cell in whose part of [0, 1] the first coordinate falls.
+  const double* share = emission.data();
+  Eigen::Index cell = 0;
+  while (cell + 1 < emission.size() && unit[0] >= share[cell]) unit[0] -= share[cell++];
+  const Eigen::Vector2d within(share[cell] > 0 ? std::min(unit[0] / share[cell], 1.0) : 0.5, unit[1]);
+  const Eigen::Vector2d index(static_cast<double>(cell % emission.rows()),
+                              static_cast<double>(cell / emission.rows()));
+  const Eigen::Array2d counts(static_cast<double>(emission.rows()), static_cast<double>(emission.cols()));
+  return (index + within).array() / counts - 0.5;
 }
 
 }  // namespace
@@ -64,7 +81,8 @@ Eigen::VectorXf LuminaireFormFactors(const RayScene& rays, const Patches& patche
     // The plastic number's recurrence spreads the starts over the surface.
     const double n = static_cast<double>(k + 1);
     const Eigen::Vector3d start =
-        surface.PointAt({Fraction(0.75487766624669276 * n), Fraction(0.56984029099805327 * n)});
+        surface.PointOf(EmittingPlaceAt(surface, {Fraction(0.75487766624669276 * n),
+                                                  Fraction(0.56984029099805327 * n)}));
     const RayHit hit = rays.Trace(start, sample.directions.col(k));
     if (hit.facet < 0 || !hit.front) continue;
     if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0)

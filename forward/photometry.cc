@@ -133,6 +133,25 @@ IntensityTable Normalized(const IntensityTable& table) {
   return one;
 }
 
+bool IsSymmetricAboutAim(const IntensityTable& table) {
+  constexpr double kTolerance = 0.01;
+  constexpr int kGammas = 36, kTurns = 72;
+  for (int g = 1; g < kGammas; ++g) {
+    const double gamma = kPi * g / kGammas;
+    double least = table.peak_cd_per_lm, most = 0;
+    for (int k = 0; k < kTurns; ++k) {
+      const double c = 2 * kPi * k / kTurns;
+      const double i = IntensityTowards(table, {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c),
+                                                -std::cos(gamma)})
+                           .cd_per_lm;
+      least = std::min(least, i);
+      most = std::max(most, i);
+    }
+    if (most - least > kTolerance * table.peak_cd_per_lm) return false;
+  }
+  return true;
+}
+
 TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d d = table.table_from_luminaire * direction;
   const double sine = std::hypot(d.x(), d.y());

@@ -56,6 +56,9 @@ double FluxIntegral(const IntensityTable& table);
 // The same distribution with a flux of 1 lm. Throws std::invalid_argument if it has none.
 IntensityTable Normalized(const IntensityTable& table);
 
+// Whether the intensity is the same all round gamma = 0, to 1 % of the peak.
+bool IsSymmetricAboutAim(const IntensityTable& table);
+
 // Intensity towards a unit vector of the luminaire's frame, and its gradient on the sphere (perpendicular to
 // it).
 struct TableIntensity {

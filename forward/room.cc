@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <numeric>
+
 #include "forward/direct_light.h"
 #include "forward/internal/expect_valid.h"
 #include "forward/overlaps.h"
@@ -13,11 +15,39 @@ constexpr int kSensorOrder = 12;  // few sensors: afford the finest rule
 
 float ElementVisibility(const RayScene& rays, const Element& element, bool triangle,
                         const Luminaire& luminaire, int order) {
-  float sum = 0;
   const std::vector<Eigen::Vector3d> probes = ProbesOf(element, triangle);
-  for (const Eigen::Vector3d& p : probes)
-    sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, order));
-  return sum / static_cast<float>(probes.size());
+  const auto share = [&](int points) {
+    float sum = 0;
+    for (const Eigen::Vector3d& p : probes)
+      sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, points));
+    return sum / static_cast<float>(probes.size());
+  };
+  // Most elements see all of a luminaire or nothing, and its outer points tell.
+  const float roughly = share(std::min(order, 2));
+  return order <= 2 || roughly == 0 || roughly == 1 ? roughly : share(order);
+}
+
+void FillElementRows(const Room& room, const std::vector<int>& elements,
+                     const std::vector<Luminaire>& luminaires, int order, Eigen::MatrixXf& rows) {
+  tbb::parallel_for(size_t{0}, elements.size(), [&](size_t i) {
+    const Element& element = room.patches.elements[static_cast<size_t>(elements[i])];
+    const bool triangle = room.patches.IsTriangle(element.patch);
+    for (size_t k = 0; k < luminaires.size(); ++k) {
+      rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          ElementVisibility(room.rays, element, triangle, luminaires[k], order);
+    }
+  });
+}
+
+void FillSensorRows(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                    Eigen::MatrixXf& rows) {
+  tbb::parallel_for(size_t{0}, receivers.sensors.size(), [&](size_t i) {
+    const auto row = static_cast<Eigen::Index>(receivers.elements.size() + i);
+    for (size_t k = 0; k < luminaires.size(); ++k) {
+      rows(row, static_cast<Eigen::Index>(k)) = static_cast<float>(
+          SensorVisibleFraction(room.rays, luminaires[k], receivers.sensors[i], kSensorOrder));
+    }
+  });
 }
 
 // Elements x patches of form factors, patches x patches of coupling.
@@ -97,30 +127,25 @@ void PrepareGather(const Room& room, Receivers& receivers) {
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
                                       const std::vector<Luminaire>& luminaires, int order) {
   ExpectValid(luminaires);
-  const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
-  const size_t elements = room.patches.elements.size();
-  LuminaireVisibility visibility;
-  visibility.elements.resize(static_cast<Eigen::Index>(elements), lamps);
-  visibility.receivers.resize(receivers.count(), lamps);
-  tbb::parallel_for(size_t{0}, elements, [&](size_t e) {
-    const Element& element = room.patches.elements[e];
-    const bool triangle = room.patches.IsTriangle(element.patch);
-    for (Eigen::Index k = 0; k < lamps; ++k) {
-      visibility.elements(static_cast<Eigen::Index>(e), k) =
-          ElementVisibility(room.rays, element, triangle, luminaires[static_cast<size_t>(k)], order);
-    }
-  });
+  const auto lamps = static_cast<Eigen::Index>(luminaires.size());
+  std::vector<int> all(room.patches.elements.size());
+  std::iota(all.begin(), all.end(), 0);
+  LuminaireVisibility visibility{{static_cast<Eigen::Index>(all.size()), lamps}, {receivers.count(), lamps}};
+  FillElementRows(room, all, luminaires, order, visibility.elements);
   for (size_t i = 0; i < receivers.elements.size(); ++i) {
     visibility.receivers.row(static_cast<Eigen::Index>(i)) = visibility.elements.row(receivers.elements[i]);
   }
-  tbb::parallel_for(size_t{0}, receivers.sensors.size(), [&](size_t i) {
-    const Sensor& sensor = receivers.sensors[i];
-    const Eigen::Index row = static_cast<Eigen::Index>(receivers.elements.size() + i);
-    for (Eigen::Index k = 0; k < lamps; ++k) {
-      visibility.receivers(row, k) = static_cast<float>(
-          SensorVisibleFraction(room.rays, luminaires[static_cast<size_t>(k)], sensor, kSensorOrder));
-    }
-  });
+  FillSensorRows(room, receivers, luminaires, visibility.receivers);
+  return visibility;
+}
+
+LuminaireVisibility ComputeReceiverVisibility(const Room& room, const Receivers& receivers,
+                                              const std::vector<Luminaire>& luminaires, int order) {
+  ExpectValid(luminaires);
+  LuminaireVisibility visibility;
+  visibility.receivers.resize(receivers.count(), static_cast<Eigen::Index>(luminaires.size()));
+  FillElementRows(room, receivers.elements, luminaires, order, visibility.receivers);
+  FillSensorRows(room, receivers, luminaires, visibility.receivers);
   return visibility;
 }
 

@@ -67,13 +67,17 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
 void PrepareGather(const Room& room, Receivers& receivers);
 
 // Share of each luminaire that each place sees: elements x luminaires and receivers x luminaires, in [0, 1].
-// Elements are probed at 2 x 2 points against `order` points a side of the luminaire, sensors at their point.
+// Elements are probed at 2 x 2 points against `order` points a side of the luminaire (against 2 where those
+// agree), sensors at their point.
 struct LuminaireVisibility {
   Eigen::MatrixXf elements;
   Eigen::MatrixXf receivers;
 };
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
                                       const std::vector<Luminaire>& luminaires, int order = 3);
+// The receivers' part alone.
+LuminaireVisibility ComputeReceiverVisibility(const Room& room, const Receivers& receivers,
+                                              const std::vector<Luminaire>& luminaires, int order = 3);
 
 }  // namespace luxfit
 

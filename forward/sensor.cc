@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/cell_sum.h"
 #include "forward/internal/luminous_surface.h"
 #include "forward/internal/sampling.h"
 #include "forward/internal/tabulated.h"
@@ -136,6 +137,10 @@ DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction)
 DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Sensor& sensor) {
   if (sensor.response.kind == ResponseKind::kCosine)
     return DirectIlluminancePerLumen(luminaire, sensor.position, sensor.normal);
+  if (HasUnevenEmission(luminaire)) {
+    return SumOverCells(
+        luminaire, [&](const Luminaire& cell) { return SensorIlluminancePerLumen(cell, sensor); });
+  }
   constexpr int kOrder = 8;
   DirectIlluminance sum;
   const LuminousSurface surface(luminaire);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "forward/internal/cell_sum.h"
 #include "forward/internal/luminous_surface.h"
 
 namespace luxfit {
@@ -178,6 +179,12 @@ void AddOutlineDerivatives(const RayScene& rays, const LuminousSurface& surface,
 
 double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                     const Eigen::Vector3d& normal, const ShadowOptions& options) {
+  if (HasUnevenEmission(luminaire)) {
+    const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
+    return unoccluded == 0 || std::isnan(unoccluded)
+               ? unoccluded
+               : VisibleIlluminancePerLumen(rays, luminaire, p_in_world, normal, options) / unoccluded;
+  }
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
   const double height = normal.dot(luminaire.position - p_in_world);
   if (std::isnan(height)) return height;
@@ -189,6 +196,16 @@ double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eige
 double VisibleIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
                                   const Eigen::Vector3d& p_in_world, const Eigen::Vector3d& normal,
                                   const ShadowOptions& options) {
+  if (HasUnevenEmission(luminaire)) {
+    return SumOverCells(luminaire,
+                        [&](const Luminaire& cell) {
+                          DirectIlluminance light;
+                          light.lx_per_lm =
+                              VisibleIlluminancePerLumen(rays, cell, p_in_world, normal, options);
+                          return light;
+                        })
+        .lx_per_lm;
+  }
   const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
   if (unoccluded == 0 || std::isnan(unoccluded)) return unoccluded;
   return unoccluded * VisibleShare(rays, luminaire, p_in_world, normal, options);
@@ -197,6 +214,11 @@ double VisibleIlluminancePerLumen(const RayScene& rays, const Luminaire& luminai
 DirectIlluminance ShadowedIlluminancePerLumen(const RayScene& rays, const Luminaire& luminaire,
                                               const Eigen::Vector3d& p_in_world,
                                               const Eigen::Vector3d& normal, const ShadowOptions& options) {
+  if (HasUnevenEmission(luminaire)) {
+    return SumOverCells(luminaire, [&](const Luminaire& cell) {
+      return ShadowedIlluminancePerLumen(rays, cell, p_in_world, normal, options);
+    });
+  }
   DirectIlluminance whole = DirectIlluminancePerLumen(luminaire, p_in_world, normal);
   if (whole.lx_per_lm == 0 || std::isnan(whole.lx_per_lm)) return whole;
   DirectIlluminance sum;

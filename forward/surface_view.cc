@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "forward/illuminance.h"
 #include "forward/internal/gather.h"
 #include "forward/shadowed_light.h"
 

@@ -1,12 +1,15 @@
 // Reflectance by colour channel, once luminaires and camera scale are known.
 //
-// The radiosity model is fitted to each channel by itself with everything but the reflectances held, so
-// interreflection carries the colour of what reflects it. Assumes that the luminaires are neutral in the
-// camera's RGB: where they are not, their tint is in the reflectances of all materials alike.
+//   rho_c = rho * rho'_c / rho'        rho: of the fit, rho': fitted to the channel and to the luminance,
+//   with the
+//                                      indirect light as measured in each (inverse/measured_indirect.h)
+// so interreflection carries the colour of what reflects it, and what patches that no photo shows make
+// uncertain of it cancels. Assumes that the luminaires are neutral in the camera's RGB: where they are not,
+// their tint is in the reflectances of all materials alike.
 //
 // Reflectances in 0..1, one column a material, rows red, green, blue; NaN for materials that `fit` held
 // fixed.
-// Source: house; the model is inverse/light_model.h.
+// Source: inverse/measured_indirect.h.
 #ifndef LUXFIT_INVERSE_ALBEDO_RGB_H_
 #define LUXFIT_INVERSE_ALBEDO_RGB_H_
 

@@ -9,10 +9,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "inverse/internal/left_out.h"
+#include "inverse/internal/refine_luminaire.h"
+
 namespace luxfit {
 namespace {
-
-constexpr int kFolds = 5;
 
 const std::vector<ModelCandidate>& AllCandidates() {
   using D = Distribution;
@@ -48,156 +49,6 @@ void Apply(const ModelCandidate& candidate, bool aim_is_free, double start_size_
   free.exponent = candidate.distribution == Distribution::kCosinePower;
   free.size = candidate.shape != LuminaireShape::kPoint;
   free.tilt = aim_is_free && HasAim(candidate);
-}
-
-// Spreads consecutive groups over the folds, so that every part of the room keeps most of its data.
-bool LeftOut(int group) { return group % kFolds == 2; }
-
-// One luminaire's own problem: the data that speak of it, cut into what is fitted and what is left out.
-struct SubProblem {
-  LightState state;
-  int luminaire = 0;  // its index in `state`
-  LightData all, fit;
-  std::vector<int> group_of_row;  // of `all`: facet, or reading
-  std::vector<bool> left_out;     // of `all`
-  std::vector<ParameterPrior> priors;
-};
-
-bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
-  return dimming[luminaire] > 0 && dimming.sum() == dimming[luminaire];
-}
-
-LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone) {
-  LightState state = start;
-  state.albedo_free.assign(state.albedo_free.size(), false);
-  state.camera_scale_free = false;
-  state.meter_scale_free = false;
-  const size_t k = static_cast<size_t>(luminaire);
-  if (alone) {
-    state.luminaires = {start.luminaires[k]};
-    state.free = {start.free[k]};
-  } else {
-    for (size_t j = 0; j < state.free.size(); ++j) {
-      if (j != k) state.free[j] = {false, false, false, false, false};
-    }
-  }
-  return state;
-}
-
-void AddObservations(const Room& room, const LightData& data, const std::vector<bool>& state_used,
-                     int max_elements, SubProblem& problem) {
-  std::vector<Observation> own;
-  for (const Observation& o : data.observations) {
-    if (state_used[static_cast<size_t>(o.state)]) own.push_back(o);
-  }
-  for (const Observation& o : ThinElements(own, max_elements)) {
-    const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
-    problem.all.observations.push_back(o);
-    problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
-    problem.left_out.push_back(LeftOut(patch));
-    if (!LeftOut(patch)) problem.fit.observations.push_back(o);
-  }
-}
-
-void AddReadings(const LightData& data, const std::vector<bool>& state_used, SubProblem& problem) {
-  for (size_t i = 0; i < data.readings.size(); ++i) {
-    Reading reading = data.readings[i];
-    if (!state_used[static_cast<size_t>(reading.state)] || !reading.used) continue;
-    const int group = static_cast<int>(problem.all.readings.size());
-    const bool out = LeftOut(group);
-    problem.all.readings.push_back(reading);
-    problem.group_of_row.push_back(group);
-    problem.left_out.push_back(out);
-    reading.used = !out;
-    problem.fit.readings.push_back(reading);
-  }
-}
-
-SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
-                          const std::vector<ParameterPrior>& priors, int max_elements) {
-  SubProblem problem;
-  const auto is_alone = [&](int state) {
-    return OnAlone(data.dimming[static_cast<size_t>(state)], luminaire);
-  };
-  const bool photos = !data.observations.empty();
-  const bool alone = photos ? std::any_of(data.observations.begin(), data.observations.end(),
-                                          [&](const Observation& o) { return is_alone(o.state); })
-                            : std::any_of(data.readings.begin(), data.readings.end(),
-                                          [&](const Reading& r) { return r.used && is_alone(r.state); });
-  problem.state = AloneOrOthersHeld(start, luminaire, alone);
-  problem.luminaire = alone ? 0 : luminaire;
-  std::vector<bool> state_used;
-  for (const Eigen::VectorXd& dimming : data.dimming) {
-    state_used.push_back(alone ? OnAlone(dimming, luminaire) : dimming[luminaire] > 0);
-    problem.all.dimming.push_back(alone ? Eigen::VectorXd::Constant(1, dimming[luminaire]).eval() : dimming);
-  }
-  problem.fit.dimming = problem.all.dimming;
-  if (photos) {
-    AddObservations(room, data, state_used, max_elements, problem);
-  } else {
-    AddReadings(data, state_used, problem);
-  }
-  for (ParameterPrior prior : priors) {
-    if (prior.kind != ParameterKind::kLuminaire && prior.kind != ParameterKind::kLogFlux) continue;
-    if (prior.index != luminaire) continue;
-    prior.index = problem.luminaire;
-    problem.priors.push_back(prior);
-  }
-  return problem;
-}
-
-double ValueOf(const LightData& data, size_t row) {
-  return row < data.observations.size() ? data.observations[row].relative_luminance
-                                        : data.readings[row - data.observations.size()].illuminance_lx;
-}
-
-struct GroupScore {
-  double sum = 0;
-  int count = 0;
-};
-
-// By group: sum of min(z^2, 9) over the rows left out.
-std::map<int, GroupScore> ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted,
-                                      double relative_sigma) {
-  std::map<int, GroupScore> scores;
-  for (size_t i = 0; i < problem.left_out.size(); ++i) {
-    if (!problem.left_out[i]) continue;
-    const double value = ValueOf(problem.all, i);
-    double variance = std::pow(relative_sigma * value, 2);
-    if (i < problem.all.observations.size()) variance += problem.all.observations[i].variance;
-    const double z = (predicted[static_cast<Eigen::Index>(i)] - value) / std::sqrt(variance);
-    GroupScore& score = scores[problem.group_of_row[i]];
-    score.sum += std::min(z * z, 9.0);
-    ++score.count;
-  }
-  return scores;
-}
-
-struct PairedDifference {
-  double mean = 0, standard_error = 0;
-};
-
-// Mean over rows of a - b, with the standard error of a mean over groups weighted by their rows.
-PairedDifference Difference(const std::map<int, GroupScore>& a, const std::map<int, GroupScore>& b) {
-  double total = 0;
-  PairedDifference result;
-  for (const auto& [group, score] : a) {
-    total += score.count;
-    result.mean += score.sum - b.at(group).sum;
-  }
-  result.mean /= total;
-  double squares = 0;
-  for (const auto& [group, score] : a)
-    squares += std::pow(score.sum - b.at(group).sum - score.count * result.mean, 2);
-  const double groups = static_cast<double>(a.size());
-  if (groups > 1) result.standard_error = std::sqrt(squares * groups / (groups - 1)) / total;
-  return result;
-}
-
-double Mean(const std::map<int, GroupScore>& scores) {
-  GroupScore all;
-  for (const auto& [group, score] : scores) all = {all.sum + score.sum, all.count + score.count};
-  return all.sum / all.count;
 }
 
 LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
@@ -238,18 +89,13 @@ FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int in
                              const ChooseModelOptions& options) {
   const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
   const size_t k = static_cast<size_t>(problem.luminaire);
-  LightState state = problem.state;
-  Apply(candidate, aim_is_free, options.start_size_m, state.luminaires[k], state.free[k]);
-  FitLuminairesOptions fit_options;
-  fit_options.covariance = false;
-  fit_options.max_outer_iterations = options.max_outer_iterations;
-  fit_options.max_inner_iterations = options.max_inner_iterations;
-  fit_options.visibility_order = 2;
-  const LuminaireFit fit = FitLuminaires(room, problem.fit, state, problem.priors, fit_options);
-  LightModel model(room, problem.all);
-  model.FreezeVisibility(fit.state, fit_options.visibility_order);
-  return {index, aim_is_free, fit.state.luminaires[k], model.Predict(fit.state, {}, false).value,
-          fit.relative_sigma};
+  Luminaire luminaire = problem.state.luminaires[k];
+  FreeQuantities free = problem.state.free[k];
+  Apply(candidate, aim_is_free, options.start_size_m, luminaire, free);
+  FittedModel fitted =
+      FitModel(room, problem, luminaire, free, {options.max_outer_iterations, options.max_inner_iterations});
+  return {index, aim_is_free, std::move(fitted.luminaire), std::move(fitted.predicted),
+          fitted.relative_sigma};
 }
 
 bool HasVanished(const Luminaire& luminaire) {
@@ -320,7 +166,7 @@ class LuminaireChooser {
     if (fitted.size() > 1) chosen.choice = ChooseAmong(fitted);
     chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
     if (!turns) return chosen;
-    const FittedCandidate held = FitCandidate(room_, problem_, chosen.fitted->candidate, false, options_);
+    const FittedCandidate& held = Fitted(chosen.fitted->candidate, false);
     chosen.aim = CompareAims(problem_, luminaire_, held, *chosen.fitted);
     if (!chosen.aim->is_free) chosen.fitted = held;
     return chosen;
@@ -328,27 +174,36 @@ class LuminaireChooser {
 
  private:
   // Of the most telling point that is allowed.
-  std::optional<AimChoice> AimOfAPoint() const {
+  std::optional<AimChoice> AimOfAPoint() {
     int trial = -1;
     for (const int c : allowed_) {
       const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(c)];
       if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
     }
     if (trial < 0) return {};
-    return CompareAims(problem_, luminaire_, FitCandidate(room_, problem_, trial, false, options_),
-                       FitCandidate(room_, problem_, trial, true, options_));
+    return CompareAims(problem_, luminaire_, Fitted(trial, false), Fitted(trial, true));
   }
 
-  std::vector<FittedCandidate> FitAll(bool turns) const {
+  // Each is fitted once.
+  const FittedCandidate& Fitted(int candidate, bool aim_is_free) {
+    const auto known = fitted_.find({candidate, aim_is_free});
+    if (known != fitted_.end()) return known->second;
+    return fitted_
+        .emplace(std::make_pair(candidate, aim_is_free),
+                 FitCandidate(room_, problem_, candidate, aim_is_free, options_))
+        .first->second;
+  }
+
+  std::vector<FittedCandidate> FitAll(bool turns) {
     std::vector<FittedCandidate> fitted;
     double relative_sigma = 1;
     for (const int c : allowed_) {
       if (SizeDoesNotMatter(problem_, fitted, relative_sigma, AllCandidates()[static_cast<size_t>(c)]))
         continue;
-      FittedCandidate candidate = FitCandidate(room_, problem_, c, turns, options_);
+      const FittedCandidate& candidate = Fitted(c, turns);
       // A size that shrank to nothing is the point over again, with a parameter more.
       if (open_.shape && HasVanished(candidate.luminaire)) continue;
-      fitted.push_back(std::move(candidate));
+      fitted.push_back(candidate);
       relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
     }
     return fitted;
@@ -372,7 +227,16 @@ class LuminaireChooser {
   OpenChoice open_;
   const ChooseModelOptions& options_;
   std::vector<int> allowed_;
+  std::map<std::pair<int, bool>, FittedCandidate> fitted_;
 };
+
+void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, LightState& state,
+              int luminaire) {
+  const size_t k = static_cast<size_t>(luminaire);
+  state.luminaires[k] = fitted.luminaire;
+  Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, options.start_size_m,
+        state.luminaires[k], state.free[k]);
+}
 
 }  // namespace
 
@@ -384,21 +248,27 @@ ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const
     throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
   }
   std::vector<ChosenModel> chosen(open.size());
+  std::vector<RefinedLuminaire> refined(open.size());
   tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
     const auto luminaire = static_cast<int>(k);
-    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
+    SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
     chosen[k] = LuminaireChooser(room, problem, luminaire, open[k], options).Run();
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, problem.state, problem.luminaire);
+    refined[k] = RefineLuminaire(room, problem, open[k].refinements, options.refine);
   });
   ModelChoice result;
   result.state = start;
   for (size_t k = 0; k < open.size(); ++k) {
     if (chosen[k].choice) result.choices.push_back(*chosen[k].choice);
     if (chosen[k].aim) result.aims.push_back(*chosen[k].aim);
-    if (!chosen[k].fitted) continue;
-    const FittedCandidate& fitted = *chosen[k].fitted;
-    result.state.luminaires[k] = fitted.luminaire;
-    Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, options.start_size_m,
-          result.state.luminaires[k], result.state.free[k]);
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, result.state, static_cast<int>(k));
+    for (Refinement step : refined[k].steps) {
+      step.luminaire = static_cast<int>(k);
+      result.refinements.push_back(std::move(step));
+    }
+    if (!refined[k].changed) continue;
+    result.state.luminaires[k] = refined[k].luminaire;
+    result.state.free[k] = refined[k].free;
   }
   return result;
 }

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "inverse/fit_luminaires.h"
+#include "inverse/refinement.h"
 
 namespace luxfit {
 
@@ -56,6 +57,7 @@ struct OpenChoice {
   bool distribution = true;
   bool shape = true;
   bool aim = true;
+  OpenRefinements refinements = {};  // none: a caller asks for them
 };
 
 struct ChooseModelOptions {
@@ -63,12 +65,14 @@ struct ChooseModelOptions {
   double start_size_m = 0.3;     // of discs and rectangles
   int max_outer_iterations = 2;  // the start is converged: visibility and weights are refreshed once
   int max_inner_iterations = 8;
+  RefineOptions refine;
 };
 
 struct ModelChoice {
   LightState state;  // the chosen models at their best so far: a start for the final fit
   std::vector<LuminaireChoice> choices;
   std::vector<AimChoice> aims;
+  std::vector<Refinement> refinements;  // in the order they were tried, luminaire by luminaire
 };
 
 // `start` should be a converged fit with cosine-power points (or what is given).

@@ -1,25 +1,22 @@
 // Where the luminaires may be, with no help from the user.
 //
-// 1. States are sums of luminaires' light, so where the dimming table has full column rank each luminaire's
-// own light is
-//    got back by least squares, element by element.
-// 2. For one luminaire at a candidate place p and with a candidate distribution, the luminance of material m
-// is
-//      Y_e = a_m D_e(p) + b_m,   a_m, b_m >= 0
-//    (direct light, and interreflection taken as even): a non-negative least squares problem of two unknowns
-//    a material. (readings of a luxmeter without photos: one such line of illuminance). Places are tried on a
-//    grid through the room; each distribution's best is refined by a finer grid around it.
-// 3. b_m / a_m is the ratio of even indirect to direct light; the integrating sphere, E_indirect = rho / (A
-// (1 - rho)) per
-//    lumen, turns it into a mean reflectance, and the a_m share that out among the materials.
+// 1. States are sums of luminaires' light: each luminaire's own is got back by least squares, place by place.
+//    Luminaires that are always dimmed in one proportion stay one group.
+// 2. With the indirect light as the photos measured it (inverse/measured_indirect.h), a group's light is
+//      Y_e / rho_m(e) = I_e + c / pi * sum_j Phi_j D_e(p_j),
+//    linear in fluxes and 1 / rho: as many point luminaires as the group has are placed one by one by sparse
+//    non-negative least squares over a grid through the room, with a few lobes and aims at each place
+//    (inverse/internal/sparse_luminaires.h). From readings alone the indirect light is taken as even.
 //
-// Fluxes are such that the camera scale is 1. Distances m.
-// Sources: Lawson and Hanson (1974), "Solving Least Squares Problems", ch. 23 (NNLS); Jacquez and Kuppenheim
-// (1955) (sphere).
+// Fluxes are such that the camera scale is 1. Distances m. Luminaires of one group are interchangeable: they
+// come in the order of their x (then y, then z), those of a known position apart. Sources: Lawson and Hanson
+// (1974), "Solving Least Squares Problems", ch. 23 (NNLS); Boyd, Schiebinger, Recht (2017), "The alternating
+// descent conditional gradient method for sparse inverse problems".
 #ifndef LUXFIT_INVERSE_FIRST_GUESS_H_
 #define LUXFIT_INVERSE_FIRST_GUESS_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,14 +26,15 @@
 namespace luxfit {
 
 struct FirstGuessOptions {
-  double grid_m = 0.4;      // coarse enough to be quick, fine enough to fall into the right valley
-  int refinements = 3;      // each halves the grid around the best
-  int max_elements = 1200;  // spread evenly over those observed
+  double grid_m = 0.4;     // coarse enough to be quick, fine enough to fall into the right valley
+  int refinements = 4;     // each halves the grid around the best
+  int max_elements = 800;  // spread evenly over those observed
 };
 
 struct LuminaireGuess {
   bool found = false;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d aim{0, 0, -1};
   Distribution distribution = Distribution::kCosinePower;
   double cosine_exponent = 1;
   double flux = 0;               // in units of the camera scale
@@ -44,13 +42,17 @@ struct LuminaireGuess {
 };
 
 struct FirstGuess {
-  bool separable = false;  // the dimming table has full column rank over the observed states
+  bool separable = false;  // sums of states tell the groups apart
   std::string message;
+  std::vector<std::vector<int>> groups;  // luminaires of each, those that were on at all
   std::vector<LuminaireGuess> luminaires;
   Eigen::VectorXd albedo;  // by material; 0.5 where no observation tells
 };
 
-FirstGuess GuessLuminaires(const Room& room, const LightData& data, const FirstGuessOptions& options = {});
+// `data` with measured indirect light, or readings alone. `known_positions`: one a luminaire, or none at all.
+FirstGuess GuessLuminaires(const Room& room, const LightData& data,
+                           const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
+                           const FirstGuessOptions& options = {});
 
 }  // namespace luxfit
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
-#include "inverse/internal/element_bias.h"
+#include "inverse/internal/discretisation_bias.h"
 #include "inverse/internal/fit_covariance.h"
+#include "inverse/part_smoothness.h"
 
 namespace luxfit {
 namespace {
@@ -22,13 +24,14 @@ struct FrozenProblem {
   Eigen::VectorXd data;
   Eigen::VectorXd root_weight;                         // sqrt(w) / sigma, 0 for rows left out
   std::vector<std::pair<int, ParameterPrior>> priors;  // parameter, knowledge
+  std::vector<SmoothnessRow> smoothness;
 };
 
 class ModelCost : public ceres::CostFunction {
  public:
   explicit ModelCost(const FrozenProblem& problem) : problem_(problem) {
-    set_num_residuals(
-        static_cast<int>(problem.data.size() + static_cast<Eigen::Index>(problem.priors.size())));
+    set_num_residuals(static_cast<int>(
+        problem.data.size() + static_cast<Eigen::Index>(problem.priors.size() + problem.smoothness.size())));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.parameters.size()));
   }
 
@@ -36,8 +39,13 @@ class ModelCost : public ceres::CostFunction {
     const Eigen::Index n = static_cast<Eigen::Index>(problem_.parameters.size()), rows = problem_.data.size();
     const Eigen::Map<const Eigen::VectorXd> x(blocks[0], n);
     const bool with_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    const Prediction prediction = problem_.model.Predict(
-        WithParameters(problem_.base, problem_.parameters, x), problem_.parameters, with_jacobian);
+    // A step is first asked for its cost, and if that is good, as nearly all are, for its Jacobian.
+    if (!prediction_ || predicted_at_ != x) {
+      prediction_ = problem_.model.Predict(WithParameters(problem_.base, problem_.parameters, x),
+                                           problem_.parameters, true);
+      predicted_at_ = x;
+    }
+    const Prediction& prediction = *prediction_;
     if (!prediction.value.allFinite()) return false;
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r.head(rows) = (prediction.value - problem_.data).cwiseProduct(problem_.root_weight);
@@ -52,11 +60,20 @@ class ModelCost : public ceres::CostFunction {
       r[row] = (x[parameter] - prior.mean) / prior.sigma;
       if (with_jacobian) jacobians[0][row * n + parameter] = 1 / prior.sigma;
     }
+    Eigen::Index row = rows + static_cast<Eigen::Index>(problem_.priors.size());
+    for (const SmoothnessRow& smooth : problem_.smoothness) {
+      r[row] = smooth.Value(x);
+      for (size_t t = 0; with_jacobian && t < smooth.terms.size(); ++t)
+        jacobians[0][row * n + smooth.terms[t].first] = smooth.terms[t].second;
+      ++row;
+    }
     return true;
   }
 
  private:
   const FrozenProblem& problem_;
+  mutable Eigen::VectorXd predicted_at_;
+  mutable std::optional<Prediction> prediction_;
 };
 
 // `is_near`: steps need no damping. A direction that one reading alone fixes (the scale of all fluxes) has so
@@ -105,6 +122,7 @@ class OuterLoop {
     fit_.relative_sigma = options.initial_relative_sigma;
     fit_.parameters = FreeParameters(room, start);
     for (const ParameterPrior& prior : priors) AddPrior(prior);
+    smoothness_ = SmoothnessRows(start, fit_.parameters);
     values_.resize(model_.row_count());
     const size_t observations = data.observations.size();
     for (size_t i = 0; i < observations; ++i) {
@@ -125,12 +143,14 @@ class OuterLoop {
       fit_.outer_iterations = outer + 1;
       const LightState before = fit_.state;
       Refresh();
-      const FrozenProblem problem{model_, before, fit_.parameters, values_, root_weight_, priors_};
+      const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
+                                  root_weight_, priors_, smoothness_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
-      constexpr int kRoughRounds = 2;
-      fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= kRoughRounds, x);
+      const int rough_rounds = options_.start_is_near ? 0 : 2;
+      fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= rough_rounds, x);
       fit_.state = WithParameters(before, fit_.parameters, x);
-      settled = outer >= 2 && LargestMove(before, fit_.state) < options_.position_tolerance_m &&
+      settled = outer >= rough_rounds &&
+                LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
@@ -158,7 +178,12 @@ class OuterLoop {
 
   // Visibility, model error and weights at the present state.
   void Refresh() {
-    model_.FreezeVisibility(fit_.state, options_.visibility_order);
+    // Shadow edges move about as much as what casts them: rows at an edge are left out anyway.
+    constexpr double kStillM = 2e-3;
+    if (frozen_.empty() || LargestMove(frozen_, fit_.state.luminaires) > kStillM) {
+      model_.FreezeVisibility(fit_.state, options_.visibility_order);
+      frozen_ = fit_.state.luminaires;
+    }
     const std::vector<bool> penumbra = model_.InPenumbra();
     fit_.predicted = model_.Predict(fit_.state, {}, false).value;
     const Eigen::VectorXd residual = fit_.predicted - values_;
@@ -208,10 +233,13 @@ class OuterLoop {
     }
   }
 
-  static double LargestMove(const LightState& a, const LightState& b) {
+  // Of any point of any luminaire, m.
+  static double LargestMove(const std::vector<Luminaire>& a, const std::vector<Luminaire>& b) {
     double move = 0;
-    for (size_t k = 0; k < a.luminaires.size(); ++k) {
-      move = std::max(move, (a.luminaires[k].position - b.luminaires[k].position).norm());
+    for (size_t k = 0; k < a.size(); ++k) {
+      const double turn = (a[k].aim - b[k].aim).norm() * 0.5 * a[k].size_m.maxCoeff();
+      const double growth = 0.5 * (a[k].size_m - b[k].size_m).cwiseAbs().maxCoeff();
+      move = std::max(move, (a[k].position - b[k].position).norm() + turn + growth);
     }
     return move;
   }
@@ -226,10 +254,15 @@ class OuterLoop {
       const Parameter& p = fit_.parameters[i];
       const double margin = 1e-6 * std::max(1.0, p.upper - p.lower);
       const double value = x[static_cast<Eigen::Index>(i)];
+      // Dark parts are nothing to warn of.
+      if (p.kind == ParameterKind::kLuminaire && p.reference != p.part) continue;
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
-    const FitCovariance found = CovarianceOf(RowsOf(prediction));
+    const WeightedRows rows = RowsOf(prediction);
+    fit_.effective_parts =
+        EffectiveParts(rows.jacobian.transpose() * rows.jacobian, smoothness_, fit_.parameters);
+    const FitCovariance found = CovarianceOf(rows);
     fit_.covariance = found.covariance;
     for (const Eigen::VectorXd& direction : found.null_directions) NameNullDirection(direction);
     const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
@@ -257,7 +290,7 @@ class OuterLoop {
     const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
     if (observations > 0)
       rows.bias.head(observations) =
-          ElementBias(room_, data_, fit_.state).cwiseProduct(root_weight_.head(observations));
+          DiscretisationBias(room_, data_, fit_.state).cwiseProduct(root_weight_.head(observations));
     std::map<std::pair<int, int>, int> clusters;
     for (const Observation& o : data_.observations) {
       const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
@@ -267,9 +300,11 @@ class OuterLoop {
     }
     rows.cluster.resize(static_cast<size_t>(values_.size()), -1);
     rows.alone_scatter = ReadingScatter(rows.residual.tail(values_.size() - observations));
-    rows.prior_precision = Eigen::VectorXd::Zero(prediction.jacobian.cols());
+    const Eigen::Index n = prediction.jacobian.cols();
+    rows.prior_information = Eigen::MatrixXd::Zero(n, n);
     for (const auto& [parameter, prior] : priors_)
-      rows.prior_precision[parameter] += 1 / (prior.sigma * prior.sigma);
+      rows.prior_information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    AddSmoothness(smoothness_, rows.prior_information);
     return rows;
   }
 
@@ -287,6 +322,8 @@ class OuterLoop {
   LightModel model_;
   LuminaireFit fit_;
   std::vector<std::pair<int, ParameterPrior>> priors_;
+  std::vector<Luminaire> frozen_;  // where the visibility is of
+  std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, root_weight_;
   double relative_sigma_before_ = 0;
 };

@@ -11,8 +11,9 @@
 // evidence. The cluster-robust ("sandwich") estimate is used, with clusters of one facet and one state, each
 // judged by a fit without it, and few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 %
 // interval (inverse/internal/fit_covariance.h). It contains noise, the model errors that differ from facet to
-// facet or state to state, the readings' and priors' sigmas, and what observed elements lose by being taken at
-// their centres; not camera poses, nor the mesh, nor a model error that is the same everywhere. A direction of
+// facet or state to state, the readings' and priors' sigmas, and what elements
+// and patches lose by their size (inverse/internal/discretisation_bias.h); not camera poses, nor the mesh, nor
+// any other model error that is the same everywhere. A direction of
 // parameters that the data leave undetermined (singular value below 1e-5 of the largest, after scaling) has no
 // covariance: it is listed in `undetermined`, described in `null_directions`, and status is kUndetermined.
 //
@@ -51,6 +52,9 @@ struct FitLuminairesOptions {
   double position_tolerance_m = 5e-4;  // outer loop ends when nothing moves more
   int visibility_order = 3;            // points a side of a luminaire tested for occlusion
   bool covariance = true;
+  // The start came from a fit to a part of the same data: relative_sigma begins at the initial one of these
+  // options, steps need no damping, and one round that moves nothing is enough.
+  bool start_is_near = false;
 };
 
 struct LuminaireFit {
@@ -67,6 +71,7 @@ struct LuminaireFit {
   Eigen::VectorXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // of the predictions
   double relative_sigma = 0;         // f
+  double effective_parts = 0;        // of tables and uneven emission, with the covariance
   double cost = 0;
   int outer_iterations = 0;
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }

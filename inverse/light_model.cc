@@ -6,11 +6,23 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
+
+#include "forward/luminaire_parts.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+
+PartKind PartKindOf(LuminaireQuantity quantity) {
+  return quantity == LuminaireQuantity::kCell ? PartKind::kCell : PartKind::kGammaNode;
+}
+
+bool IsPart(const Parameter& p) {
+  return p.kind == ParameterKind::kLuminaire &&
+         (p.quantity == LuminaireQuantity::kCell || p.quantity == LuminaireQuantity::kGammaNode);
+}
 
 double& SizeComponent(Luminaire& luminaire, LuminaireQuantity quantity) {
   return luminaire.size_m[quantity == LuminaireQuantity::kSizeAlong ? 0 : 1];
@@ -30,6 +42,7 @@ std::vector<LuminaireQuantity> FreeQuantitiesOf(const Luminaire& luminaire, cons
     if (luminaire.shape == LuminaireShape::kRectangle) list.push_back(LuminaireQuantity::kSizeAcross);
   }
   if (free.tilt) list.insert(list.end(), {LuminaireQuantity::kTiltAlong, LuminaireQuantity::kTiltAcross});
+  if (free.heading) list.push_back(LuminaireQuantity::kHeading);
   return list;
 }
 
@@ -65,9 +78,30 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
     case LuminaireQuantity::kHeading:
       p.name = "heading", p.lower = -kPi, p.upper = kPi;
       break;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      p.name = quantity == LuminaireQuantity::kCell ? "cell" : "gamma node";
+      p.upper = 1e3;
+      break;
   }
   p.name += " of " + luminaire.id;
   return p;
+}
+
+void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int index,
+              LuminaireQuantity quantity, std::vector<Parameter>& parameters) {
+  const Eigen::VectorXd shares = PartShares(luminaire, PartKindOf(quantity));
+  if (shares.size() == 0) return;
+  int reference = 0;
+  shares.maxCoeff(&reference);
+  for (int j = 0; j < static_cast<int>(shares.size()); ++j) {
+    if (j == reference) continue;
+    Parameter p = MakeLuminaireParameter(box, luminaire, index, quantity);
+    p.part = j, p.reference = reference;
+    p.name = (quantity == LuminaireQuantity::kCell ? "cell " : "gamma node ") + std::to_string(j) + " of " +
+             luminaire.id;
+    parameters.push_back(std::move(p));
+  }
 }
 
 }  // namespace
@@ -80,6 +114,11 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
     for (const LuminaireQuantity quantity : FreeQuantitiesOf(luminaire, state.free[k])) {
       parameters.push_back(MakeLuminaireParameter(box, luminaire, static_cast<int>(k), quantity));
     }
+    const int index = static_cast<int>(k);
+    if (state.free[k].table_sigma > 0)
+      AddParts(box, luminaire, index, LuminaireQuantity::kGammaNode, parameters);
+    if (state.free[k].emission_sigma > 0)
+      AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
     if (state.free[k].flux) {
       parameters.push_back(
           {ParameterKind::kLogFlux, static_cast<int>(k), {}, -50, 50, "log flux of " + luminaire.id});
@@ -99,6 +138,10 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
   }
   if (state.meter_scale_free)
     parameters.push_back({ParameterKind::kLogMeterScale, 0, {}, -1, 1, "log meter scale"});
+  for (int i = 0; state.sensor_gains_free && i < static_cast<int>(state.sensor_gain.size()); ++i) {
+    parameters.push_back(
+        {ParameterKind::kLogSensorGain, i, {}, -1, 1, "log gain of sensor " + std::to_string(i)});
+  }
   return parameters;
 }
 
@@ -112,7 +155,11 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
     if (p.kind == ParameterKind::kAlbedo) value = state.albedo[p.index];
     if (p.kind == ParameterKind::kLogCameraScale) value = std::log(state.camera_scale);
     if (p.kind == ParameterKind::kLogMeterScale) value = std::log(state.meter_scale);
-    if (p.kind == ParameterKind::kLuminaire) {
+    if (p.kind == ParameterKind::kLogSensorGain) value = std::log(state.sensor_gain[p.index]);
+    if (IsPart(p)) {
+      const Eigen::VectorXd shares = PartShares(state.luminaires[index], PartKindOf(p.quantity));
+      value = shares[p.part] / shares[p.reference];
+    } else if (p.kind == ParameterKind::kLuminaire) {
       Luminaire luminaire = state.luminaires[index];
       const int q = static_cast<int>(p.quantity);
       if (q < 3) value = luminaire.position[q];
@@ -129,6 +176,7 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
 LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
                           const Eigen::VectorXd& x) {
   std::map<int, Eigen::Vector2d> tilts;
+  std::map<std::pair<int, LuminaireQuantity>, Eigen::VectorXd> parts;
   for (size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
     const size_t index = static_cast<size_t>(p.index);
@@ -137,8 +185,18 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
     if (p.kind == ParameterKind::kAlbedo) state.albedo[p.index] = value;
     if (p.kind == ParameterKind::kLogCameraScale) state.camera_scale = std::exp(value);
     if (p.kind == ParameterKind::kLogMeterScale) state.meter_scale = std::exp(value);
+    if (p.kind == ParameterKind::kLogSensorGain) state.sensor_gain[p.index] = std::exp(value);
     if (p.kind != ParameterKind::kLuminaire) continue;
     Luminaire& luminaire = state.luminaires[index];
+    if (IsPart(p)) {
+      Eigen::VectorXd& shares = parts[{p.index, p.quantity}];
+      if (shares.size() == 0) {
+        shares = PartShares(luminaire, PartKindOf(p.quantity));
+        shares /= shares[p.reference];
+      }
+      shares[p.part] = value;
+      continue;
+    }
     switch (p.quantity) {
       case LuminaireQuantity::kPositionX:
       case LuminaireQuantity::kPositionY:
@@ -163,18 +221,28 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
         luminaire.heading = std::cos(value) * axes.along + std::sin(value) * axes.across;
         break;
       }
+      case LuminaireQuantity::kGammaNode:
+      case LuminaireQuantity::kCell:
+        break;  // above
     }
+  }
+  for (const auto& [of, shares] : parts) {
+    Luminaire& luminaire = state.luminaires[static_cast<size_t>(of.first)];
+    luminaire = WithPartShares(luminaire, PartKindOf(of.second), shares);
   }
   for (const auto& [index, tilt] : tilts) {
     Luminaire& luminaire = state.luminaires[static_cast<size_t>(index)];
     const LuminaireAxes axes = AxesOf(luminaire);
     luminaire.aim = (luminaire.aim + tilt[0] * axes.along + tilt[1] * axes.across).normalized();
-    luminaire.heading = AxesOf({luminaire.id, luminaire.position, luminaire.aim, axes.along}).along;
+    luminaire.heading = axes.along;
+    luminaire.heading = AxesOf(luminaire).along;
   }
   return state;
 }
 
 LightModel::LightModel(const Room& room, const LightData& data) : room_(room), data_(data) {
+  if (data.indirect_is_held && !data.readings.empty())
+    throw std::invalid_argument("LightModel: expected no readings where the indirect light was measured");
   std::vector<int> elements;
   for (const Observation& o : data.observations) {
     if (o.element < 0 || o.element >= static_cast<int>(room.patches.elements.size())) {
@@ -211,11 +279,12 @@ LightModel::LightModel(const Room& room, const LightData& data) : room_(room), d
     }
   }
   receivers_ = MakeReceivers(room, elements, sensors);
-  PrepareGather(room, receivers_);
+  if (!data.indirect_is_held) PrepareGather(room, receivers_);
 }
 
 void LightModel::FreezeVisibility(const LightState& state, int order) {
-  visibility_ = ComputeVisibility(room_, receivers_, state.luminaires, order);
+  visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
+      room_, receivers_, state.luminaires, order);
 }
 
 std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
@@ -230,6 +299,13 @@ std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
   return mixed;
 }
 
+Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& request) const {
+  if (data_.indirect_is_held)
+    return ComputeDirectIlluminance(room_, receivers_, visibility_, state.luminaires, request);
+  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
+  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
+}
+
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
                                bool with_jacobian) const {
   DerivativeRequest request;
@@ -239,20 +315,27 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
       const Parameter& p = parameters[i];
       if (p.kind == ParameterKind::kLuminaire) {
         column_of_parameter[i] = static_cast<int>(request.parameters.size());
-        request.parameters.push_back({p.index, p.quantity});
+        request.parameters.push_back({p.index, p.quantity, p.part});
       } else if (p.kind == ParameterKind::kAlbedo) {
         column_of_parameter[i] = static_cast<int>(request.materials.size());
         request.materials.push_back(p.index);
       }
     }
   }
-  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
-  const Illuminance light =
-      ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
+  const Illuminance light = Light(state, request);
   const Eigen::Index lamps = static_cast<Eigen::Index>(state.luminaires.size());
   const Eigen::Index materials = static_cast<Eigen::Index>(request.materials.size());
   Eigen::VectorXd flux(lamps);
   for (Eigen::Index k = 0; k < lamps; ++k) flux[k] = state.luminaires[static_cast<size_t>(k)].flux_lm;
+
+  // Of part parameters: the share of the reference, by which the others are counted.
+  std::vector<double> reference_share(parameters.size(), 0.0);
+  for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
+    const Parameter& of = parameters[p];
+    if (IsPart(of))
+      reference_share[p] =
+          PartShares(state.luminaires[static_cast<size_t>(of.index)], PartKindOf(of.quantity))[of.reference];
+  }
 
   Prediction prediction;
   prediction.value.resize(row_count());
@@ -265,10 +348,15 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(state_of_row_[row])].cwiseProduct(flux);
     const int material = material_of_row_[row];
     // What turns illuminance into the row's own unit.
-    const double unit = material < 0 ? state.meter_scale : state.camera_scale / kPi;
+    const int sensor = i < observations ? -1 : data_.readings[row - data_.observations.size()].sensor_index;
+    const double sensor_gain = sensor >= 0 && state.sensor_gain.size() > 0 ? state.sensor_gain[sensor] : 1;
+    const double unit = material < 0 ? state.meter_scale * sensor_gain : state.camera_scale / kPi;
     const double gain = material < 0 ? unit : unit * state.albedo[material];
     const double illuminance = light.total.row(r).cast<double>() * lumens;
-    prediction.value[i] = gain * illuminance;
+    // Of a white surface, in the row's own unit.
+    const double white =
+        unit * illuminance + (data_.indirect_is_held ? data_.observations[row].relative_indirect : 0.0);
+    prediction.value[i] = material < 0 ? white : state.albedo[material] * white;
     if (i >= observations) {
       const double direct = light.direct.row(r).cast<double>() * lumens;
       prediction.reading_direct_lx[i - observations] = gain * direct;
@@ -283,12 +371,17 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
         out = material < 0 ? 0.0 : gain * illuminance;
       } else if (parameter.kind == ParameterKind::kLogMeterScale) {
         out = material < 0 ? gain * illuminance : 0.0;
+      } else if (parameter.kind == ParameterKind::kLogSensorGain) {
+        out = sensor == parameter.index ? gain * illuminance : 0.0;
+      } else if (IsPart(parameter)) {
+        const double part = static_cast<double>(light.d_luminaire(r, column_of_parameter[p]));
+        out = gain * lumens[k] * reference_share[p] * (part - static_cast<double>(light.total(r, k)));
       } else if (parameter.kind == ParameterKind::kAlbedo) {
         double sum = 0;
-        for (Eigen::Index j = 0; j < lamps; ++j) {
+        for (Eigen::Index j = 0; j < lamps && !data_.indirect_is_held; ++j) {
           sum += lumens[j] * light.d_albedo(r, j * materials + column_of_parameter[p]);
         }
-        out = gain * sum + (material == parameter.index ? unit * illuminance : 0.0);
+        out = gain * sum + (material == parameter.index ? white : 0.0);
       } else {
         out = gain * lumens[k] * light.d_luminaire(r, column_of_parameter[p]);
         if (parameter.quantity == LuminaireQuantity::kExponent) {

@@ -1,15 +1,20 @@
 // The model that the fit inverts: parameters -> what photos and luxmeters should read, with its Jacobian.
 //
 //   photo:  Y_es = c rho_m(e) / pi * sum_k d_sk Phi_k E_ek(theta)   relative luminance of element e, state s
-//   meter:  E_rs = g sum_k d_sk Phi_k E_rk(theta)                   lx
+//   meter:  E_rs = g h_i sum_k d_sk Phi_k E_rk(theta)               lx
 //
 // d: dimming, Phi: flux, E: illuminance per lumen (forward/illuminance.h), rho: albedo, c: camera scale,
-// relative luminance per cd/m2, g: the meter's calibration, common to all its readings. Free parameters are
+// relative luminance per cd/m2, g: the meter's calibration, common to all its readings, h_i: the gain of its
+// sensor i, where it has several. Free parameters are
 // stacked in one vector; fluxes, exponents and the scales of camera and meter as logarithms, so that they
 // stay positive and scales separate; positions and sizes in metres; tilts in radians about the start's aim.
 //
+// Where the indirect light was measured (LightData::indirect_is_held), E is direct alone and a photo's
+// row
+//   Y_es = rho_m(e) (I_es + c / pi * sum_k d_sk Phi_k D_ek(theta)).
+//
 // Rows: observations in their order, then readings. Jacobian rows x parameters, exact for frozen visibility.
-// Throws std::invalid_argument for indices out of range.
+// Throws std::invalid_argument for indices out of range, and for readings beside measured indirect light.
 #ifndef LUXFIT_INVERSE_LIGHT_MODEL_H_
 #define LUXFIT_INVERSE_LIGHT_MODEL_H_
 
@@ -31,6 +36,11 @@ struct FreeQuantities {
   bool exponent = false;
   bool size = false;
   bool tilt = false;
+  bool heading = false;
+  // > 0: the shares of its table's nodes or of its cells are free, their smoothness known to so much
+  // (inverse/part_smoothness.h).
+  double table_sigma = 0;
+  double emission_sigma = 0;
 };
 
 struct Reading {
@@ -39,12 +49,16 @@ struct Reading {
   double illuminance_lx = 0;
   double sigma_lx = 0;
   bool used = false;  // false: only predicted
+  int sensor_index = -1;  // of several of one meter, each with a gain of its own; -1: the meter's only one
 };
 
 struct LightData {
   std::vector<Eigen::VectorXd> dimming;  // one a state, by luminaire
   std::vector<Observation> observations;
   std::vector<Reading> readings;
+  // Indirect light is the observations' own (inverse/measured_indirect.h): no radiosity is solved, and there
+  // are no readings.
+  bool indirect_is_held = false;
 };
 
 struct LightState {
@@ -56,16 +70,21 @@ struct LightState {
   bool camera_scale_free = true;
   double meter_scale = 1;
   bool meter_scale_free = false;  // wants a prior: nothing else tells it from the fluxes
+  Eigen::VectorXd sensor_gain;    // by Reading::sensor; empty: 1
+  bool sensor_gains_free = false; // want priors likewise
 };
 
-enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale };
+enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };
 
 struct Parameter {
   ParameterKind kind = ParameterKind::kLuminaire;
-  int index = 0;  // of the luminaire or the material
+  int index = 0;  // of the luminaire, the material or the sensor
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
   double lower = 0, upper = 0;
   std::string name;  // "position x of A", "albedo of floor", ...
+  // Of kGammaNode and kCell: the value is the share of `part` over that of `reference`, which is the largest
+  // at the start and no parameter itself.
+  int part = 0, reference = 0;
 };
 
 // The free parameters in their order, with bounds: positions within the room's bounding box (a luminaire
@@ -98,6 +117,9 @@ class LightModel {
   int row_count() const { return static_cast<int>(receiver_of_row_.size()); }
 
  private:
+  // Per lumen, at the receivers.
+  Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
+
   const Room& room_;
   const LightData& data_;
   Receivers receivers_;

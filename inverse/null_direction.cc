@@ -42,6 +42,10 @@ std::string WordFor(const Parameter& parameter) {
     case LuminaireQuantity::kTiltAcross:
     case LuminaireQuantity::kHeading:
       return "aim";
+    case LuminaireQuantity::kGammaNode:
+      return "lobe";
+    case LuminaireQuantity::kCell:
+      return "emission";
   }
   return "";
 }

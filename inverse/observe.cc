@@ -148,7 +148,7 @@ std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage&
     if (!(mean > 0)) continue;
     // A few pixels may agree by chance better than their noise allows.
     const double variance = std::max(spread, s.noise / s.count) / s.count;
-    observations.push_back({static_cast<int>(e), view, state, s.count, mean, variance, s.rgb / s.count});
+    observations.push_back({static_cast<int>(e), view, state, s.count, mean, variance, s.rgb / s.count, 0});
   }
   return observations;
 }
@@ -172,7 +172,7 @@ MergedObservations MergeViews(const std::vector<Observation>& observations,
       merged.outliers += static_cast<int>(views.end() - end);
       views.erase(end, views.end());
     }
-    Observation mean{key.first, -1, key.second, 0, 0, 0, Eigen::Vector3d::Zero()};
+    Observation mean{key.first, -1, key.second, 0, 0, 0, Eigen::Vector3d::Zero(), 0};
     double weights = 0;
     for (const Observation& o : views) {
       weights += 1 / o.variance;

@@ -53,6 +53,9 @@ struct Observation {
   double relative_luminance = 0;
   double variance = 0;  // of the mean, from the spread of the pixels, and no less than their stated noise
   Eigen::Vector3d relative_rgb = Eigen::Vector3d::Zero();  // the channels' means, in the same unit
+  // What light from other surfaces gives a white element there (inverse/measured_indirect.h); 0: not asked
+  // for.
+  double relative_indirect = 0;
 };
 
 // The observations of one photo.

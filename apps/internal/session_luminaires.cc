@@ -61,8 +61,62 @@ std::optional<double> ReadSigma(const TomlCursor& table, const std::string& key,
   return sigma->NumberAtLeast(0, unit);
 }
 
+std::vector<double> ReadNumbers(const TomlCursor& list, const std::string& what) {
+  std::vector<double> numbers;
+  for (const TomlCursor& element : list.Elements(what)) numbers.push_back(element.NumberAtLeast(0, ""));
+  return numbers;
+}
+
+// The nodes of photometry = "table": both lists, or none where they are to be estimated.
+void ReadTable(const TomlCursor& table, SessionLuminaire& luminaire) {
+  const auto gamma = table.Find("gamma_deg"), intensity = table.Find("cd_per_klm");
+  if (!gamma && !intensity) return;
+  const TomlCursor& given = gamma ? *gamma : *intensity;
+  if (luminaire.photometry != "table")
+    throw given.Error("expected it beside photometry = \"table\" only, got photometry = " +
+                      Quoted(luminaire.photometry) + "; remove one of them");
+  if (!gamma || !intensity)
+    throw given.Error(
+        "expected gamma_deg and cd_per_klm together, got one of them; add the other, or remove it to have the "
+        "table estimated");
+  luminaire.gamma_deg = ReadNumbers(*gamma, "a list of angles from the aim");
+  luminaire.cd_per_klm = ReadNumbers(*intensity, "a list of intensities");
+  const bool rising = std::adjacent_find(luminaire.gamma_deg.begin(), luminaire.gamma_deg.end(),
+                                         [](double a, double b) { return b <= a; }) ==
+                      luminaire.gamma_deg.end();
+  if (luminaire.gamma_deg.size() < 2 || !rising || luminaire.gamma_deg.back() > 180)
+    throw gamma->Error("expected two angles or more that rise from 0 to at most 180, got " + gamma->Shown() +
+                       "; sort them");
+  if (luminaire.cd_per_klm.size() != luminaire.gamma_deg.size())
+    throw intensity->Error("expected one intensity an angle, " + std::to_string(luminaire.gamma_deg.size()) +
+                           ", got " + std::to_string(luminaire.cd_per_klm.size()) +
+                           "; give both lists the same length");
+  if (*std::max_element(luminaire.cd_per_klm.begin(), luminaire.cd_per_klm.end()) <= 0)
+    throw intensity->Error("expected an intensity above 0, got none; correct them");
+}
+
+// Rows of cells along the heading, one after the other across.
+Eigen::ArrayXXd ReadEmission(const TomlCursor& emission, const SessionLuminaire& luminaire) {
+  if (luminaire.shape.value_or("") != "rectangle")
+    throw emission.Error("expected it beside shape = \"rectangle\" only; add the shape, or remove the key");
+  std::vector<std::vector<double>> rows;
+  for (const TomlCursor& row : emission.Elements("a list of rows of cells such as [[1, 2], [1, 0]]"))
+    rows.push_back(ReadNumbers(row, "a row of cells"));
+  Eigen::ArrayXXd cells = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(rows.empty() ? 0 : rows[0].size()),
+                                                static_cast<Eigen::Index>(rows.size()));
+  for (size_t j = 0; j < rows.size(); ++j) {
+    if (rows[j].size() != rows[0].size())
+      throw emission.Error("expected rows of one length, got " + emission.Shown() + "; fill them up with 0");
+    for (size_t i = 0; i < rows[j].size(); ++i)
+      cells(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[j][i];
+  }
+  if (!(cells.sum() > 0))
+    throw emission.Error("expected a share above 0, got " + emission.Shown() + "; correct it");
+  return cells / cells.sum();
+}
+
 SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folder) {
-  table.ExpectKeys({"id", "photometry", "cosine_exponent", "shape", "size_m", "position_m",
+  table.ExpectKeys({"id", "photometry", "cosine_exponent", "gamma_deg", "cd_per_klm", "emission", "shape", "size_m", "position_m",
                     "position_sigma_m", "aim", "heading", "flux_lm", "flux_sigma_lm"});
   SessionLuminaire luminaire;
   luminaire.line = table.place().line;
@@ -71,7 +125,7 @@ SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folde
     if (IsPhotometricFile(luminaire.photometry)) {
       luminaire.photometry_path = AbsolutePath(FindFile(*photometry, folder));
     } else {
-      photometry->OneOf({"auto", "isotropic", "lambertian", "cosine_power"});
+      photometry->OneOf({"auto", "isotropic", "lambertian", "cosine_power", "table"});
     }
   }
   if (const auto exponent = table.Find("cosine_exponent")) {
@@ -80,8 +134,10 @@ SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folde
                             Quoted(luminaire.photometry) + "; remove one of them");
     luminaire.cosine_exponent = exponent->NumberAbove(0, "");
   }
+  ReadTable(table, luminaire);
   if (const auto size = table.Find("size_m")) luminaire.size_m = ReadSize(*size);
   luminaire.shape = ReadShape(table, luminaire.size_m.size());
+  if (const auto emission = table.Find("emission")) luminaire.emission = ReadEmission(*emission, luminaire);
   if (const auto position = table.Find("position_m"))
     luminaire.position_m = position->Vector("a point [x, y, z]");
   luminaire.position_sigma_m = ReadSigma(table, "position_sigma_m", "position_m", "m; 0: fixed");

@@ -30,6 +30,7 @@ SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vect
         "expected the direction that the meter faces, got 0,0,0; 0,0,1 is a meter that lies on its back");
   reading.normal.normalize();
   reading.state = StateOfRow(table, row, states);
+  if (HasColumn(table, "sensor")) reading.sensor = CsvText(table, row, "sensor");
   reading.is_measured = !CsvText(table, row, "lux").empty();
   if (!reading.is_measured) return reading;
   reading.illuminance_lx = CsvNumber(table, row, "lux");
@@ -142,9 +143,9 @@ SensorResponse ReadSensitivity(const std::string& path) {
 }  // namespace
 
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
-  section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class"});
+  section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class", "sensor_sigma"});
   const std::string path = FindFile(section.Require("readings", "the table of readings (CSV)"), folder);
-  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", "lux"}, {}});
+  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", "lux"}, {"sensor"}});
 }
 
 SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,
@@ -160,6 +161,8 @@ SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder,
   if (const auto meter_class = section.Find("class"))
     luxmeter.meter_class = meter_class->OneOf({"L", "A", "B", "C"});
   luxmeter.common_sigma = CommonSigma(luxmeter.meter_class);
+  if (const auto sigma = section.Find("sensor_sigma"))
+    luxmeter.sensor_sigma = sigma->NumberAbove(0, "relative, such as 0.03");
   return luxmeter;
 }
 

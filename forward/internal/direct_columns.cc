@@ -2,8 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <map>
+
 #include "forward/direct_light.h"
 #include "forward/internal/expect_valid.h"
+#include "forward/luminaire_parts.h"
 #include "forward/sensor.h"
 #include "forward/shadowed_light.h"
 
@@ -30,6 +33,9 @@ double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity)
       return direct.d_tilt[1];
     case LuminaireQuantity::kHeading:
       return direct.d_heading;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      break;  // light of a part, no derivative of the whole
   }
   return 0;
 }
@@ -45,7 +51,15 @@ class ColumnFiller {
  public:
   ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
                const DerivativeRequest& derivatives)
-      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {}
+      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
+    for (size_t p = 0; p < derivatives.parameters.size(); ++p) {
+      const LuminaireParameter& parameter = derivatives.parameters[p];
+      const bool is_cell = parameter.quantity == LuminaireQuantity::kCell;
+      if (!is_cell && parameter.quantity != LuminaireQuantity::kGammaNode) continue;
+      parts_.emplace(p, PartOf(luminaires[static_cast<size_t>(parameter.luminaire)],
+                               is_cell ? PartKind::kCell : PartKind::kGammaNode, parameter.part));
+    }
+  }
 
   // Columns for the luminaires, then for the parameters.
   template <typename Row, typename Shares>
@@ -66,6 +80,14 @@ class ColumnFiller {
     for (size_t p = 0; p < derivatives_.parameters.size(); ++p) {
       const LuminaireParameter& parameter = derivatives_.parameters[p];
       const size_t k = static_cast<size_t>(parameter.luminaire);
+      const auto part = parts_.find(p);
+      if (part != parts_.end()) {
+        const double seen = static_cast<double>(visible[parameter.luminaire]);
+        if (seen > 0)
+          row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
+              static_cast<float>(seen * SensorIlluminancePerLumen(part->second, spot.place).lx_per_lm);
+        continue;
+      }
       row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
           static_cast<float>(share[k] * DerivativeOf(direct[k], parameter.quantity));
     }
@@ -87,7 +109,13 @@ class ColumnFiller {
   const RayScene& rays_;
   const std::vector<Luminaire>& luminaires_;
   const DerivativeRequest& derivatives_;
+  std::map<size_t, Luminaire> parts_;  // by parameter
 };
+
+Spot SpotOf(const Patches& patches, int element) {
+  const Element& e = patches.elements[static_cast<size_t>(element)];
+  return {{e.center, e.normal, {}}, &e, patches.IsTriangle(e.patch)};
+}
 
 }  // namespace
 
@@ -96,24 +124,39 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives) {
   ExpectValid(luminaires);
-  const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
-  const Eigen::Index columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
+  const auto elements = static_cast<int>(room.patches.elements.size());
+  const auto columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
   const ColumnFiller filler(room.rays, luminaires, derivatives);
   DirectColumns result{Eigen::MatrixXf::Zero(elements, columns),
                        Eigen::MatrixXf::Zero(receivers.count(), columns)};
-  tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
-    const Element& element = room.patches.elements[static_cast<size_t>(e)];
-    filler.Fill({{element.center, element.normal, {}}, &element, room.patches.IsTriangle(element.patch)},
-                visibility.elements.row(e), result.elements.row(e));
+  tbb::parallel_for(0, elements, [&](int e) {
+    filler.Fill(SpotOf(room.patches, e), visibility.elements.row(e), result.elements.row(e));
   });
-  const Eigen::Index observed = static_cast<Eigen::Index>(receivers.elements.size());
-  tbb::parallel_for(Eigen::Index{0}, static_cast<Eigen::Index>(receivers.count()), [&](Eigen::Index r) {
+  const auto observed = static_cast<int>(receivers.elements.size());
+  tbb::parallel_for(0, receivers.count(), [&](int r) {
     if (r < observed) {
       result.receivers.row(r) = result.elements.row(receivers.elements[static_cast<size_t>(r)]);
     } else {
       const Sensor& sensor = receivers.points[static_cast<size_t>(r)];
       filler.Fill({sensor}, visibility.receivers.row(r), result.receivers.row(r));
     }
+  });
+  return result;
+}
+
+Eigen::MatrixXf ComputeReceiverColumns(const Room& room, const Receivers& receivers,
+                                       const LuminaireVisibility& visibility,
+                                       const std::vector<Luminaire>& luminaires,
+                                       const DerivativeRequest& derivatives) {
+  ExpectValid(luminaires);
+  const auto columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());
+  const ColumnFiller filler(room.rays, luminaires, derivatives);
+  Eigen::MatrixXf result = Eigen::MatrixXf::Zero(receivers.count(), columns);
+  const auto observed = static_cast<int>(receivers.elements.size());
+  tbb::parallel_for(0, receivers.count(), [&](int r) {
+    const Spot spot = r < observed ? SpotOf(room.patches, receivers.elements[static_cast<size_t>(r)])
+                                   : Spot{receivers.points[static_cast<size_t>(r)]};
+    filler.Fill(spot, visibility.receivers.row(r), result.row(r));
   });
   return result;
 }

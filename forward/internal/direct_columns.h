@@ -21,6 +21,12 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives);
 
+// Of the receivers alone; `visibility` needs no more.
+Eigen::MatrixXf ComputeReceiverColumns(const Room& room, const Receivers& receivers,
+                                       const LuminaireVisibility& visibility,
+                                       const std::vector<Luminaire>& luminaires,
+                                       const DerivativeRequest& derivatives);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_INTERNAL_DIRECT_COLUMNS_H_

@@ -22,6 +22,9 @@ void ExpectLuminaire(const Luminaire& luminaire, const std::string& name) {
          name, "a finite exponent above 0");
   Expect(luminaire.distribution != Distribution::kMeasured || luminaire.table != nullptr, name,
          "a table of intensities");
+  Expect(luminaire.emission.size() == 0 ||
+             ((luminaire.emission >= 0).all() && std::abs(luminaire.emission.sum() - 1) < 1e-6),
+         name, "shares of cells >= 0 that sum to 1");
 }
 
 void ExpectSensor(const Sensor& sensor, const std::string& name) {

@@ -1,7 +1,5 @@
 #include "forward/internal/gather.h"
 
-#include "forward/dense_product.h"
-
 namespace luxfit {
 
 Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo) {
@@ -11,17 +9,6 @@ Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& alb
     of_elements[e] = static_cast<float>(albedo[patches.patches[static_cast<size_t>(patch)].material]);
   }
   return of_elements;
-}
-
-Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance) {
-  if (!room.sparse) return Product(room.form_factors.element_to_patch, patch_exitance);
-  const Eigen::VectorXf root_area = room.transport.patch_area_m2.cwiseSqrt();
-  const Eigen::MatrixXf at_patches =
-      root_area.cwiseInverse().asDiagonal() * room.sparse->Times(root_area.asDiagonal() * patch_exitance);
-  Eigen::MatrixXf at_elements(static_cast<Eigen::Index>(room.patches.elements.size()), patch_exitance.cols());
-  for (Eigen::Index e = 0; e < at_elements.rows(); ++e)
-    at_elements.row(e) = at_patches.row(room.patches.elements[static_cast<size_t>(e)].patch);
-  return at_elements;
 }
 
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,

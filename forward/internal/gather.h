@@ -16,9 +16,6 @@ namespace luxfit {
 // Reflectance of every element, from that of materials.
 Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo);
 
-// Elements x columns: F M. Of a sparse room the same all over a patch.
-Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance);
-
 // Receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,
                                   const Eigen::MatrixXf& element_exitance);

@@ -78,13 +78,12 @@ double StudentFactor(double degrees_of_freedom) {
 
 FitCovariance CovarianceOf(const WeightedRows& rows) {
   const Eigen::Index n = rows.jacobian.cols();
-  Eigen::MatrixXd hessian = rows.jacobian.transpose() * rows.jacobian;
-  hessian.diagonal() += rows.prior_precision;
+  const Eigen::MatrixXd hessian = rows.jacobian.transpose() * rows.jacobian + rows.prior_information;
   InverseRoot inverse_root = RootOf(hessian);
   const Eigen::MatrixXd& root = inverse_root.root;
 
   // In whitened directions, where the plain covariance is 1: combinations that cancel stay cancelled.
-  Eigen::MatrixXd known = root.transpose() * rows.prior_precision.asDiagonal() * root;
+  Eigen::MatrixXd known = root.transpose() * rows.prior_information * root;
   for (size_t i = 0; i < rows.cluster.size(); ++i) {
     if (rows.cluster[i] >= 0) continue;
     const Eigen::VectorXd row =

@@ -2,8 +2,8 @@
 //
 //   H = J^T J + P,   C = H^-1 (T sum_c g_c' g_c'^T T + sum_readings + P) H^-1 + b_theta b_theta^T
 //
-// J: weighted Jacobian, P: the priors' precisions. g_c = J_c^T r_c is the gradient of one cluster, the rows
-// of one facet in one state, which share their model error.
+// J: weighted Jacobian, P: information of priors and smoothness. g_c = J_c^T r_c is the gradient of one
+// cluster, the rows of one facet in one state, which share their model error.
 //
 // Few clusters, each with leverage: its own residual is smaller than its error, because the fit follows it.
 // g_c' = H (H - J_c^T J_c)^-1 g_c is that of a fit without the cluster (CR3, the jackknife), exact for a
@@ -16,8 +16,8 @@
 // prediction stays cancelled.
 //
 // b_theta = H^-1 J^T b is what a known bias b of the model does to the parameters
-// (inverse/internal/element_bias.h). Along those axes never below the plain H^-1. Directions of eigenvalue
-// below 1e-10 of the largest (after scaling) have no covariance and are returned.
+// (inverse/internal/discretisation_bias.h). Along those axes never below the plain H^-1. Directions of
+// eigenvalue below 1e-10 of the largest (after scaling) have no covariance and are returned.
 //
 // Sources: Liang and Zeger (1986); Bell and McCaffrey (2002), "Bias reduction in standard errors for linear
 // regression with multi-stage samples"; Cameron and Miller (2015), sec. VI (few clusters).
@@ -32,10 +32,10 @@ namespace luxfit {
 struct WeightedRows {
   Eigen::MatrixXd jacobian;  // of root weight times residual
   Eigen::VectorXd residual;
-  Eigen::VectorXd bias;             // weighted likewise; empty: none is known
-  std::vector<int> cluster;         // one a row, from 0; -1: stands alone
-  double alone_scatter = 1;         // mean square of the residuals that rows which stand alone should have
-  Eigen::VectorXd prior_precision;  // one a parameter
+  Eigen::VectorXd bias;               // weighted likewise; empty: none is known
+  std::vector<int> cluster;           // one a row, from 0; -1: stands alone
+  double alone_scatter = 1;           // mean square of the residuals that rows which stand alone should have
+  Eigen::MatrixXd prior_information;  // P: of priors and smoothness, parameters x parameters
 };
 
 struct FitCovariance {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "forward/light_tracer.h"
+#include "inverse/measured_indirect.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/cube_photos.h"
 #include "tests/support/plane_readings.h"
@@ -114,39 +116,88 @@ TEST(GuessLuminaires, SumsOfLampsAreTakenApart) {
   EXPECT_LT((guess.luminaires[1].position - Eigen::Vector3d(-0.62, 0.57, 1.41)).norm(), kGridDiagonalM);
 }
 
-TEST(GuessLuminaires, LampsThatAreAlwaysOnTogetherAreNotTakenApart) {
+// Nothing tells which is which; that there are two places is in the light itself.
+TEST(GuessLuminaires, LampsThatAreAlwaysOnTogetherAreFoundTogether) {
   const Room room = MakeRoom(Scene{});
   const FirstGuess guess =
       GuessLuminaires(room, TwoLamps({Eigen::Vector2d(1, 1), Eigen::Vector2d(0.5, 0.5)}));
-  EXPECT_FALSE(guess.separable);
-  EXPECT_NE(guess.message, "");
+  EXPECT_TRUE(guess.separable);
+  EXPECT_EQ(guess.groups, std::vector<std::vector<int>>({{0, 1}}));
   ASSERT_EQ(guess.luminaires.size(), 2u);
-  EXPECT_FALSE(guess.luminaires[0].found || guess.luminaires[1].found);
+  ASSERT_TRUE(guess.luminaires[0].found && guess.luminaires[1].found);
+  // In the order of x. Each is placed beside what the grid leaves of the other: twice the step.
+  EXPECT_LT((guess.luminaires[0].position - Eigen::Vector3d(-0.62, 0.57, 1.41)).norm(), 2 * kGridDiagonalM);
+  EXPECT_LT((guess.luminaires[1].position - kLamp).norm(), 2 * kGridDiagonalM);
+}
+
+// The first of two that are always on together is known: the other is found beside it.
+TEST(GuessLuminaires, AKnownPlaceIsKept) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, TwoLamps({Eigen::Vector2d(1, 1)}), {kLamp, std::nullopt});
+  ASSERT_TRUE(guess.luminaires.at(0).found && guess.luminaires.at(1).found);
+  EXPECT_EQ(guess.luminaires[0].position, kLamp);
+  EXPECT_LT((guess.luminaires[1].position - Eigen::Vector3d(-0.62, 0.57, 1.41)).norm(), kGridDiagonalM);
 }
 
 TEST(GuessLuminaires, StatesThatNobodyReadDoNotHelp) {
   const Room room = MakeRoom(Scene{});
   LightData data = TwoLamps({Eigen::Vector2d(1, 1)});
   data.dimming.push_back(Eigen::Vector2d(1, 0));
-  EXPECT_FALSE(GuessLuminaires(room, data).separable);
+  EXPECT_EQ(GuessLuminaires(room, data).groups, std::vector<std::vector<int>>({{0, 1}}));
   EXPECT_FALSE(GuessLuminaires(room, {}).separable);
 }
 
+// Three sums of three lamps in which two are told apart by nothing but the third.
+TEST(GuessLuminaires, SumsThatDoNotTellGroupsApartAreNamed) {
+  const Room room = MakeRoom(Scene{});
+  const FirstGuess guess = GuessLuminaires(room, TwoLamps({Eigen::Vector2d(1, 0.5)}));
+  EXPECT_EQ(guess.groups.size(), 1u);  // one state: one proportion
+  LightData data = TwoLamps({Eigen::Vector2d(1, 1)});
+  data.dimming = {Eigen::Vector4d(1, 0, 1, 0), Eigen::Vector4d(0, 1, 0, 1), Eigen::Vector4d(1, 1, 0, 0),
+                  Eigen::Vector4d(0, 0, 1, 1)};
+  for (Reading& reading : std::vector<Reading>(data.readings)) {
+    for (int s = 1; s < 4; ++s) {
+      data.readings.push_back(reading);
+      data.readings.back().state = s;
+    }
+  }
+  const FirstGuess crossed = GuessLuminaires(room, data);
+  EXPECT_FALSE(crossed.separable);
+  EXPECT_NE(crossed.message, "");
+  for (const LuminaireGuess& luminaire : crossed.luminaires) EXPECT_FALSE(luminaire.found);
+}
+
+// Photos by the light tracer, which shares no patch with the form factors.
 TEST(GuessLuminaires, FindsPlaceAndReflectanceInPhotosOfAClosedRoom) {
   const Room cube = support::CubeRoom();
-  const Eigen::Vector3d lamp(1.23, 0.81, 1.37);
   const double rho = 0.6;
+  Luminaire lamp;
+  lamp.position = {1.23, 0.81, 1.37};
+  lamp.distribution = Distribution::kIsotropic;
+  std::vector<Sensor> sensors;
+  for (const Element& element : cube.patches.elements)
+    sensors.push_back({element.center, element.normal, {}});
+  LightTracerOptions options;
+  options.paths_per_sensor = 1024;  // 1 % of the indirect light
+  const TracedIlluminance traced =
+      TraceIlluminance(cube.scene, cube.rays, {lamp}, Eigen::VectorXd::Constant(1, rho), sensors, options);
   LightData data;
   data.dimming = {Eigen::VectorXd::Ones(1)};
-  data.observations = support::CubePhotos(cube, lamp, Eigen::Vector3d::Constant(rho));
-  const FirstGuess guess = GuessLuminaires(cube, data);
+  for (size_t e = 0; e < sensors.size(); ++e) {
+    const auto row = static_cast<Eigen::Index>(e);
+    Observation o;
+    o.element = static_cast<int>(e);
+    o.relative_luminance = rho / support::kPi * (traced.direct(row, 0) + traced.indirect(row, 0));
+    data.observations.push_back(o);
+  }
+  const FirstGuess guess = GuessLuminaires(cube, WithMeasuredIndirect(cube, data));
   ASSERT_TRUE(guess.luminaires.at(0).found);
-  // The first grid is 2 / 8 m here, the last an eighth of that.
-  EXPECT_LT((guess.luminaires[0].position - lamp).norm(), std::sqrt(3.) * 0.25 / 8);
+  // The first grid is 2 / 8 m here, the last a sixteenth of that.
+  EXPECT_LT((guess.luminaires[0].position - lamp.position).norm(), std::sqrt(3.) * 0.25 / 16);
   EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kIsotropic);
-  // rho / (1 - rho) is read from b / a. A place that is a step off moves b / a by the direct light's share of
-  // it, a few percent of 1.5, and rho by (1 - rho)^2 times that.
+  // Of a place half a step off, the direct light is wrong by a few percent.
   EXPECT_NEAR(guess.albedo[0], rho, 0.03);
+  EXPECT_NEAR(guess.luminaires[0].flux, 1, 0.1);  // both share that error
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ WeightedRows RowsOf(const Line& line, const Eigen::VectorXd& error) {
   const Eigen::VectorXd x = line.jacobian.colPivHouseholderQr().solve(error);
   rows.residual = line.jacobian * x - error;
   rows.cluster = line.cluster;
-  rows.prior_precision = Eigen::VectorXd::Zero(2);
+  rows.prior_information = Eigen::Matrix2d::Zero();
   return rows;
 }
 
@@ -121,7 +121,7 @@ TEST(FitCovarianceTest, WhatNothingDeterminesIsNamed) {
   rows.jacobian = line.jacobian;
   rows.residual = Eigen::VectorXd::Zero(line.jacobian.rows());
   rows.cluster = line.cluster;
-  rows.prior_precision = Eigen::VectorXd::Zero(2);
+  rows.prior_information = Eigen::Matrix2d::Zero();
   const FitCovariance found = CovarianceOf(rows);
   ASSERT_EQ(found.null_directions.size(), 1u);
   EXPECT_TRUE(found.covariance.allFinite());
@@ -132,7 +132,7 @@ TEST(FitCovarianceTest, PriorsAloneGiveTheirOwnSigma) {
   rows.jacobian = Eigen::MatrixXd::Zero(1, 2);
   rows.residual = Eigen::VectorXd::Zero(1);
   rows.cluster = {0};
-  rows.prior_precision = Eigen::Vector2d(4, 25);
+  rows.prior_information = Eigen::Vector2d(4, 25).asDiagonal();
   const FitCovariance found = CovarianceOf(rows);
   EXPECT_NEAR(found.covariance(0, 0), 0.25, 1e-12);
   EXPECT_NEAR(found.covariance(1, 1), 0.04, 1e-12);

@@ -1,0 +1,362 @@
+#include "inverse/internal/sparse_luminaires.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "forward/direct_light.h"
+#include "inverse/internal/nonnegative_least_squares.h"
+
+namespace luxfit {
+namespace {
+
+struct Lobe {
+  Distribution distribution;
+  double exponent;
+  Eigen::Vector3d aim;
+};
+const std::vector<Lobe>& Lobes() {
+  using D = Distribution;
+  static const std::vector<Lobe> lobes = {
+      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}}, {D::kCosinePower, 3, {0, 0, -1}},
+      {D::kCosinePower, 8, {0, 0, -1}}, {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
+      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},  {D::kCosinePower, 1, {0, -1, 0}}};
+  return lobes;
+}
+
+// Direct illuminance per lumen at the places (rows) of every lobe (columns) at one position.
+Eigen::MatrixXf LobeColumns(const Room& room, const std::vector<Sensor>& places,
+                            const Eigen::Vector3d& position) {
+  const auto rows = static_cast<Eigen::Index>(places.size());
+  const auto lobes = static_cast<Eigen::Index>(Lobes().size());
+  Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(rows, lobes);
+  Luminaire lamp;
+  lamp.position = position;
+  lamp.distribution = Distribution::kIsotropic;
+  constexpr double kIsotropicCdPerLm = 0.25 / 3.14159265358979323846;
+  // A candidate close to a surface must not win by one enormous value.
+  constexpr double kNearestM = 0.1;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Sensor& place = places[static_cast<size_t>(i)];
+    const Eigen::Vector3d ray = place.position - position;
+    const double distance = ray.norm();
+    if (distance < kNearestM || VisibleFraction(room.rays, lamp, place.position, place.normal, 1) == 0)
+      continue;
+    const double isotropic = SensorIlluminancePerLumen(lamp, place).lx_per_lm;
+    for (Eigen::Index l = 0; l < lobes; ++l) {
+      const Lobe& lobe = Lobes()[static_cast<size_t>(l)];
+      const double cosine = lobe.aim.dot(ray) / distance;
+      lamp.distribution = lobe.distribution;
+      lamp.cosine_exponent = lobe.exponent;
+      columns(i, l) =
+          static_cast<float>(isotropic / kIsotropicCdPerLm * IntensityPerLumen(lamp, cosine).cd_per_lm);
+    }
+    lamp.distribution = Distribution::kIsotropic;
+  }
+  return columns;
+}
+
+// Cell centres of a grid through the box, so that none lies on a wall.
+std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step) {
+  const Eigen::Array3i n = (box.sizes().array() / step).ceil().cast<int>().max(1);
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(static_cast<size_t>(n.cast<double>().prod()));
+  for (int i = 0; i < n[0]; ++i) {
+    for (int j = 0; j < n[1]; ++j) {
+      for (int k = 0; k < n[2]; ++k) {
+        const Eigen::Array3d at = (Eigen::Array3d(i, j, k) + 0.5) / n.cast<double>();
+        places.push_back(box.min() + (at * box.sizes().array()).matrix());
+      }
+    }
+  }
+  return places;
+}
+
+// The room; without a mesh, the box of the sensors, as far again to every side.
+Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& places) {
+  Eigen::AlignedBox3d box = room.scene.Bounds();
+  if (!box.isEmpty()) return box;
+  for (const Sensor& place : places) box.extend(place.position);
+  if (box.isEmpty()) return box;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(box.sizes().maxCoeff());
+  return {box.min() - margin, box.max() + margin};
+}
+
+// One group's equations, weighted, in normal form over any set of sources.
+class Equations {
+ public:
+  Equations(const GroupedLight& light, int group) {
+    for (size_t i = 0; i < light.places.size(); ++i) {
+      const double value = light.value(static_cast<Eigen::Index>(i), group);
+      if (std::isfinite(value) && value > 0) rows_.push_back(static_cast<Eigen::Index>(i));
+    }
+    std::set<int> materials;
+    for (const Eigen::Index i : rows_) materials.insert(light.material[static_cast<size_t>(i)]);
+    materials_.assign(materials.begin(), materials.end());
+    value_ = light.value(rows_, group);
+    indirect_ = light.indirect(rows_, group);
+    for (const Eigen::Index i : rows_) material_.push_back(light.material[static_cast<size_t>(i)]);
+    SetUp();
+  }
+
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  const std::vector<int>& materials() const { return materials_; }
+  Eigen::Index unknowns() const { return others_.cols(); }
+
+  Eigen::VectorXd Weighted(const Eigen::VectorXf& column) const {
+    return column(rows_).cast<double>().cwiseProduct(root_weight_);
+  }
+
+  // min over g, q >= 0 with `sources` (columns, weighted) as g's.
+  struct Solution {
+    Eigen::VectorXd strength, other;
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  Solution Solve(const Eigen::MatrixXd& sources) const {
+    const Base base = MakeBase(sources);
+    return Finish(base, base.gram, base.moment);
+  }
+
+  // The same with one more source, whose column comes last: what does not depend on it is computed once.
+  struct Base {
+    Eigen::MatrixXd columns, gram;
+    Eigen::VectorXd moment;
+  };
+  Base MakeBase(const Eigen::MatrixXd& sources) const {
+    Base base;
+    base.columns.resize(others_.rows(), others_.cols() + sources.cols());
+    base.columns << others_, sources;
+    base.gram = base.columns.transpose() * base.columns;
+    base.moment = base.columns.transpose() * target_;
+    return base;
+  }
+  Solution SolveWith(const Base& base, const Eigen::VectorXd& source) const {
+    const Eigen::Index n = base.gram.rows();
+    Eigen::MatrixXd gram(n + 1, n + 1);
+    const Eigen::VectorXd cross = base.columns.transpose() * source;
+    gram << base.gram, cross, cross.transpose(), source.squaredNorm();
+    Eigen::VectorXd moment(n + 1);
+    moment << base.moment, source.dot(target_);
+    return Finish(base, gram, moment);
+  }
+
+ private:
+  Solution Finish(const Base&, const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) const {
+    const Eigen::VectorXd x = SolveNonNegative(gram, moment);
+    const double cost = target_.squaredNorm() - 2 * x.dot(moment) + x.dot(gram * x);
+    return {x.tail(x.size() - unknowns()), x.head(unknowns()), cost};
+  }
+
+  void SetUp() {
+    const auto n = static_cast<Eigen::Index>(rows_.size());
+    const double mean = n > 0 ? value_.mean() : 0;
+    others_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(materials_.size()));
+    root_weight_.resize(n);
+    target_.resize(n);
+    for (size_t m = 0; m < materials_.size(); ++m) {
+      // Where no direct light falls, Y / I is the albedo: the darkest tenth of a material says about how
+      // much.
+      std::vector<double> albedo;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        if (material_[static_cast<size_t>(i)] == materials_[m] && indirect_[i] > 0)
+          albedo.push_back(value_[i] / indirect_[i]);
+      }
+      double white = 1;
+      if (!albedo.empty()) {
+        const auto tenth = albedo.begin() + static_cast<std::ptrdiff_t>(albedo.size() / 10);
+        std::nth_element(albedo.begin(), tenth, albedo.end());
+        white = 1 / std::clamp(*tenth, 0.05, 1.0);
+      }
+      for (Eigen::Index i = 0; i < n; ++i) {
+        if (material_[static_cast<size_t>(i)] != materials_[m]) continue;
+        const bool is_reading = materials_[m] < 0;
+        const double sigma = (is_reading ? 1 : white) * (0.1 * value_[i] + 0.02 * mean);
+        root_weight_[i] = 1 / sigma;
+        target_[i] = (is_reading ? value_[i] : -indirect_[i]) / sigma;
+        others_(i, static_cast<Eigen::Index>(m)) = (is_reading ? 1 : -value_[i]) / sigma;
+      }
+    }
+  }
+
+  std::vector<Eigen::Index> rows_;
+  std::vector<int> material_, materials_;
+  Eigen::VectorXd value_, indirect_, root_weight_, target_;
+  Eigen::MatrixXd others_;
+};
+
+}  // namespace
+
+struct SparseSearch::Grid {
+  Eigen::AlignedBox3d box;
+  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::MatrixXf> columns;  // of each place: rows x lobes
+};
+
+SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
+    : room_(room), light_(light), refinements_(refinements), grid_(std::make_unique<Grid>()) {
+  grid_->box = SearchBox(room, light.places);
+  if (grid_->box.isEmpty()) {
+    step_m_ = grid_m;
+    return;
+  }
+  step_m_ = std::min(grid_m, grid_->box.sizes().maxCoeff() / 8);
+  grid_->places = GridThrough(grid_->box, step_m_);
+  grid_->columns.resize(grid_->places.size());
+  tbb::parallel_for(size_t{0}, grid_->places.size(), [&](size_t i) {
+    grid_->columns[i] = LobeColumns(room_, light_.places, grid_->places[i]);
+  });
+}
+
+SparseSearch::~SparseSearch() = default;
+
+namespace {
+
+struct Tried {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  size_t lobe = 0;
+  Eigen::VectorXd column;  // weighted
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }
+
+// The best place of every lobe.
+std::vector<Tried> BestOfLobes(const Equations& equations, const Eigen::MatrixXd& others,
+                               const std::vector<Eigen::Vector3d>& places,
+                               const std::vector<Eigen::MatrixXf>& columns) {
+  const Equations::Base base = equations.MakeBase(others);
+  const size_t lobes = Lobes().size();
+  std::vector<double> cost(places.size() * lobes);
+  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
+    for (size_t l = 0; l < lobes; ++l) {
+      const Eigen::VectorXd column = equations.Weighted(columns[i].col(static_cast<Eigen::Index>(l)));
+      const Equations::Solution solution = equations.SolveWith(base, column);
+      const bool lights = solution.strength[solution.strength.size() - 1] > 0;
+      cost[i * lobes + l] = lights ? solution.cost : std::numeric_limits<double>::infinity();
+    }
+  });
+  std::vector<Tried> best(lobes);
+  for (size_t l = 0; l < lobes; ++l) {
+    best[l].lobe = l;
+    for (size_t i = 0; i < places.size(); ++i) {
+      if (cost[i * lobes + l] >= best[l].cost) continue;
+      best[l].cost = cost[i * lobes + l];
+      best[l].position = places[i];
+      best[l].column = equations.Weighted(columns[i].col(static_cast<Eigen::Index>(l)));
+    }
+  }
+  return best;
+}
+
+// The cell about a place, in half steps.
+std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double step,
+                                        const Eigen::AlignedBox3d& box) {
+  const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(27);
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d offset = Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
+    places.push_back((centre + step * offset).cwiseMax(box.min() + inner).cwiseMin(box.max() - inner));
+  }
+  return places;
+}
+
+Eigen::MatrixXd Columns(const std::vector<Tried>& sources, size_t without) {
+  std::vector<Eigen::VectorXd> columns;
+  for (size_t j = 0; j < sources.size(); ++j) {
+    if (j != without) columns.push_back(sources[j].column);
+  }
+  const Eigen::Index rows = columns.empty() ? 0 : columns[0].size();
+  Eigen::MatrixXd matrix(rows, static_cast<Eigen::Index>(columns.size()));
+  for (size_t j = 0; j < columns.size(); ++j) matrix.col(static_cast<Eigen::Index>(j)) = columns[j];
+  return matrix;
+}
+
+}  // namespace
+
+SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& held) const {
+  SparseLuminaires found;
+  const Equations equations(light_, group);
+  constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
+  if (equations.rows().size() < kFewestPlaces || grid_->places.empty()) return found;
+  const auto none = static_cast<Eigen::Index>(equations.rows().size());
+  const auto others = [&](const std::vector<Tried>& sources, size_t without) {
+    Eigen::MatrixXd columns = Columns(sources, without);
+    if (columns.cols() == 0) columns.resize(none, 0);
+    return columns;
+  };
+  // About its place, with its own lobe or with any.
+  const auto refine = [&](Tried source, double step, const Eigen::MatrixXd& rest, bool any_lobe) {
+    const std::vector<Eigen::Vector3d> places = Neighbours(source.position, step, grid_->box);
+    std::vector<Eigen::MatrixXf> columns(places.size());
+    tbb::parallel_for(size_t{0}, places.size(),
+                      [&](size_t i) { columns[i] = LobeColumns(room_, light_.places, places[i]); });
+    const std::vector<Tried> lobes = BestOfLobes(equations, rest, places, columns);
+    const Tried& best =
+        any_lobe ? *std::min_element(lobes.begin(), lobes.end(), IsBetter) : lobes[source.lobe];
+    return IsBetter(best, source) ? best : source;
+  };
+  std::vector<Tried> sources;
+  for (const SparseSource& given : held) {
+    const Eigen::MatrixXf columns = LobeColumns(room_, light_.places, given.luminaire.position);
+    const std::vector<Tried> lobes =
+        BestOfLobes(equations, others(sources, sources.size()), {given.luminaire.position}, {columns});
+    sources.push_back(*std::min_element(lobes.begin(), lobes.end(), IsBetter));
+    if (sources.back().column.size() == 0) sources.back().column = equations.Weighted(columns.col(1));
+    sources.back().position = given.luminaire.position;
+  }
+  while (static_cast<int>(sources.size()) < count) {
+    const Eigen::MatrixXd rest = others(sources, sources.size());
+    const double before = equations.Solve(rest).cost;
+    std::vector<Tried> lobes = BestOfLobes(equations, rest, grid_->places, grid_->columns);
+    // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
+    for (Tried& lobe : lobes) {
+      if (!std::isfinite(lobe.cost)) continue;
+      for (int r = 1; r <= refinements_; ++r) lobe = refine(lobe, std::ldexp(step_m_, -r), rest, false);
+    }
+    const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
+    if (!(best.cost < before)) break;
+    sources.push_back(best);
+    // Those that were there before give way, and the new one to them.
+    constexpr int kSweeps = 6;
+    bool moved = sources.size() > 1;
+    for (int sweep = 0; sweep < kSweeps && moved; ++sweep) {
+      moved = false;
+      for (size_t j = held.size(); j < sources.size(); ++j) {
+        const Eigen::MatrixXd beside = others(sources, j);
+        const Eigen::Vector3d from = sources[j].position;
+        sources[j].cost = equations.SolveWith(equations.MakeBase(beside), sources[j].column).cost;
+        for (int r = 0; r <= refinements_; ++r)
+          sources[j] = refine(sources[j], std::ldexp(step_m_, -r), beside, true);
+        moved = moved || sources[j].position != from;
+      }
+    }
+  }
+  const Equations::Solution solution = equations.Solve(others(sources, sources.size()));
+  found.mean_square = solution.cost / static_cast<double>(none);
+  for (size_t j = 0; j < sources.size(); ++j) {
+    const Lobe& lobe = Lobes()[sources[j].lobe];
+    SparseSource source;
+    source.luminaire.position = sources[j].position;
+    source.luminaire.aim = lobe.aim;
+    source.luminaire.distribution = lobe.distribution;
+    source.luminaire.cosine_exponent = lobe.exponent;
+    source.strength = solution.strength[static_cast<Eigen::Index>(j)];
+    source.is_held = j < held.size();
+    found.sources.push_back(source);
+  }
+  for (size_t m = 0; m < equations.materials().size(); ++m) {
+    const double q = solution.other[static_cast<Eigen::Index>(m)];
+    if (equations.materials()[m] >= 0 && q > 0) found.albedo[equations.materials()[m]] = 1 / q;
+  }
+  return found;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,60 @@
+// Point luminaires that explain a group's light: sparse non-negative least squares over places.
+//
+//   sum_j g_j D_ij + I_i = q_m(i) Y_i     photos: g_j = c Phi_j / pi, q = 1 / albedo of the place's material
+//   sum_j g_j D_ij + b   = E_i            readings alone: g_j = Phi_j, b: light from other surfaces, taken as
+//   even g, q, b >= 0
+//
+// D: direct illuminance per lumen. Places are the cells of a grid through the room, with a few lobes at each.
+// Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
+// solved anew; the place is then refined by halving the grid about it, and so are the others' in turn.
+// Distances m. Rows weigh by a relative error of 10 %, with a floor where there is little light.
+// Sources: Lawson and Hanson (1974), ch. 23 (NNLS); Boyd, Schiebinger, Recht (2017), "The alternating descent
+// conditional gradient method for sparse inverse problems" (add, solve, move).
+#ifndef LUXFIT_INVERSE_INTERNAL_SPARSE_LUMINAIRES_H_
+#define LUXFIT_INVERSE_INTERNAL_SPARSE_LUMINAIRES_H_
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "inverse/internal/grouped_light.h"
+
+namespace luxfit {
+
+struct SparseSource {
+  Luminaire luminaire;  // position, aim, lobe
+  double strength = 0;  // g
+  bool is_held = false;
+};
+
+struct SparseLuminaires {
+  std::vector<SparseSource> sources;
+  std::map<int, double> albedo;  // by material, of photos
+  double mean_square = 0;        // of the weighted residuals: 1 is 10 %
+};
+
+class SparseSearch {
+ public:
+  // Traces the grid's light once for all groups. Keeps references.
+  SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements);
+  ~SparseSearch();
+  SparseSearch(const SparseSearch&) = delete;
+  SparseSearch& operator=(const SparseSearch&) = delete;
+
+  // The light of one group by `count` luminaires, of which `held` have a given place. Fewer sources come back
+  // where no more would help; none where fewer than 20 places show the group's light.
+  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& held = {}) const;
+
+ private:
+  struct Grid;
+  const Room& room_;
+  const GroupedLight& light_;
+  double step_m_;
+  int refinements_;
+  std::unique_ptr<Grid> grid_;
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_INTERNAL_SPARSE_LUMINAIRES_H_
