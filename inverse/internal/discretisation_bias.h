@@ -6,8 +6,8 @@
 // D: direct light, taken at the centres of elements where photos show their means; to second order the mean
 // over a parallelogram is E + (|u|^2 E_uu + |v|^2 E_vv) / 24, that of its quarter points has 1/32 instead.
 // I: indirect light as elements gather it, from patches that are evenly bright. G: gathered from the
-// elements, whose direct light is finer, as sensors do: what the last reflection loses by the patches' size,
-// which is most of what all of them do.
+// elements, whose direct light is finer, as sensors do: what the last reflection loses by the patches' size.
+// What earlier ones lose is not contained.
 //
 // One value an observation, in its unit. Both parts are found for elements taken evenly, which count for the
 // others (0 there): up to max_elements for D, an eighth of them for G. G - I is 0 where indirect light was
