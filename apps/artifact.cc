@@ -14,6 +14,16 @@
 #include "apps/version.h"
 
 namespace luxfit {
+namespace {
+
+std::string Hexadecimal(const XXH128_hash_t& hash) {
+  std::array<char, 33> text{};
+  std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
+                static_cast<unsigned long long>(hash.low64));
+  return text.data();
+}
+
+}  // namespace
 
 std::string HashFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -24,11 +34,11 @@ std::string HashFile(const std::string& path) {
   while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0) {
     XXH3_128bits_update(state.get(), buffer.data(), static_cast<size_t>(file.gcount()));
   }
-  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
-  std::array<char, 33> text{};
-  std::snprintf(text.data(), text.size(), "%016llx%016llx", static_cast<unsigned long long>(hash.high64),
-                static_cast<unsigned long long>(hash.low64));
-  return text.data();
+  return Hexadecimal(XXH3_128bits_digest(state.get()));
+}
+
+std::string HashText(const std::string& text) {
+  return Hexadecimal(XXH3_128bits(text.data(), text.size()));
 }
 
 nlohmann::json ProvenanceJson(const std::string& format, const Provenance& provenance) {

@@ -23,6 +23,7 @@ nlohmann::json ProvenanceJson(const std::string& format, const Provenance& prove
 
 // Hexadecimal hash of a file's bytes.
 std::string HashFile(const std::string& path);
+std::string HashText(const std::string& text);
 
 void WriteJson(const std::string& path, const nlohmann::json& json);
 void WriteText(const std::string& path, const std::string& text);

@@ -82,6 +82,24 @@ int FitRoom(const CommandOptions& options, bool with_albedo) {
   return context.undetermined ? 1 : 0;
 }
 
+// How much the fit of a session stands; exit status 1 where there is no fit to begin with.
+int ChartStability(const CommandOptions& options, const Session& session) {
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
+  Print(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/stability.csv").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int ChartWholeFit(const CommandOptions& options, const Session& session) {
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = FitChartOfSession(
+      session, {options.stability_options.elements, options.stability_options.truth_path}, context);
+  Print(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/fit.csv").c_str());
+  return 0;
+}
+
 }  // namespace
 
 int RunCommand(const CommandOptions& options) { return FitRoom(options, false); }
@@ -119,6 +137,8 @@ int SimulateCommand(const CommandOptions& options) {
 
 int ChartCommand(const CommandOptions& options) {
   Session session = ReadRoomSession(options);
+  if (options.stability) return ChartStability(options, session);
+  if (options.whole_fit) return ChartWholeFit(options, session);
   if (!options.earlier_result.empty()) session = WithResult(std::move(session), options.earlier_result);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact =

@@ -8,6 +8,9 @@
 
 #include <string>
 
+#include "apps/stage_fit_chart.h"
+#include "apps/stage_stability.h"
+
 namespace luxfit {
 
 struct CommandOptions {
@@ -23,12 +26,16 @@ struct CommandOptions {
   // Of chart.
   double budget_s = 120;
   std::string earlier_result;  // path of a result.json whose luminaires and reflectances count as given
+  bool stability = false;      // of the whole fit, instead of the forward model
+  StabilityOptions stability_options;
+  bool whole_fit = false;  // error against time of the whole fit; elements and truth as in stability_options
 };
 
 int RunCommand(const CommandOptions& options);
 // Forward only: writes OUT/illuminance.csv and OUT/stages/simulate.json.
 int SimulateCommand(const CommandOptions& options);
-// Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json.
+// Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json. Or
+// how much the fit stands (apps/stage_stability.h), or its error against time (apps/stage_fit_chart.h).
 int ChartCommand(const CommandOptions& options);
 // Pixels to luminance: exposures, response and vignetting; writes OUT/stages/linearize.json.
 int LinearizeCommand(const CommandOptions& options);

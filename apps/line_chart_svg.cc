@@ -97,9 +97,8 @@ std::string Draw(const LineChart& chart, std::size_t index, const ChartAxis& x, 
          marks;
 }
 
-}  // namespace
-
-std::string LineChartSvg(const LineChart& chart) {
+// Drawn with its upper left corner at the origin; empty where no point can be drawn.
+std::string ChartBody(const LineChart& chart) {
   const bool any = std::any_of(chart.series.begin(), chart.series.end(), [&chart](const LineSeries& series) {
     return std::any_of(series.points.begin(), series.points.end(),
                        [&chart](const Eigen::Vector2d& point) { return IsDrawn(chart, point); });
@@ -114,7 +113,26 @@ std::string LineChartSvg(const LineChart& chart) {
     body += Draw(chart, i, x, y) + SvgMark(style.mark, style.colour, kRightPx + 24, legend_y, 5) +
             SvgText(kRightPx + 38, legend_y + 4, chart.series[i].name);
   }
-  return SvgDocument(kWidthPx, kHeightPx, body);
+  return body;
+}
+
+}  // namespace
+
+std::string LineChartSvg(const LineChart& chart) {
+  const std::string body = ChartBody(chart);
+  return body.empty() ? "" : SvgDocument(kWidthPx, kHeightPx, body);
+}
+
+std::string StackedLineChartsSvg(const std::vector<LineChart>& charts) {
+  std::string bodies;
+  double top_px = 0;
+  for (const LineChart& chart : charts) {
+    const std::string body = ChartBody(chart);
+    if (body.empty()) continue;
+    bodies += fmt::format("<g transform=\"translate(0 {:.0f})\">\n{}</g>\n", top_px, body);
+    top_px += kHeightPx;
+  }
+  return bodies.empty() ? "" : SvgDocument(kWidthPx, top_px, bodies);
 }
 
 }  // namespace luxfit

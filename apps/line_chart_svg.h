@@ -34,6 +34,9 @@ struct LineChart {
 // Empty where no point can be drawn.
 std::string LineChartSvg(const LineChart& chart);
 
+// Several charts in one picture, each below the one before; those without points are left out.
+std::string StackedLineChartsSvg(const std::vector<LineChart>& charts);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_APPS_LINE_CHART_SVG_H_

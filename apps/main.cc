@@ -78,6 +78,41 @@ CLI::App* AddBoard(CLI::App& app, luxfit::BoardCommandOptions& options) {
   return sub;
 }
 
+// The whole fit instead of the forward model.
+void AddFitCharts(CLI::App& chart, luxfit::CommandOptions& options) {
+  luxfit::StabilityOptions& stability = options.stability_options;
+  CLI::Option* const degrade = chart.add_flag(
+      "--stability", options.stability,
+      "degrade the session (noise, exposure, views, ...), fit it again, and chart success and error");
+  CLI::Option* const fit =
+      chart.add_flag("--fit", options.whole_fit,
+                     "error of the whole fit against its time, over patches, views, states, ...");
+  fit->excludes(degrade);
+  chart.add_option("--trials", stability.trials, "of --stability, a level")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->needs(degrade);
+  chart.add_option("--seed", stability.seed, "of --stability's random numbers")
+      ->capture_default_str()
+      ->needs(degrade);
+  chart.add_option("--only", stability.only, "degradations of --stability, by name (default: all)")
+      ->delimiter(',')
+      ->needs(degrade);
+  const CLI::Option* const elements =
+      chart.add_option("--elements", stability.elements, "observed elements that each fit uses")
+          ->capture_default_str()
+          ->check(CLI::PositiveNumber);
+  const CLI::Option* const truth =
+      chart.add_option("--truth", stability.truth_path,
+                       "true luminaires as JSON (default: what the undegraded session gives)");
+  chart.final_callback([degrade, fit, elements, truth] {
+    if (degrade->count() + fit->count() > 0) return;
+    for (const CLI::Option* const option : {elements, truth}) {
+      if (option->count() > 0) throw CLI::RequiresError(option->get_name(), "--stability or --fit");
+    }
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -141,6 +176,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   chart->add_option("--result", options.earlier_result,
                     "result.json of a fit: its luminaires and reflectances count as given");
+
+  AddFitCharts(*chart, options);
 
   luxfit::FormFactorsCommandOptions form_factors;
   form_factors.command_line = options.command_line;

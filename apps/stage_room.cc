@@ -51,7 +51,7 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
     : context_(context), stage_(std::move(stage)), start_s_(NowS()) {
-  if (!line.empty()) std::fprintf(stderr, "%-9s %s\n", stage_.c_str(), line.c_str());
+  if (!line.empty() && !context.is_quiet) std::fprintf(stderr, "%-9s %s\n", stage_.c_str(), line.c_str());
 }
 
 StageTimer::~StageTimer() { context_.timing_s[stage_] += NowS() - start_s_; }

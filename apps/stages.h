@@ -49,6 +49,7 @@ struct RunContext {
   std::vector<Choice> choices;
   std::map<std::string, double> timing_s;
   bool undetermined = false;  // exit status 1
+  bool is_quiet = false;      // no progress lines
 };
 
 // Measures a stage from its making to its end, adds to context.timing_s, prints a progress line where one is

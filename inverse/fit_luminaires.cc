@@ -2,12 +2,13 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 
+#include "inverse/internal/discretisation_bias.h"
+#include "inverse/internal/fit_covariance.h"
 #include "inverse/part_smoothness.h"
 
 namespace luxfit {
@@ -258,75 +259,53 @@ class OuterLoop {
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
-    const Eigen::MatrixXd jacobian = root_weight_.asDiagonal() * prediction.jacobian;
-    const Eigen::VectorXd residual = (prediction.value - values_).cwiseProduct(root_weight_);
-    Eigen::MatrixXd hessian = jacobian.transpose() * jacobian;
-    fit_.effective_parts = EffectiveParts(hessian, smoothness_, fit_.parameters);
-    AddSmoothness(smoothness_, hessian);
-    for (const auto& [parameter, prior] : priors_)
-      hessian(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
-    const Eigen::MatrixXd inverse = InvertAndNameNullDirections(hessian);
-    const Eigen::MatrixXd sandwich = inverse * ClusterScatter(jacobian, residual) * inverse;
-    // The larger of the two in every parameter: scale the sandwich up, keep its correlations.
-    Eigen::VectorXd scale = Eigen::VectorXd::Ones(inverse.rows());
-    for (Eigen::Index i = 0; i < scale.size(); ++i) {
-      if (sandwich(i, i) > 0 && inverse(i, i) > sandwich(i, i))
-        scale[i] = std::sqrt(inverse(i, i) / sandwich(i, i));
-    }
-    fit_.covariance = scale.asDiagonal() * sandwich * scale.asDiagonal();
+    const WeightedRows rows = RowsOf(prediction);
+    fit_.effective_parts =
+        EffectiveParts(rows.jacobian.transpose() * rows.jacobian, smoothness_, fit_.parameters);
+    const FitCovariance found = CovarianceOf(rows);
+    fit_.covariance = found.covariance;
+    for (const Eigen::VectorXd& direction : found.null_directions) NameNullDirection(direction);
     const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
     const Eigen::MatrixXd reading_jacobian = prediction.jacobian.bottomRows(readings);
     fit_.reading_sigma_lx =
         (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal().cwiseSqrt();
   }
 
-  Eigen::MatrixXd InvertAndNameNullDirections(const Eigen::MatrixXd& hessian) {
-    const Eigen::VectorXd unit = hessian.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(unit.asDiagonal() * hessian *
-                                                               unit.asDiagonal());
-    constexpr double kSingular = 1e-10;  // of the scaled Hessian: parameters correlated to better than 1e-10
-    const double largest = eigen.eigenvalues().maxCoeff();
-    Eigen::VectorXd inverse = Eigen::VectorXd::Zero(hessian.rows());
-    for (Eigen::Index d = 0; d < hessian.rows(); ++d) {
-      if (eigen.eigenvalues()[d] > kSingular * largest) {
-        inverse[d] = 1 / eigen.eigenvalues()[d];
-        continue;
-      }
-      for (Eigen::Index i = 0; i < hessian.rows(); ++i) {
-        if (std::abs(eigen.eigenvectors()(i, d)) > 0.1) {
-          fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].name);
-        }
-      }
-      fit_.null_directions.push_back(DescribeNullDirection(fit_.parameters, eigen.eigenvectors().col(d)));
-      fit_.status = FitStatus::kUndetermined;
-      fit_.message = "the data leave a combination of parameters undetermined";
+  void NameNullDirection(const Eigen::VectorXd& direction) {
+    for (Eigen::Index i = 0; i < direction.size(); ++i) {
+      if (std::abs(direction[i]) > 0.1)
+        fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].name);
     }
-    const Eigen::MatrixXd vectors = unit.asDiagonal() * eigen.eigenvectors();
-    return vectors * inverse.asDiagonal() * vectors.transpose();
+    fit_.null_directions.push_back(DescribeNullDirection(fit_.parameters, direction));
+    fit_.status = FitStatus::kUndetermined;
+    fit_.message = "the data leave a combination of parameters undetermined";
   }
 
-  // sum over clusters of g g^T, g the cluster's share of the gradient; readings and priors stand alone.
-  Eigen::MatrixXd ClusterScatter(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual) const {
-    std::map<std::pair<int, int>, Eigen::VectorXd> gradients;
-    const Eigen::Index n = jacobian.cols();
-    Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(n, n);
-    for (size_t i = 0; i < data_.observations.size(); ++i) {
-      const Observation& o = data_.observations[i];
-      const Eigen::Index row = static_cast<Eigen::Index>(i);
-      if (root_weight_[row] == 0) continue;
+  // Clusters are the observations of one facet in one state; readings stand alone.
+  WeightedRows RowsOf(const Prediction& prediction) const {
+    WeightedRows rows;
+    rows.jacobian = root_weight_.asDiagonal() * prediction.jacobian;
+    rows.residual = (prediction.value - values_).cwiseProduct(root_weight_);
+    rows.bias = Eigen::VectorXd::Zero(values_.size());
+    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
+    if (observations > 0)
+      rows.bias.head(observations) =
+          DiscretisationBias(room_, data_, fit_.state).cwiseProduct(root_weight_.head(observations));
+    std::map<std::pair<int, int>, int> clusters;
+    for (const Observation& o : data_.observations) {
       const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
       const int facet = room_.patches.patches[static_cast<size_t>(patch)].facet;
-      Eigen::VectorXd& g = gradients.try_emplace({facet, o.state}, Eigen::VectorXd::Zero(n)).first->second;
-      g += residual[row] * jacobian.row(row).transpose();
+      const int next = static_cast<int>(clusters.size());
+      rows.cluster.push_back(clusters.try_emplace({facet, o.state}, next).first->second);
     }
-    for (const auto& [key, g] : gradients) scatter += g * g.transpose();
-    const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
-    const Eigen::MatrixXd reading_jacobian = jacobian.bottomRows(readings);
-    scatter += ReadingScatter(residual.tail(readings)) * reading_jacobian.transpose() * reading_jacobian;
+    rows.cluster.resize(static_cast<size_t>(values_.size()), -1);
+    rows.alone_scatter = ReadingScatter(rows.residual.tail(values_.size() - observations));
+    const Eigen::Index n = prediction.jacobian.cols();
+    rows.prior_information = Eigen::MatrixXd::Zero(n, n);
     for (const auto& [parameter, prior] : priors_)
-      scatter(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
-    AddSmoothness(smoothness_, scatter);
-    return scatter;
+      rows.prior_information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    AddSmoothness(smoothness_, rows.prior_information);
+    return rows;
   }
 
   // Mean square of the readings' normalised residuals, never below 1: a reading's stated sigma counts even

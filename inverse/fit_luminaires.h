@@ -8,13 +8,16 @@
 // Rows that a shadow edge crosses are left out: their dependence on position is not smooth.
 //
 // Covariance: residuals of neighbouring elements share their model error, so they are no independent
-// evidence. The cluster-robust ("sandwich") estimate is used, H^-1 (sum_c g_c g_c^T) H^-1 with clusters of
-// one facet and one state, never below the plain H^-1 (which the priors and readings share). A direction of
-// parameters that the data leave undetermined (singular value below 1e-7 of the largest, after scaling) has
-// no covariance: it is listed in `undetermined`, described in `null_directions`, and status is kUndetermined.
+// evidence. The cluster-robust ("sandwich") estimate is used, with clusters of one facet and one state, each
+// judged by a fit without it, and few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 %
+// interval (inverse/internal/fit_covariance.h). It contains noise, the model errors that differ from facet to
+// facet or state to state, the readings' and priors' sigmas, and what elements
+// and patches lose by their size (inverse/internal/discretisation_bias.h); not camera poses, nor the mesh, nor
+// any other model error that is the same everywhere. A direction of
+// parameters that the data leave undetermined (singular value below 1e-5 of the largest, after scaling) has no
+// covariance: it is listed in `undetermined`, described in `null_directions`, and status is kUndetermined.
 //
-// Sources: Triggs et al. (2000), sec. 4 (IRLS, LM); Liang and Zeger (1986), Cameron and Miller (2015)
-// (cluster-robust).
+// Sources: Triggs et al. (2000), sec. 4 (IRLS, LM).
 #ifndef LUXFIT_INVERSE_FIT_LUMINAIRES_H_
 #define LUXFIT_INVERSE_FIT_LUMINAIRES_H_
 

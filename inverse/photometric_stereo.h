@@ -51,7 +51,7 @@ enum class StereoStatus { kDone, kUndetermined };
 struct PhotometricStereoOptions {
   StereoMethod method = StereoMethod::kRobust;
   std::vector<CurveKind> curves = AllCurveKinds();  // candidates; one: taken without a comparison
-  double shadow_fraction = 0.05;                    // of the brightest value (95 % are below it)
+  double shadow_fraction = 0.02;                    // of the brightest value (95 % are below it)
   int choice_pixels = 1000;                         // taken evenly for the comparison of curves
   int max_folds = 6;                                // parts that the comparison leaves out in turn
   bool covariance = true;

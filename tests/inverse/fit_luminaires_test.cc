@@ -268,7 +268,9 @@ TEST_F(PhotosAlone, ManyReadingsShareTheMetersCalibration) {
   const LuminaireFit fit =
       FitLuminaires(room_, data_, start_, {{ParameterKind::kLogMeterScale, 0, {}, 0, 0.05}});
   EXPECT_TRUE(fit.IsUsable()) << fit.message;
-  EXPECT_LT(alone, 0.05);  // of the readings' own 1 % and of what reflectances and flux share
+  // The readings' own 1 %, and what reflectances and flux share: these photos miss up to a tenth of the light
+  // (see above), by facet, and six facets tell little of it.
+  EXPECT_LT(alone, 0.1);
   EXPECT_NEAR(flux_sigma(fit), std::hypot(alone, 0.05), 0.003);
   // What the same meter reads elsewhere is as well known as before: its calibration cancels.
   EXPECT_LT(fit.reading_sigma_lx[0] / fit.predicted[fit.predicted.size() - 4], 0.02);

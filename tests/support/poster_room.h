@@ -41,10 +41,10 @@ inline std::vector<Luminaire> PosterRoomLamps() {
   return lamps;
 }
 
-inline Room PosterRoomModel() {
+inline Room PosterRoomModel(double element_size_m = 0.5) {
   RoomOptions options;
   options.patches.patch_size_m = 0.5;
-  options.patches.element_size_m = 0.5;
+  options.patches.element_size_m = element_size_m;
   return MakeRoom(PosterRoomScene(false), options);
 }
 
