@@ -63,7 +63,7 @@ Eigen::MatrixXd DirectBias(const Room& room, const std::vector<int>& elements,
 }
 
 Eigen::MatrixXd IndirectBias(const Room& room, const std::vector<int>& elements, const LightState& state) {
-  constexpr int kRays = 4096, kVisibilityOrder = 2;
+  constexpr int kRays = 1024, kVisibilityOrder = 2;
   std::vector<Sensor> sensors;
   sensors.reserve(elements.size());
   for (const int e : elements) {
