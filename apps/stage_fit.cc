@@ -153,7 +153,7 @@ class FitStage {
       return FitLuminaires(room_, result_.data, start, priors_);
     FitLuminairesOptions options;
     options.covariance = false;
-    const LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
+    LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
     if (near.status == FitStatus::kNoData) return near;
     const LightState refined = WithoutVanishedSizes(near.state);
     options.covariance = true;

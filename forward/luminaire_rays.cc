@@ -42,8 +42,8 @@ Eigen::Vector2d EmittingPlaceAt(const LuminousSurface& surface, Eigen::Vector2d 
   Eigen::Index cell = 0;
   while (cell + 1 < emission.size() && unit[0] >= share[cell]) unit[0] -= share[cell++];
   const Eigen::Vector2d within(share[cell] > 0 ? std::min(unit[0] / share[cell], 1.0) : 0.5, unit[1]);
-  const Eigen::Vector2d index(static_cast<double>(cell % emission.rows()),
-                              static_cast<double>(cell / emission.rows()));
+  const Eigen::Index row = cell % emission.rows(), column = cell / emission.rows();
+  const Eigen::Vector2d index(static_cast<double>(row), static_cast<double>(column));
   const Eigen::Array2d counts(static_cast<double>(emission.rows()), static_cast<double>(emission.cols()));
   return (index + within).array() / counts - 0.5;
 }

@@ -81,6 +81,7 @@ std::vector<std::map<int, GroupScore>> Scores(const SubProblem& problem, const s
   double relative_sigma = 1;
   for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
   std::vector<std::map<int, GroupScore>> scores;
+  scores.reserve(trials.size());
   for (const Trial& trial : trials) scores.push_back(ScoreGroups(problem, trial.predicted, relative_sigma));
   return scores;
 }

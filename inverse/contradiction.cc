@@ -30,7 +30,8 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
     const FreeQuantities& free = start.free[k];
     if ((open[k].distribution && open[k].shape) || !free.flux) continue;
     std::vector<OpenChoice> others(open.size(), OpenChoice{false, false, false, {}});
-    others[k] = {true, true, false, {}};
+    // Where the radiosity has to be solved for every step, points must do.
+    others[k] = {true, data.indirect_is_held, false, {}};
     LightState unsaid = start;
     unsaid.luminaires[k] = Unsaid(start.luminaires[k]);
     unsaid.free[k].exponent = true;

@@ -1,10 +1,10 @@
 // What is given of a luminaire, against what the data say of it.
 //
 // A luminaire whose distribution or shape is given is fitted as given, and once more with both open
-// (inverse/choose_model.h). Where the open one predicts what was left out better by more than three standard
-// errors and with less than half of the mean squared error, what was given is contradicted: position and flux
-// fitted with it are then not what their sigmas say. Source: the cross-validation of inverse/choose_model.h;
-// two standard errors because a warning is no choice.
+// (inverse/choose_model.h); from readings alone, as a point. Where the open one predicts what was left out
+// better by more than three standard errors and with less than half of the mean squared error, what was given
+// is contradicted: position and flux fitted with it are then not what their sigmas say. Source: the
+// cross-validation of inverse/choose_model.h; two standard errors because a warning is no choice.
 #ifndef LUXFIT_INVERSE_CONTRADICTION_H_
 #define LUXFIT_INVERSE_CONTRADICTION_H_
 

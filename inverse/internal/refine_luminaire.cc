@@ -83,7 +83,7 @@ class Refiner {
       std::vector<Step> steps;
       if (open_.table) steps.push_back(TableStep());
       if (open_.emission && !open_.table_asked_for) steps.push_back(EmissionStep());
-      if (!TakeBest(std::move(steps))) break;
+      if (!TakeBest(steps)) break;
     }
     return result_;
   }
@@ -217,7 +217,7 @@ class Refiner {
   }
 
   // Records all steps, takes the most telling; false if none tells.
-  bool TakeBest(std::vector<Step> steps) {
+  bool TakeBest(const std::vector<Step>& steps) {
     const Step* best = nullptr;
     for (const Step& step : steps) {
       if (step.chosen > 0 && (best == nullptr || step.gain > best->gain)) best = &step;

@@ -34,10 +34,14 @@ B = { B = 1.0 }
 [[luminaire]]
 id = "A"
 photometry = "isotropic"
+shape = "point"
+aim = [0, 0, -1]
 
 [[luminaire]]
 id = "B"
 photometry = "isotropic"
+shape = "point"
+aim = [0, 0, -1]
 
 [luxmeter]
 readings = "luxmeter.csv"
@@ -71,7 +75,7 @@ class StabilityCommand : public testing::Test {
 
   support::ProgramRun Run(const std::string& flags, const std::string& out = "out") const {
     return support::RunProgram("chart '" + folder_.Path("session.toml") + "' -o '" + folder_.Path(out) +
-                               "' --stability --trials 2 " + flags);
+                               "' --stability --trials 1 " + flags);
   }
 
   json Artifact() const { return json::parse(folder_.Read("out/stages/stability.json")); }
@@ -104,8 +108,8 @@ TEST_F(StabilityCommand, ChartsWhatTheSessionAllowsAndNamesTheRest) {
   std::getline(csv, header);
   EXPECT_THAT(header, testing::StartsWith("degradation,level,unit,trials,success_percent"));
   std::getline(csv, row);
-  EXPECT_THAT(row, testing::StartsWith("luminaires_together,1,m,2,100,0,"));
-  EXPECT_THAT(run.output, HasSubstr("of 20"));
+  EXPECT_THAT(row, testing::StartsWith("luminaires_together,1,m,1,100,0,"));
+  EXPECT_THAT(run.output, HasSubstr("of 10"));
   EXPECT_THAT(run.output, HasSubstr("left out: the session has no photos"));
 }
 
@@ -121,18 +125,18 @@ TEST_F(StabilityCommand, GoesOnWhereItWasStopped) {
   ASSERT_EQ(Run("--only luminaires_together").status, 0);
   const std::string csv = folder_.Read("out/stability.csv"),
                     log = folder_.Read("out/stages/stability_trials.jsonl");
-  ASSERT_EQ(LogLines(), 10);
-  // As a program leaves it that is killed while it writes its fifth line.
+  ASSERT_EQ(LogLines(), 5);
+  // As a program leaves it that is killed while it writes its third line.
   size_t end = 0;
-  for (int line = 0; line < 4; ++line) end = log.find('\n', end) + 1;
+  for (int line = 0; line < 2; ++line) end = log.find('\n', end) + 1;
   folder_.Write("out/stages/stability_trials.jsonl", log.substr(0, end + 40));
   const support::ProgramRun run = Run("--only luminaires_together");
   ASSERT_EQ(run.status, 0) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("4 of 10 trials were done earlier"));
-  EXPECT_EQ(LogLines(), 11);  // the torn line stays and counts as nothing
+  EXPECT_THAT(run.output, HasSubstr("2 of 5 trials were done earlier"));
+  EXPECT_EQ(LogLines(), 6);  // the torn line stays and counts as nothing
   EXPECT_EQ(folder_.Read("out/stability.csv"), csv);
   // All done; other inputs start anew.
-  EXPECT_THAT(Run("--only luminaires_together").output, HasSubstr("10 of 10 trials were done earlier"));
+  EXPECT_THAT(Run("--only luminaires_together").output, HasSubstr("5 of 5 trials were done earlier"));
   EXPECT_THAT(Run("--only luminaires_together --seed 5").output, testing::Not(HasSubstr("done earlier")));
 }
 
@@ -140,7 +144,8 @@ TEST_F(StabilityCommand, TakesTheTruthFromAFile) {
   folder_.Write("truth.json",
                 R"({"lamps": [{"id": "A", "position": [1, 1, 1.6], "flux_lm": 1000},
                               {"id": "B", "position": [2.2, 1, 1.9], "flux_lm": 1000}]})");
-  const support::ProgramRun run = Run("--only luminaires_together --truth '" + folder_.Path("truth.json") + "'");
+  const support::ProgramRun run =
+      Run("--only luminaires_together --truth '" + folder_.Path("truth.json") + "'");
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_FALSE(Artifact()["undegraded"]["success"].get<bool>());  // B hangs 0.3 m higher than that
   EXPECT_NEAR(Artifact()["undegraded"]["worst_position_m"].get<double>(), 0.3, 0.01);
