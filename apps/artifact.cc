@@ -37,9 +37,7 @@ std::string HashFile(const std::string& path) {
   return Hexadecimal(XXH3_128bits_digest(state.get()));
 }
 
-std::string HashText(const std::string& text) {
-  return Hexadecimal(XXH3_128bits(text.data(), text.size()));
-}
+std::string HashText(const std::string& text) { return Hexadecimal(XXH3_128bits(text.data(), text.size())); }
 
 nlohmann::json ProvenanceJson(const std::string& format, const Provenance& provenance) {
   nlohmann::json json;

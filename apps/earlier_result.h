@@ -1,6 +1,7 @@
 // A session whose luminaires and reflectances are those of an earlier fit.
 //
-// What the result holds replaces what the session says; what the fit did not determine stays as the session has it, and is missing where that says nothing.
+// What the result holds replaces what the session says; what the fit did not determine stays as the session
+// has it, and is missing where that says nothing.
 //
 // Throws std::runtime_error naming the file where it is no result of luxfit, or one without fluxes in lm.
 #ifndef LUXFIT_APPS_EARLIER_RESULT_H_

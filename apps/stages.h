@@ -104,8 +104,8 @@ struct SessionFit {
   LuminaireFit fit;
   LightData data;
   std::vector<bool> luminaire_found;
-  Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
-  bool absolute = false;        // whether fluxes are in lm
+  Eigen::Matrix3Xd albedo_rgb;              // by material; NaN where not estimated
+  bool absolute = false;                    // whether fluxes are in lm
   std::optional<DirectShare> direct_share;  // of fits to readings alone with reflectances free
 
   // Whether light that comes straight is told from light that comes by the walls.

@@ -12,10 +12,10 @@
 // judged by a fit without it, and few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 %
 // interval (inverse/internal/fit_covariance.h). It contains noise, the model errors that differ from facet to
 // facet or state to state, the readings' and priors' sigmas, and what elements
-// and patches lose by their size (inverse/internal/discretisation_bias.h); not camera poses, nor the mesh, nor
-// any other model error that is the same everywhere. A direction of
-// parameters that the data leave undetermined (singular value below 1e-5 of the largest, after scaling) has no
-// covariance: it is listed in `undetermined`, described in `null_directions`, and status is kUndetermined.
+// and patches lose by their size (inverse/internal/discretisation_bias.h); not camera poses, nor the mesh,
+// nor any other model error that is the same everywhere. A direction of parameters that the data leave
+// undetermined (singular value below 1e-5 of the largest, after scaling) has no covariance: it is listed in
+// `undetermined`, described in `null_directions`, and status is kUndetermined.
 //
 // Sources: Triggs et al. (2000), sec. 4 (IRLS, LM).
 #ifndef LUXFIT_INVERSE_FIT_LUMINAIRES_H_
