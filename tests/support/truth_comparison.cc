@@ -84,7 +84,7 @@ std::string TruthTable(const json& result, const json& truth) {
       "by\n";
   for (const auto& [id, error] : comparison.luminaires) {
     const json& lamp = *Find(truth["lamps"], "id", id);
-    const json& fitted = *Find(result["luminaires"], "id", id);
+    const json& fitted = *FittedOf(result["luminaires"], lamp);
     const Eigen::Vector3d p = Vector(lamp["position"]), q = Vector(fitted["position_m"]);
     text += fmt::format(
         "{:<10} {:6.3f} {:6.3f} {:6.3f}     {:6.3f} {:6.3f} {:6.3f}     {:4.1f} mm   {:7.0f}  {:9.1f}  "
