@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
+#include "apps/fit_words.h"
 #include "apps/given_luminaire.h"
 #include "apps/light_data.h"
 #include "apps/stages.h"
@@ -26,20 +26,6 @@ constexpr int kMinElementsOfMaterial = 3;
 
 // Of a table that is asked for, until its strength is chosen.
 constexpr double kStartTableSigma = 0.1;
-
-std::string NameOf(RefinementKind kind) {
-  switch (kind) {
-    case RefinementKind::kHeading:
-      return "heading";
-    case RefinementKind::kAim:
-      return "aim";
-    case RefinementKind::kTable:
-      return "table of intensities";
-    case RefinementKind::kEmission:
-      return "emission over the opening";
-  }
-  return "";
-}
 
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
@@ -68,11 +54,12 @@ class FitStage {
     LuminaireFit fit = FitToAll(state);
     if (fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, priors_);
-      RecordDirectShare();
+      RecordDirectShare(*result_.direct_share, context_);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
     result_.fit = std::move(fit);
-    RecordOutcome();
+    WarnOfMisfit(room_, result_, context_);
+    RecordOutcome(session_, result_.fit, context_);
     return std::move(result_);
   }
 
@@ -121,10 +108,12 @@ class FitStage {
                        found && !given.aim.has_value(), RefinementsOf(k)});
     }
     const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, priors_);
-    for (const LuminaireChoice& c : choice.choices) RecordChoice(c);
-    for (const AimChoice& c : choice.aims) RecordAim(c);
-    for (const Refinement& r : choice.refinements) RecordRefinement(r);
-    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, priors_)) WarnOf(c);
+    for (const LuminaireChoice& c : choice.choices) RecordChoice(session_, c, context_);
+    for (const AimChoice& c : choice.aims)
+      RecordAim(session_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, context_);
+    for (const Refinement& r : choice.refinements) RecordRefinement(session_, r, context_);
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, priors_))
+      WarnOfContradiction(session_, c, context_);
     return choice.state;
   }
 
@@ -231,7 +220,7 @@ class FitStage {
     for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
     const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known);
     MatchKnownFluxes(guess);
-    for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(group);
+    for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(session_, group, context_);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
       if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
     }
@@ -241,24 +230,6 @@ class FitStage {
           {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
            "photograph each luminaire in at least one state without the others, or give position_m"});
     }
-  }
-
-  // Which of several that are always on together is which, their light does not say. Luminaires that nobody
-  // named have no other name to be mistaken for.
-  void WarnOfInterchangeable(const std::vector<int>& group) {
-    std::vector<std::string> ids;
-    for (const int k : group) {
-      const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(k)];
-      if (!given.position_m && !session_.count_is_estimated) ids.push_back(given.id);
-    }
-    if (ids.size() < 2) return;
-    context_.warnings.push_back(
-        {"luminaires_interchangeable",
-         fmt::format(
-             "luminaires {} are always on together: their places are found, but not which is at which; they "
-             "are given in the order of x",
-             fmt::join(ids, ", ")),
-         fmt::format("photograph {} without the others, or give position_m", ids.front())});
   }
 
   // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
@@ -387,164 +358,6 @@ class FitStage {
         state.luminaires[k].flux_lm *= measured / modelled;
     }
     state.camera_scale *= modelled / measured;
-  }
-
-  void RecordChoice(const LuminaireChoice& choice) {
-    std::string scores;
-    for (size_t i = 0; i < choice.among.size(); ++i) {
-      scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
-    }
-    const size_t chosen = static_cast<size_t>(choice.chosen);
-    context_.choices.push_back(
-        {"photometry and shape of " + session_.luminaires[static_cast<size_t>(choice.luminaire)].id,
-         choice.among[chosen], choice.among,
-         "simplest within one standard error of the best on patches left out (mean squared normalised "
-         "error: " +
-             scores + ")"});
-  }
-
-  void WarnOf(const Contradiction& found) {
-    const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(found.luminaire)];
-    const Luminaire& better = found.better;
-    std::string lobe = ToString(better.distribution);
-    if (better.distribution == Distribution::kCosinePower)
-      lobe += fmt::format(" {:.2f}", better.cosine_exponent);
-    context_.warnings.push_back(
-        {"photometry_contradicted",
-         fmt::format(
-             "what is given of luminaire {} ({}{}) does not explain its light: a {} {} at ({:.2f}, {:.2f}, "
-             "{:.2f}) m leaves {:.0f} % of the squared error on patches left out; position and flux fitted "
-             "with what is given are not as sure as their sigmas say",
-             given.id, given.photometry, given.shape ? ", " + *given.shape : "", lobe, ToString(better.shape),
-             better.position.x(), better.position.y(), better.position.z(),
-             100 * found.score_better / found.score_given),
-         fmt::format(
-             "check photometry, shape and aim of {}, or set photometry = \"auto\" and leave shape out",
-             given.id)});
-  }
-
-  void RecordAim(const AimChoice& choice) {
-    context_.choices.push_back(
-        {"aim of " + session_.luminaires[static_cast<size_t>(choice.luminaire)].id,
-         choice.is_free ? "estimated" : "straight down",
-         {"straight down", "estimated"},
-         fmt::format(
-             "simplest within one standard error of the best on patches left out (mean squared "
-             "normalised error: straight down {:.3f}, estimated {:.3f}, standard error of the difference "
-             "{:.3f})",
-             choice.score_held, choice.score_free, choice.standard_error)});
-  }
-
-  void RecordRefinement(const Refinement& step) {
-    const std::string& id = session_.luminaires[static_cast<size_t>(step.luminaire)].id;
-    std::string scores;
-    for (size_t i = 0; i < step.among.size(); ++i) {
-      scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", step.among[i], step.score[i]);
-      if (step.effective_parameters[i] > 1)
-        scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
-    }
-    const bool is_heading = step.kind == RefinementKind::kHeading;
-    const std::string rule =
-        is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
-    context_.choices.push_back(
-        {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
-         fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
-                     "one's difference from the first {:.3f})",
-                     rule, scores, step.standard_error)});
-  }
-
-  void RecordDirectShare() {
-    const DirectShare& share = *result_.direct_share;
-    std::vector<std::string> among;
-    std::string shares;
-    for (const DirectShareCandidate& c : share.candidates) {
-      among.push_back(c.name);
-      shares += fmt::format("{}{} {:.3f} ± {:.3f}{}", shares.empty() ? "" : ", ", c.name, c.share, c.sigma,
-                            c.is_admissible ? "" : " (does not explain the readings)");
-    }
-    const std::string interval =
-        fmt::format("{:.2f}, 95 % interval {:.2f} to {:.2f}", share.share, share.lower, share.upper);
-    context_.choices.push_back({"direct share of the readings", interval, among,
-                                "over all luminaire models that explain the readings as well: " + shares});
-    if (share.is_determined) return;
-    context_.undetermined = true;
-    context_.warnings.push_back(
-        {"direct_share_undetermined",
-         "the readings do not tell light that comes straight from light that comes by the walls: the direct "
-         "share is " +
-             interval + ", for other lobes and sizes with other reflectances explain the readings as well",
-         "photograph or measure one state with a dark cloth over the walls, or one lamp alone, or give "
-         "reflectances in [scene.albedo] or the luminaires' photometry"});
-  }
-
-  // Observations that the best fit does not explain: luminaires fitted beside them may be anywhere.
-  void WarnOfMisfit() {
-    const LuminaireFit& fit = result_.fit;
-    constexpr double kUnexplained = 0.25;                     // weight of five sigmas and more
-    constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
-    std::map<std::string, std::pair<int, int>> of_material;   // unexplained, all
-    std::pair<int, int> all;
-    for (size_t i = 0; i < result_.data.observations.size() && fit.weight.size() > 0; ++i) {
-      const double weight = fit.weight[static_cast<Eigen::Index>(i)];
-      if (weight == 0) continue;
-      const auto element = static_cast<size_t>(result_.data.observations[i].element);
-      const auto patch = static_cast<size_t>(room_.patches.elements[element].patch);
-      const auto material = static_cast<size_t>(room_.patches.patches[patch].material);
-      for (std::pair<int, int>* count : {&all, &of_material[room_.scene.materials[material]]}) {
-        count->first += weight < kUnexplained ? 1 : 0;
-        ++count->second;
-      }
-    }
-    const double share = all.second > 0 ? static_cast<double>(all.first) / all.second : 0;
-    if (all.second == 0 || (share < kLargeShare && fit.relative_sigma < kLargeError)) return;
-    std::string worst;
-    for (const auto& [material, count] : of_material) {
-      if (count.first > share * count.second)
-        worst += fmt::format("{}{} ({:.0f} %)", worst.empty() ? "" : ", ", material,
-                             100.0 * count.first / count.second);
-    }
-    context_.warnings.push_back(
-        {"model_misfit",
-         fmt::format(
-             "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no "
-             "better than {:.1f} %: most on {}; luminaires may lie far from where they are given, "
-             "beyond their sigmas",
-             100 * share, 100 * fit.relative_sigma, worst.empty() ? "all surfaces alike" : worst),
-         "compare the mesh with the photos: furniture that is missing or was moved, mirrors, windows, a "
-         "luminaire that "
-         "[states] does not name"});
-  }
-
-  void RecordOutcome() {
-    const LuminaireFit& fit = result_.fit;
-    WarnOfMisfit();
-    if (!session_.count_is_estimated)
-      context_.choices.push_back(
-          {"number of luminaires", std::to_string(session_.luminaires.size()), {}, "given by the session"});
-    context_.choices.push_back({"colour",
-                                "luminance",
-                                {"luminance", "rgb"},
-                                "readings and fluxes are photometric; albedo_rgb is estimated afterwards, "
-                                "for luminaires neutral in the camera's RGB"});
-    if (fit.status == FitStatus::kNotConverged) {
-      context_.warnings.push_back(
-          {"not_converged", fit.message,
-           "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
-    }
-    if (!fit.IsUsable()) {
-      context_.undetermined = true;
-      if (fit.null_directions.empty())
-        context_.warnings.push_back(
-            {"parameters_undetermined", fit.message,
-             "more readings or views, one luminaire switched alone, or give what is known "
-             "of them"});
-      for (const NullDirection& direction : fit.null_directions)
-        context_.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
-    }
-    for (const std::string& name : fit.at_bound) {
-      context_.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
-                                   "check the mesh around it, or give what is known of it"});
-    }
   }
 
   const Session& session_;

@@ -28,7 +28,8 @@ LightData WithCount(LightData data, int count) {
 }
 
 // As cosine-power discs about their places.
-LightState StartOf(const SparseLuminaires& found, const LightState& given, double size_m) {
+LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
+                   double size_m) {
   LightState state = given;
   state.camera_scale = 1;
   state.camera_scale_free = state.meter_scale_free = false;
@@ -43,7 +44,7 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
     // A lobe to all sides has no aim, and no disc has it.
     const bool is_disc = luminaire.distribution != Distribution::kIsotropic;
     if (is_disc) luminaire.shape = LuminaireShape::kDisc, luminaire.size_m.setConstant(size_m);
-    luminaire.flux_lm = kPi * source.strength;
+    luminaire.flux_lm = flux_per_strength * source.strength;
     state.luminaires.push_back(luminaire);
     FreeQuantities free;
     free.position = !source.is_held;
@@ -69,8 +70,9 @@ std::optional<Trial> Try(const Room& room, const SubProblem& problem, const Ligh
   fit_options.covariance = false;
   fit_options.max_outer_iterations = 4;
   fit_options.visibility_order = 2;
-  const LuminaireFit fit =
-      FitLuminaires(room, seen, StartOf(found, given, options.start_size_m), {}, fit_options);
+  const double flux_per_strength = seen.observations.empty() ? 1 : kPi;  // of readings, of photos
+  const LuminaireFit fit = FitLuminaires(
+      room, seen, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
   if (fit.status == FitStatus::kNoData) return {};
   LightModel model(room, all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);

@@ -1,0 +1,30 @@
+// What a fit decided and could not decide, in words: `choices` and `warnings` of result.json.
+#ifndef LUXFIT_APPS_FIT_WORDS_H_
+#define LUXFIT_APPS_FIT_WORDS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "apps/stages.h"
+#include "inverse/contradiction.h"
+
+namespace luxfit {
+
+void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context);
+// `start`: the aim it is held at where it is not estimated.
+void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vector3d& start,
+               RunContext& context);
+void RecordRefinement(const Session& session, const Refinement& step, RunContext& context);
+void RecordDirectShare(const DirectShare& share, RunContext& context);
+void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& context);
+
+// Which of several that are always on together is which, their light does not say. Luminaires that nobody
+// named have no other name to be mistaken for.
+void WarnOfInterchangeable(const Session& session, const std::vector<int>& group, RunContext& context);
+void WarnOfContradiction(const Session& session, const Contradiction& found, RunContext& context);
+// Of observations that the best fit does not explain: luminaires fitted beside them may be anywhere.
+void WarnOfMisfit(const Room& room, const SessionFit& result, RunContext& context);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_FIT_WORDS_H_
