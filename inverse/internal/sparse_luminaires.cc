@@ -2,17 +2,15 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "forward/direct_light.h"
-#include "inverse/internal/nonnegative_least_squares.h"
+#include "inverse/internal/group_equations.h"
 
 namespace luxfit {
 namespace {
@@ -89,144 +87,6 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
   return {box.min() - margin, box.max() + margin};
 }
 
-// One group's equations, weighted, in normal form over any set of sources.
-class Equations {
- public:
-  Equations(const GroupedLight& light, int group) {
-    for (size_t i = 0; i < light.places.size(); ++i) {
-      const double value = light.value(static_cast<Eigen::Index>(i), group);
-      if (std::isfinite(value) && value > 0) rows_.push_back(static_cast<Eigen::Index>(i));
-    }
-    std::set<int> materials;
-    for (const Eigen::Index i : rows_) materials.insert(light.material[static_cast<size_t>(i)]);
-    materials_.assign(materials.begin(), materials.end());
-    value_ = light.value(rows_, group);
-    indirect_ = light.indirect(rows_, group);
-    for (const Eigen::Index i : rows_) material_.push_back(light.material[static_cast<size_t>(i)]);
-    SetUp();
-  }
-
-  const std::vector<Eigen::Index>& rows() const { return rows_; }
-  const std::vector<int>& materials() const { return materials_; }
-  Eigen::Index unknowns() const { return others_.cols(); }
-
-  Eigen::VectorXd Weighted(const Eigen::VectorXf& column) const {
-    return column(rows_).cast<double>().cwiseProduct(root_weight_);
-  }
-
-  // Weighs down the rows that a solution does not explain (Cauchy, at three times the median residual's
-  // sigma): surfaces that are not what the mesh says.
-  void Reweigh(const Eigen::MatrixXd& sources) {
-    const Solution solution = Solve(sources);
-    const Eigen::VectorXd residual = others_ * solution.other + sources * solution.strength - target_;
-    std::vector<double> sizes(residual.begin(), residual.end());
-    for (double& size : sizes) size = std::abs(size);
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    constexpr double kSigmas = 3;
-    const double scale = kSigmas * std::max(*middle / 0.6745, 1e-6);
-    const Eigen::VectorXd down = (1 + (residual / scale).array().square()).rsqrt();
-    others_ = down.asDiagonal() * others_;
-    target_ = down.cwiseProduct(target_);
-    root_weight_ = down.cwiseProduct(root_weight_);
-  }
-
-  // min over g, q >= 0 with `sources` (columns, weighted) as g's.
-  struct Solution {
-    Eigen::VectorXd strength, other;
-    double cost = std::numeric_limits<double>::infinity();
-  };
-  Solution Solve(const Eigen::MatrixXd& sources) const {
-    const Base base = MakeBase(sources);
-    return Finish(base, base.gram, base.moment);
-  }
-
-  // The same with one more source, whose column comes last: what does not depend on it is computed once.
-  struct Base {
-    Eigen::MatrixXd columns, gram;
-    Eigen::VectorXd moment, residual;
-    Eigen::MatrixXd positive;             // columns of the unknowns that are not 0
-    Eigen::LDLT<Eigen::MatrixXd> factor;  // of their normal equations
-  };
-  Base MakeBase(const Eigen::MatrixXd& sources) const {
-    Base base;
-    base.columns.resize(others_.rows(), others_.cols() + sources.cols());
-    base.columns << others_, sources;
-    base.gram = base.columns.transpose() * base.columns;
-    base.moment = base.columns.transpose() * target_;
-    const Eigen::VectorXd x = SolveNonNegative(base.gram, base.moment);
-    base.residual = target_ - base.columns * x;
-    std::vector<Eigen::Index> positive;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (x[i] > 0) positive.push_back(i);
-    }
-    base.positive = base.columns(Eigen::all, positive);
-    base.factor.compute(base.gram(positive, positive));
-    return base;
-  }
-  // By how much one more source lowers the squares where no unknown meets its bound for it; 0 where it is of
-  // no use. A hundredth of the work of SolveWith.
-  static double Gain(const Base& base, const Eigen::VectorXd& source) {
-    const double pull = source.dot(base.residual), own = source.squaredNorm();
-    if (!(pull > 0)) return 0;
-    const Eigen::VectorXd cross = base.positive.transpose() * source;
-    const double apart = own - (cross.size() > 0 ? cross.dot(base.factor.solve(cross)) : 0.0);
-    return pull * pull / std::max(apart, 1e-9 * own);
-  }
-  Solution SolveWith(const Base& base, const Eigen::VectorXd& source) const {
-    const Eigen::Index n = base.gram.rows();
-    Eigen::MatrixXd gram(n + 1, n + 1);
-    const Eigen::VectorXd cross = base.columns.transpose() * source;
-    gram << base.gram, cross, cross.transpose(), source.squaredNorm();
-    Eigen::VectorXd moment(n + 1);
-    moment << base.moment, source.dot(target_);
-    return Finish(base, gram, moment);
-  }
-
- private:
-  Solution Finish(const Base&, const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) const {
-    const Eigen::VectorXd x = SolveNonNegative(gram, moment);
-    const double cost = target_.squaredNorm() - 2 * x.dot(moment) + x.dot(gram * x);
-    return {x.tail(x.size() - unknowns()), x.head(unknowns()), cost};
-  }
-
-  void SetUp() {
-    const auto n = static_cast<Eigen::Index>(rows_.size());
-    const double mean = n > 0 ? value_.mean() : 0;
-    others_ = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(materials_.size()));
-    root_weight_.resize(n);
-    target_.resize(n);
-    for (size_t m = 0; m < materials_.size(); ++m) {
-      // Where no direct light falls, Y / I is the albedo: the darkest tenth of a material says about how
-      // much.
-      std::vector<double> albedo;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        if (material_[static_cast<size_t>(i)] == materials_[m] && indirect_[i] > 0)
-          albedo.push_back(value_[i] / indirect_[i]);
-      }
-      double white = 1;
-      if (!albedo.empty()) {
-        const auto tenth = albedo.begin() + static_cast<std::ptrdiff_t>(albedo.size() / 10);
-        std::nth_element(albedo.begin(), tenth, albedo.end());
-        white = 1 / std::clamp(*tenth, 0.05, 1.0);
-      }
-      for (Eigen::Index i = 0; i < n; ++i) {
-        if (material_[static_cast<size_t>(i)] != materials_[m]) continue;
-        const bool is_reading = materials_[m] < 0;
-        const double sigma = (is_reading ? 1 : white) * (0.1 * value_[i] + 0.02 * mean);
-        root_weight_[i] = 1 / sigma;
-        target_[i] = (is_reading ? value_[i] : -indirect_[i]) / sigma;
-        others_(i, static_cast<Eigen::Index>(m)) = (is_reading ? 1 : -value_[i]) / sigma;
-      }
-    }
-  }
-
-  std::vector<Eigen::Index> rows_;
-  std::vector<int> material_, materials_;
-  Eigen::VectorXd value_, indirect_, root_weight_, target_;
-  Eigen::MatrixXd others_;
-};
-
 }  // namespace
 
 struct SparseSearch::Grid {
@@ -264,10 +124,10 @@ struct Tried {
 bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }
 
 // The best place of every lobe.
-std::vector<Tried> BestOfLobes(const Equations& equations, const Eigen::MatrixXd& others,
+std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::MatrixXd& others,
                                const std::vector<Eigen::Vector3d>& places,
                                const std::vector<Eigen::MatrixXf>& columns) {
-  const Equations::Base base = equations.MakeBase(others);
+  const GroupEquations::Base base = equations.Solve(others);
   const size_t lobes = Lobes().size();
   const auto column_of = [&](size_t place, size_t lobe) {
     return equations.Weighted(columns[place].col(static_cast<Eigen::Index>(lobe)));
@@ -275,7 +135,7 @@ std::vector<Tried> BestOfLobes(const Equations& equations, const Eigen::MatrixXd
   std::vector<std::vector<std::pair<double, size_t>>> gains(lobes);  // gain, place
   for (std::vector<std::pair<double, size_t>>& of_lobe : gains) of_lobe.resize(places.size());
   tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-    for (size_t l = 0; l < lobes; ++l) gains[l][i] = {Equations::Gain(base, column_of(i, l)), i};
+    for (size_t l = 0; l < lobes; ++l) gains[l][i] = {GroupEquations::Gain(base, column_of(i, l)), i};
   });
   constexpr size_t kExact = 6;  // of each lobe, the most promising
   std::vector<Tried> best(lobes);
@@ -286,7 +146,7 @@ std::vector<Tried> BestOfLobes(const Equations& equations, const Eigen::MatrixXd
     for (auto promising = gains[l].begin(); promising != end; ++promising) {
       if (!(promising->first > 0)) continue;
       const Eigen::VectorXd column = column_of(promising->second, l);
-      const Equations::Solution solution = equations.SolveWith(base, column);
+      const GroupEquations::Solution solution = equations.SolveWith(base, column);
       if (!(solution.strength[solution.strength.size() - 1] > 0) || solution.cost >= best[l].cost) continue;
       best[l] = {places[promising->second], l, column, solution.cost};
     }
@@ -311,7 +171,7 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
 class GroupSearch {
  public:
   GroupSearch(const Room& room, const std::vector<Sensor>& places, const Eigen::AlignedBox3d& box,
-              const Equations& equations, double step_m, int refinements)
+              const GroupEquations& equations, double step_m, int refinements)
       : room_(room),
         places_(places),
         box_(box),
@@ -338,7 +198,7 @@ class GroupSearch {
   // False where one more explains nothing more.
   bool AddOne(const std::vector<Eigen::Vector3d>& grid, const std::vector<Eigen::MatrixXf>& columns) {
     const Eigen::MatrixXd rest = Others(sources_.size());
-    const double before = equations_.Solve(rest).cost;
+    const double before = equations_.Solve(rest).solution.cost;
     std::vector<Tried> lobes = BestOfLobes(equations_, rest, grid, columns);
     // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
     for (Tried& lobe : lobes) {
@@ -363,7 +223,7 @@ class GroupSearch {
   }
 
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
-  Equations::Solution Solve() const { return equations_.Solve(Columns()); }
+  GroupEquations::Solution Solve() const { return equations_.Solve(Columns()).solution; }
   const std::vector<Tried>& sources() const { return sources_; }
   bool is_held(size_t source) const { return is_held_[source]; }
 
@@ -398,7 +258,7 @@ class GroupSearch {
       if (is_held_[j]) continue;
       const Eigen::MatrixXd rest = Others(j);
       const Eigen::Vector3d from = sources_[j].position;
-      sources_[j].cost = equations_.SolveWith(equations_.MakeBase(rest), sources_[j].column).cost;
+      sources_[j].cost = equations_.SolveWith(equations_.Solve(rest), sources_[j].column).cost;
       for (int r = from_halvings; r <= to_halvings; ++r) sources_[j] = Refined(sources_[j], r, rest, true);
       moved = moved || sources_[j].position != from;
     }
@@ -408,7 +268,7 @@ class GroupSearch {
   const Room& room_;
   const std::vector<Sensor>& places_;
   const Eigen::AlignedBox3d& box_;
-  const Equations& equations_;
+  const GroupEquations& equations_;
   double step_m_;
   int refinements_;
   std::vector<Tried> sources_;
@@ -419,7 +279,7 @@ class GroupSearch {
 
 SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start) const {
   SparseLuminaires found;
-  Equations equations(light_, group);
+  GroupEquations equations(light_, group);
   constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
   if (equations.rows().size() < kFewestPlaces || grid_->places.empty()) return found;
   // Once to see what is unlike all else, once without that.
@@ -433,7 +293,7 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
   constexpr int kRough = 2;
   equations.Reweigh(searched(std::min(kRough, refinements_)).Columns());
   const GroupSearch search = searched(refinements_);
-  const Equations::Solution solution = search.Solve();
+  const GroupEquations::Solution solution = search.Solve();
   found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
   for (size_t j = 0; j < search.sources().size(); ++j) {
     const Tried& tried = search.sources()[j];

@@ -1,8 +1,7 @@
 // Point luminaires that explain a group's light: sparse non-negative least squares over places.
 //
 //   sum_j g_j D_ij + I_i = q_m(i) Y_i     photos: g_j = c Phi_j / pi, q = 1 / albedo of the place's material
-//   sum_j g_j D_ij + b   = E_i            readings alone: g_j = Phi_j, b: light from other surfaces, taken as
-//   even g, q, b >= 0
+//   sum_j g_j D_ij + b   = E_i            readings alone: g_j = Phi_j (inverse/internal/group_equations.h)
 //
 // D: direct illuminance per lumen. Places are the cells of a grid through the room, with a few lobes at each.
 // Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
