@@ -6,38 +6,13 @@
 
 #include "forward/direct_light.h"
 #include "forward/internal/expect_valid.h"
+#include "forward/internal/luminaire_sight.h"
 #include "forward/overlaps.h"
 
 namespace luxfit {
 namespace {
 
 constexpr int kSensorOrder = 12;  // few sensors: afford the finest rule
-
-float ElementVisibility(const RayScene& rays, const Element& element, bool triangle,
-                        const Luminaire& luminaire, int order) {
-  const std::vector<Eigen::Vector3d> probes = ProbesOf(element, triangle);
-  const auto share = [&](int points) {
-    float sum = 0;
-    for (const Eigen::Vector3d& p : probes)
-      sum += static_cast<float>(VisibleFraction(rays, luminaire, p, element.normal, points));
-    return sum / static_cast<float>(probes.size());
-  };
-  // Most elements see all of a luminaire or nothing, and its outer points tell.
-  const float roughly = share(std::min(order, 2));
-  return order <= 2 || roughly == 0 || roughly == 1 ? roughly : share(order);
-}
-
-void FillElementRows(const Room& room, const std::vector<int>& elements,
-                     const std::vector<Luminaire>& luminaires, int order, Eigen::MatrixXf& rows) {
-  tbb::parallel_for(size_t{0}, elements.size(), [&](size_t i) {
-    const Element& element = room.patches.elements[static_cast<size_t>(elements[i])];
-    const bool triangle = room.patches.IsTriangle(element.patch);
-    for (size_t k = 0; k < luminaires.size(); ++k) {
-      rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          ElementVisibility(room.rays, element, triangle, luminaires[k], order);
-    }
-  });
-}
 
 void FillSensorRows(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
                     Eigen::MatrixXf& rows) {
@@ -130,8 +105,8 @@ LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receive
   const auto lamps = static_cast<Eigen::Index>(luminaires.size());
   std::vector<int> all(room.patches.elements.size());
   std::iota(all.begin(), all.end(), 0);
-  LuminaireVisibility visibility{{static_cast<Eigen::Index>(all.size()), lamps}, {receivers.count(), lamps}};
-  FillElementRows(room, all, luminaires, order, visibility.elements);
+  LuminaireVisibility visibility{ElementVisibility(room.rays, room.patches, all, luminaires, order),
+                                 {receivers.count(), lamps}};
   for (size_t i = 0; i < receivers.elements.size(); ++i) {
     visibility.receivers.row(static_cast<Eigen::Index>(i)) = visibility.elements.row(receivers.elements[i]);
   }
@@ -144,7 +119,8 @@ LuminaireVisibility ComputeReceiverVisibility(const Room& room, const Receivers&
   ExpectValid(luminaires);
   LuminaireVisibility visibility;
   visibility.receivers.resize(receivers.count(), static_cast<Eigen::Index>(luminaires.size()));
-  FillElementRows(room, receivers.elements, luminaires, order, visibility.receivers);
+  visibility.receivers.topRows(static_cast<Eigen::Index>(receivers.elements.size())) =
+      ElementVisibility(room.rays, room.patches, receivers.elements, luminaires, order);
   FillSensorRows(room, receivers, luminaires, visibility.receivers);
   return visibility;
 }

@@ -1,110 +1,16 @@
 #include "inverse/fit_luminaires.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "inverse/internal/discretisation_bias.h"
 #include "inverse/internal/fit_covariance.h"
+#include "inverse/internal/frozen_problem.h"
 #include "inverse/part_smoothness.h"
 
 namespace luxfit {
 namespace {
-
-using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// Everything that one inner solve holds still.
-struct FrozenProblem {
-  const LightModel& model;
-  const LightState& base;  // tilts are relative to its aims
-  const std::vector<Parameter>& parameters;
-  Eigen::VectorXd data;
-  Eigen::VectorXd root_weight;                         // sqrt(w) / sigma, 0 for rows left out
-  std::vector<std::pair<int, ParameterPrior>> priors;  // parameter, knowledge
-  std::vector<SmoothnessRow> smoothness;
-};
-
-class ModelCost : public ceres::CostFunction {
- public:
-  explicit ModelCost(const FrozenProblem& problem) : problem_(problem) {
-    set_num_residuals(static_cast<int>(
-        problem.data.size() + static_cast<Eigen::Index>(problem.priors.size() + problem.smoothness.size())));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.parameters.size()));
-  }
-
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    const Eigen::Index n = static_cast<Eigen::Index>(problem_.parameters.size()), rows = problem_.data.size();
-    const Eigen::Map<const Eigen::VectorXd> x(blocks[0], n);
-    const bool with_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
-    // A step is first asked for its cost, and if that is good, as nearly all are, for its Jacobian.
-    if (!prediction_ || predicted_at_ != x) {
-      prediction_ = problem_.model.Predict(WithParameters(problem_.base, problem_.parameters, x),
-                                           problem_.parameters, true);
-      predicted_at_ = x;
-    }
-    const Prediction& prediction = *prediction_;
-    if (!prediction.value.allFinite()) return false;
-    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
-    r.head(rows) = (prediction.value - problem_.data).cwiseProduct(problem_.root_weight);
-    if (with_jacobian) {
-      Eigen::Map<RowMajorMatrix> j(jacobians[0], num_residuals(), n);
-      j.topRows(rows) = problem_.root_weight.asDiagonal() * prediction.jacobian;
-      j.bottomRows(num_residuals() - rows).setZero();
-    }
-    for (size_t p = 0; p < problem_.priors.size(); ++p) {
-      const auto& [parameter, prior] = problem_.priors[p];
-      const Eigen::Index row = rows + static_cast<Eigen::Index>(p);
-      r[row] = (x[parameter] - prior.mean) / prior.sigma;
-      if (with_jacobian) jacobians[0][row * n + parameter] = 1 / prior.sigma;
-    }
-    Eigen::Index row = rows + static_cast<Eigen::Index>(problem_.priors.size());
-    for (const SmoothnessRow& smooth : problem_.smoothness) {
-      r[row] = smooth.Value(x);
-      for (size_t t = 0; with_jacobian && t < smooth.terms.size(); ++t)
-        jacobians[0][row * n + smooth.terms[t].first] = smooth.terms[t].second;
-      ++row;
-    }
-    return true;
-  }
-
- private:
-  const FrozenProblem& problem_;
-  mutable Eigen::VectorXd predicted_at_;
-  mutable std::optional<Prediction> prediction_;
-};
-
-// `is_near`: steps need no damping. A direction that one reading alone fixes (the scale of all fluxes) has so
-// little weight beside thousands of pixels that damped steps stop tenths of a percent short of it.
-double SolveInner(const FrozenProblem& problem, int max_iterations, bool is_near, Eigen::VectorXd& x) {
-  if (x.size() == 0) {  // everything is given: nothing to solve, and Ceres aborts on an empty block
-    const double* const block = x.data();
-    Eigen::VectorXd residuals(problem.data.size());
-    ModelCost(problem).Evaluate(&block, residuals.data(), nullptr);
-    return 0.5 * residuals.squaredNorm();
-  }
-  ceres::Problem ceres_problem;
-  ceres_problem.AddResidualBlock(new ModelCost(problem), nullptr, x.data());
-  for (size_t i = 0; i < problem.parameters.size(); ++i) {
-    ceres_problem.SetParameterLowerBound(x.data(), static_cast<int>(i), problem.parameters[i].lower);
-    ceres_problem.SetParameterUpperBound(x.data(), static_cast<int>(i), problem.parameters[i].upper);
-  }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = max_iterations;
-  options.function_tolerance = is_near ? 1e-10 : 1e-6;  // the outer loop goes on from here
-  options.parameter_tolerance = 1e-7;
-  options.initial_trust_region_radius = is_near ? 1e8 : 10;
-  // Bounds are seldom met: a line search along every step to them costs a third of the time and finds
-  // nothing.
-  options.max_num_line_search_step_size_iterations = 0;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-  return summary.final_cost;
-}
 
 double Median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -142,19 +48,19 @@ class OuterLoop {
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
       fit_.outer_iterations = outer + 1;
       const LightState before = fit_.state;
-      Refresh();
+      Refresh(true);
       const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
-                                  root_weight_, priors_, smoothness_};
+                                  root_weight_, priors_, smoothness_,     at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
-      const int rough_rounds = options_.start_is_near ? 0 : 2;
-      fit_.cost = SolveInner(problem, options_.max_inner_iterations, outer >= rough_rounds, x);
+      const bool is_near = options_.start_is_near || outer >= 2;
+      fit_.cost = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
       fit_.state = WithParameters(before, fit_.parameters, x);
-      settled = outer >= rough_rounds &&
+      settled = is_near &&
                 LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
-    Refresh();
+    Refresh(options_.covariance);
     fit_.status = settled ? FitStatus::kConverged : FitStatus::kNotConverged;
     fit_.message = settled ? "converged" : "luminaires still moved after the last outer iteration";
     Conclude();
@@ -177,7 +83,7 @@ class OuterLoop {
   }
 
   // Visibility, model error and weights at the present state.
-  void Refresh() {
+  void Refresh(bool with_jacobian) {
     // Shadow edges move about as much as what casts them: rows at an edge are left out anyway.
     constexpr double kStillM = 2e-3;
     if (frozen_.empty() || LargestMove(frozen_, fit_.state.luminaires) > kStillM) {
@@ -185,8 +91,8 @@ class OuterLoop {
       frozen_ = fit_.state.luminaires;
     }
     const std::vector<bool> penumbra = model_.InPenumbra();
-    fit_.predicted = model_.Predict(fit_.state, {}, false).value;
-    const Eigen::VectorXd residual = fit_.predicted - values_;
+    at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
+    const Eigen::VectorXd residual = at_state_.value - values_;
     relative_sigma_before_ = fit_.relative_sigma;
     EstimateRelativeSigma(residual, penumbra);
     const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
@@ -246,9 +152,8 @@ class OuterLoop {
 
   // Covariance, what is undetermined, predictions of the readings.
   void Conclude() {
-    Prediction prediction = model_.Predict(fit_.state, fit_.parameters, options_.covariance);
-    fit_.predicted = prediction.value;
-    fit_.reading_direct_lx = prediction.reading_direct_lx;
+    fit_.predicted = at_state_.value;
+    fit_.reading_direct_lx = at_state_.reading_direct_lx;
     const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
     for (size_t i = 0; i < fit_.parameters.size(); ++i) {
       const Parameter& p = fit_.parameters[i];
@@ -259,14 +164,14 @@ class OuterLoop {
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
-    const WeightedRows rows = RowsOf(prediction);
+    const WeightedRows rows = RowsAtState();
     fit_.effective_parts =
         EffectiveParts(rows.jacobian.transpose() * rows.jacobian, smoothness_, fit_.parameters);
     const FitCovariance found = CovarianceOf(rows);
     fit_.covariance = found.covariance;
     for (const Eigen::VectorXd& direction : found.null_directions) NameNullDirection(direction);
     const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
-    const Eigen::MatrixXd reading_jacobian = prediction.jacobian.bottomRows(readings);
+    const Eigen::MatrixXd reading_jacobian = at_state_.jacobian.bottomRows(readings);
     fit_.reading_sigma_lx =
         (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal().cwiseSqrt();
   }
@@ -282,10 +187,10 @@ class OuterLoop {
   }
 
   // Clusters are the observations of one facet in one state; readings stand alone.
-  WeightedRows RowsOf(const Prediction& prediction) const {
+  WeightedRows RowsAtState() const {
     WeightedRows rows;
-    rows.jacobian = root_weight_.asDiagonal() * prediction.jacobian;
-    rows.residual = (prediction.value - values_).cwiseProduct(root_weight_);
+    rows.jacobian = root_weight_.asDiagonal() * at_state_.jacobian;
+    rows.residual = (at_state_.value - values_).cwiseProduct(root_weight_);
     rows.bias = Eigen::VectorXd::Zero(values_.size());
     const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
     if (observations > 0)
@@ -300,7 +205,7 @@ class OuterLoop {
     }
     rows.cluster.resize(static_cast<size_t>(values_.size()), -1);
     rows.alone_scatter = ReadingScatter(rows.residual.tail(values_.size() - observations));
-    const Eigen::Index n = prediction.jacobian.cols();
+    const Eigen::Index n = at_state_.jacobian.cols();
     rows.prior_information = Eigen::MatrixXd::Zero(n, n);
     for (const auto& [parameter, prior] : priors_)
       rows.prior_information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
@@ -325,6 +230,7 @@ class OuterLoop {
   std::vector<Luminaire> frozen_;  // where the visibility is of
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, root_weight_;
+  Prediction at_state_;
   double relative_sigma_before_ = 0;
 };
 

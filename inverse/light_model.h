@@ -94,9 +94,11 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
 LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
                           const Eigen::VectorXd& x);
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 struct Prediction {
   Eigen::VectorXd value;
-  Eigen::MatrixXd jacobian;           // empty if not asked for
+  RowMajorMatrix jacobian;            // empty if not asked for
   Eigen::VectorXd reading_direct_lx;  // direct part of each reading
 };
 

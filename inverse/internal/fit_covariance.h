@@ -30,7 +30,8 @@
 namespace luxfit {
 
 struct WeightedRows {
-  Eigen::MatrixXd jacobian;  // of root weight times residual
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
+      jacobian;  // of root weight times residual
   Eigen::VectorXd residual;
   Eigen::VectorXd bias;               // weighted likewise; empty: none is known
   std::vector<int> cluster;           // one a row, from 0; -1: stands alone
