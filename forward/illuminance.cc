@@ -99,12 +99,8 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
     if (materials > 0) {
       const Eigen::MatrixXf patch_total =
           patch_direct.leftCols(lamps) + transport.Irradiance(exitance.leftCols(lamps));
-      for (Eigen::Index m = 0; m < materials; ++m) {
-        const Eigen::MatrixXf d =
-            transport.ExitanceDerivative(derivatives.materials[static_cast<size_t>(m)], patch_total);
-        for (Eigen::Index k = 0; k < lamps; ++k)
-          exitance.col(lamps + parameters + k * materials + m) = d.col(k);
-      }
+      exitance.rightCols(lamps * materials) =
+          transport.ExitanceDerivatives(derivatives.materials, patch_total);
     }
     const Columns layout{lamps, parameters, derivatives.materials};
     const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();

@@ -7,7 +7,7 @@
 // Derivatives with respect to a
 // luminaire's parameter take the same path with dD in place of D (light is linear in what the luminaires put
 // in), one more column each and no further factorisation; those with respect to a material's reflectance are
-// Transport::ExitanceDerivative. All are exact for frozen visibility; the motion of shadow edges is added
+// Transport::ExitanceDerivatives. All are exact for frozen visibility; the motion of shadow edges is added
 // where asked for.
 //
 // Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k * materials +

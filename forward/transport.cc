@@ -63,10 +63,16 @@ Eigen::MatrixXf Transport::Irradiance(const Eigen::MatrixXf& exitance) const {
          Product(geometry_.coupling, root_area_.asDiagonal() * exitance);
 }
 
-Eigen::MatrixXf Transport::ExitanceDerivative(int material, const Eigen::MatrixXf& illuminance_lx) const {
-  Eigen::MatrixXf source = illuminance_lx;
-  for (Eigen::Index i = 0; i < source.rows(); ++i) {
-    if (geometry_.patch_material[static_cast<size_t>(i)] != material) source.row(i).setZero();
+Eigen::MatrixXf Transport::ExitanceDerivatives(const std::vector<int>& materials,
+                                               const Eigen::MatrixXf& illuminance_lx) const {
+  const auto count = static_cast<Eigen::Index>(materials.size());
+  Eigen::MatrixXf source = Eigen::MatrixXf::Zero(illuminance_lx.rows(), illuminance_lx.cols() * count);
+  for (Eigen::Index c = 0; c < source.cols(); ++c) {
+    const int material = materials[static_cast<size_t>(c % count)];
+    for (Eigen::Index i = 0; i < source.rows(); ++i) {
+      if (geometry_.patch_material[static_cast<size_t>(i)] == material)
+        source(i, c) = illuminance_lx(i, c / count);
+    }
   }
   return source + Exitance(Irradiance(source));
 }

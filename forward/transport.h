@@ -17,6 +17,7 @@
 #define LUXFIT_FORWARD_TRANSPORT_H_
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "forward/form_factors.h"
 #include "forward/patches.h"
@@ -40,10 +41,11 @@ class Transport {
   Eigen::MatrixXf Exitance(const Eigen::MatrixXf& direct_lx) const;
   // Illuminance that an exitance gives back to the patches: F M.
   Eigen::MatrixXf Irradiance(const Eigen::MatrixXf& exitance) const;
-  // d(exitance)/d(albedo of one material), for the illuminance E = direct + Irradiance(exitance) of the same
-  // light.
+  // d(exitance)/d(albedo of each material), for the illuminance E = direct + Irradiance(exitance) of the same
+  // light: patches x (columns of E, each with its materials).
   //   dM = 1_m E + rho F dM   =>   dM = 1_m E + Exitance(F 1_m E)
-  Eigen::MatrixXf ExitanceDerivative(int material, const Eigen::MatrixXf& illuminance_lx) const;
+  Eigen::MatrixXf ExitanceDerivatives(const std::vector<int>& materials,
+                                      const Eigen::MatrixXf& illuminance_lx) const;
 
   const Eigen::VectorXd& albedo() const { return albedo_; }
 

@@ -146,6 +146,10 @@ void FiniteDifferenceFit(benchmark::State& state) {
     cost->SetNumResiduals(static_cast<int>(start.data.observations.size() + start.data.readings.size()));
     ceres::Problem problem;
     problem.AddResidualBlock(cost, nullptr, x.data());
+    for (size_t i = 0; i < parameters.size(); ++i) {
+      problem.SetParameterLowerBound(x.data(), static_cast<int>(i), parameters[i].lower);
+      problem.SetParameterUpperBound(x.data(), static_cast<int>(i), parameters[i].upper);
+    }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.function_tolerance = 1e-4;

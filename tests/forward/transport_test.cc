@@ -83,7 +83,7 @@ TEST_F(Furnace, CouplingIsSymmetric) {
   EXPECT_EQ(room_.transport.coupling, room_.transport.coupling.transpose().eval());
 }
 
-TEST_F(Furnace, ExitanceDerivativeIsACentralDifference) {
+TEST_F(Furnace, ExitanceDerivativesAreCentralDifferences) {
   const Eigen::Vector2d albedo(0.6, 0.3);
   // Truncation (h / (1 - rho))^2 = 6e-4 of the derivative; float rounding 1e-6 / h = 1e-4.
   constexpr double kStep = 0.01, kTolerance = 1e-3;
@@ -94,7 +94,7 @@ TEST_F(Furnace, ExitanceDerivativeIsACentralDifference) {
     const Eigen::VectorXf numeric = (Transport(room_.transport, albedo + step).Exitance(direct_) -
                                      Transport(room_.transport, albedo - step).Exitance(direct_)) /
                                     static_cast<float>(2 * kStep);
-    const Eigen::VectorXf analytic = transport.ExitanceDerivative(m, illuminance);
+    const Eigen::VectorXf analytic = transport.ExitanceDerivatives({0, 1}, illuminance).col(m);
     EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), kTolerance * numeric.maxCoeff())
         << "material " << m;
   }
