@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -44,6 +45,36 @@ void WarnOfInterchangeable(const Session& session, const std::vector<int>& group
            "are given in the order of x",
            fmt::join(ids, ", ")),
        fmt::format("photograph {} without the others, or give position_m", ids.front())});
+}
+
+void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std::vector<SeenPlace>& seen,
+                      RunContext& context) {
+  const std::vector<std::string> among = {"seen in photos", "search over places"};
+  for (size_t k = 0; k < guess.luminaires.size(); ++k) {
+    const LuminaireGuess& luminaire = guess.luminaires[k];
+    if (!luminaire.found || luminaire.seen_candidates == 0) continue;
+    const std::string explains = fmt::format("leaves {:.1f} % of the direct light unexplained (rms)",
+                                             100 * luminaire.relative_residual);
+    const std::string what = "first guess of " + session.luminaires[k].id;
+    if (!luminaire.seen) {
+      context.choices.push_back(
+          {what, among[1], among,
+           fmt::format("none of the {} bright places in the photos explains its light as well as the place "
+                       "found, which {}",
+                       luminaire.seen_candidates, explains)});
+      continue;
+    }
+    const SeenPlace& place = seen[static_cast<size_t>(*luminaire.seen)];
+    const std::string area = std::isfinite(place.area_m2)
+                                 ? fmt::format(", {:.3f} m2 if it faces down", place.area_m2)
+                                 : std::string();
+    context.choices.push_back(
+        {what, among[0], among,
+         fmt::format(
+             "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
+             place.photos, place.views, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
+             luminaire.was_searched ? ", less than any other place" : ", so that no other was searched")});
+  }
 }
 
 void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context) {

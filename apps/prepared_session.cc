@@ -54,7 +54,7 @@ PreparedSession PrepareSession(Session session, RunContext& context) {
   Room room = LoadRoom(session, context);
   session = LinearizeSession(std::move(session), context);
   RegisteredSession registered = RegisterSession(session, context);
-  std::vector<Observation> observations = ObserveSession(session, registered, room, context);
+  std::vector<Observation> observations = ObserveSession(session, registered, room, context).observations;
   return {std::move(session), std::move(room), std::move(registered), std::move(observations)};
 }
 
@@ -64,7 +64,7 @@ Refit RefitSession(const Session& session, const Room& room, const std::vector<O
   own.out = context.out;
   own.is_quiet = true;
   Refit refit;
-  refit.fit = FitSession(session, room, observations, own);
+  refit.fit = FitSession(session, room, {observations, {}}, own);
   const json result = ResultJson(session, room, {}, refit.fit,
                                  std::vector<LuminaireFiles>(refit.fit.fit.state.luminaires.size()), own);
   refit.luminaires = LuminairesOf(result, refit.fit.fit);
