@@ -54,8 +54,9 @@ PreparedSession PrepareSession(Session session, RunContext& context) {
   Room room = LoadRoom(session, context);
   session = LinearizeSession(std::move(session), context);
   RegisteredSession registered = RegisterSession(session, context);
-  std::vector<Observation> observations = ObserveSession(session, registered, room, context).observations;
-  return {std::move(session), std::move(room), std::move(registered), std::move(observations)};
+  SessionObservations observed = ObserveSession(session, registered, room, context);
+  return {std::move(session), std::move(room), std::move(registered), std::move(observed.observations),
+          std::move(observed.seen)};
 }
 
 Refit RefitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
