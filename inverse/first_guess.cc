@@ -84,6 +84,7 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
     luminaire.flux = flux_per_strength * source.strength / group.share[i];
     if (!is_held) luminaire.seen = seen.IndexAt(source.luminaire.position);
     luminaire.seen_candidates = is_held ? 0 : static_cast<int>(seen.index.size());
+    luminaire.rivals = source.rivals;
     luminaire.was_searched = found.was_searched;
     luminaire.relative_residual = 0.1 * std::sqrt(found.mean_square);
   }

@@ -47,6 +47,9 @@ struct LuminaireGuess {
   int seen_candidates = 0;
   std::optional<int> seen;
   bool was_searched = true;  // places other than those seen were looked at, too
+  // Elsewhere, with what explains the light nearly as well: position, aim and lobe. None where it was not
+  // searched.
+  std::vector<Luminaire> rivals;
 };
 
 struct FirstGuess {

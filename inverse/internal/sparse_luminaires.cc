@@ -28,6 +28,10 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
 // compared with: 5 %. Half a metre off, no lobe explains a room's light so well.
 constexpr double kExplained = 0.25;
 
+// Squares of a place that explains the light nearly as well as the best: what few facets say of neighbouring
+// rows' common errors does not tell them apart.
+constexpr double kRival = 1.5;
+
 struct Tried {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   size_t lobe = 0;
@@ -37,9 +41,13 @@ struct Tried {
 
 bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }
 
-// The best place of every lobe.
+using Allowed = std::function<bool(const Eigen::Vector3d&)>;
+
+bool Anywhere(const Eigen::Vector3d&) { return true; }
+
+// The best place of every lobe among those allowed.
 std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::MatrixXd& others,
-                               const LitPlaces& places) {
+                               const LitPlaces& places, const Allowed& allowed = Anywhere) {
   const GroupEquations::Base base = equations.Solve(others);
   const size_t lobes = Lobes().size();
   const auto column_of = [&](size_t place, size_t lobe) {
@@ -48,7 +56,9 @@ std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::Mat
   std::vector<std::vector<std::pair<double, size_t>>> gains(lobes);  // gain, place
   for (std::vector<std::pair<double, size_t>>& of_lobe : gains) of_lobe.resize(places.positions.size());
   tbb::parallel_for(size_t{0}, places.positions.size(), [&](size_t i) {
-    for (size_t l = 0; l < lobes; ++l) gains[l][i] = {GroupEquations::Gain(base, column_of(i, l)), i};
+    const bool counts = allowed(places.positions[i]);
+    for (size_t l = 0; l < lobes; ++l)
+      gains[l][i] = {counts ? GroupEquations::Gain(base, column_of(i, l)) : 0, i};
   });
   constexpr size_t kExact = 6;  // of each lobe, the most promising
   std::vector<Tried> best(lobes);
@@ -141,6 +151,26 @@ class GroupSearch {
     MoveEach(std::min(kCoarse, refinements_), refinements_);
   }
 
+  // Other places for one source that explain the light nearly as well, best first.
+  std::vector<Tried> RivalsOf(size_t source, const LitPlaces& grid) const {
+    const Tried& own = sources_[source];
+    const Eigen::MatrixXd rest = Others(source);
+    const auto is_apart = [&](const Eigen::Vector3d& p) { return (p - own.position).norm() > step_m_; };
+    const auto is_near = [&](const Eigen::Vector3d& p) { return !is_apart(p); };
+    // On the same coarse grid, what is as good as the source's own surroundings.
+    const std::vector<Tried> near = BestOfLobes(equations_, rest, grid, is_near);
+    const double coarse = std::min_element(near.begin(), near.end(), IsBetter)->cost;
+    const double fine = equations_.SolveWith(equations_.Solve(rest), own.column).cost;
+    std::vector<Tried> rivals;
+    for (Tried& lobe : BestOfLobes(equations_, rest, grid, is_apart)) {
+      if (!(lobe.cost <= kRival * coarse)) continue;
+      for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
+      if (lobe.cost <= kRival * fine && is_apart(lobe.position)) rivals.push_back(lobe);
+    }
+    std::sort(rivals.begin(), rivals.end(), IsBetter);
+    return rivals;
+  }
+
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
   GroupEquations::Solution Solve() const { return equations_.Solve(Columns()).solution; }
   const std::vector<Tried>& sources() const { return sources_; }
@@ -191,21 +221,26 @@ class GroupSearch {
   std::vector<bool> is_held_;
 };
 
+Luminaire LuminaireOf(const Tried& tried) {
+  const Lobe& lobe = Lobes()[tried.lobe];
+  Luminaire luminaire;
+  luminaire.position = tried.position;
+  luminaire.aim = lobe.aim;
+  luminaire.distribution = lobe.distribution;
+  luminaire.cosine_exponent = lobe.exponent;
+  return luminaire;
+}
+
 SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equations) {
   SparseLuminaires found;
   const GroupEquations::Solution solution = search.Solve();
   found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
   for (size_t j = 0; j < search.sources().size(); ++j) {
-    const Tried& tried = search.sources()[j];
-    const Lobe& lobe = Lobes()[tried.lobe];
     SparseSource source;
-    source.luminaire.position = tried.position;
-    source.luminaire.aim = lobe.aim;
-    source.luminaire.distribution = lobe.distribution;
-    source.luminaire.cosine_exponent = lobe.exponent;
+    source.luminaire = LuminaireOf(search.sources()[j]);
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
-    source.lobe = tried.lobe;
+    source.lobe = search.sources()[j].lobe;
     found.sources.push_back(source);
   }
   for (size_t m = 0; m < equations.materials().size(); ++m) {
@@ -242,14 +277,15 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
     return search;
   };
   // Once to see what is unlike all else, once without that.
-  const auto searched_twice = [&](const std::vector<const LitPlaces*>& lists, int rough, int fine) {
+  const auto reweighed_after = [&](const std::vector<const LitPlaces*>& lists, int refinements) {
     GroupEquations reweighed = equations;
-    reweighed.Reweigh(searched(reweighed, lists, rough).Columns());
-    return Result(searched(reweighed, lists, fine), reweighed);
+    reweighed.Reweigh(searched(equations, lists, refinements).Columns());
+    return reweighed;
   };
   const LitPlaces at_seen = Lit(room_, light_.places, seen);
   if (!seen.empty()) {
-    SparseLuminaires found = searched_twice({&at_seen}, 0, 0);
+    const GroupEquations reweighed = reweighed_after({&at_seen}, 0);
+    SparseLuminaires found = Result(searched(reweighed, {&at_seen}, 0), reweighed);
     const bool is_complete = static_cast<int>(found.sources.size()) == count;
     if (is_complete && found.mean_square < kExplained) {
       found.was_searched = false;
@@ -257,7 +293,16 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
     }
   }
   constexpr int kRough = 2;
-  return searched_twice({&Grid(), &at_seen}, std::min(kRough, refinements_), refinements_);
+  const std::vector<const LitPlaces*> everywhere = {&Grid(), &at_seen};
+  const GroupEquations reweighed = reweighed_after(everywhere, std::min(kRough, refinements_));
+  const GroupSearch search = searched(reweighed, everywhere, refinements_);
+  SparseLuminaires found = Result(search, reweighed);
+  for (size_t j = 0; j < found.sources.size(); ++j) {
+    if (found.sources[j].is_held) continue;
+    for (const Tried& rival : search.RivalsOf(j, Grid()))
+      found.sources[j].rivals.push_back(LuminaireOf(rival));
+  }
+  return found;
 }
 
 }  // namespace luxfit

@@ -29,6 +29,8 @@ struct SparseSource {
   double strength = 0;  // g
   bool is_held = false;
   size_t lobe = 0;  // of those that are tried
+  // At other places, each a grid step away and more, that leave less than half more squares: best first.
+  std::vector<Luminaire> rivals;
 };
 
 struct SparseLuminaires {
