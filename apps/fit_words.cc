@@ -77,6 +77,41 @@ void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std
   }
 }
 
+void RecordStarts(const Session& session, const StartComparison& comparison, RunContext& context) {
+  const std::string id = session.luminaires[static_cast<size_t>(comparison.luminaire)].id;
+  const auto place = [](const Eigen::Vector3d& p) {
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
+  };
+  std::vector<std::string> among;
+  std::string scores;
+  for (size_t i = 0; i < comparison.start.size(); ++i) {
+    among.push_back(place(comparison.start[i]));
+    scores += fmt::format("{}{} +- {:.3f} ends at {}", i == 0 ? "" : ", ",
+                          fmt::format("{:.3f}", comparison.score[i]), comparison.standard_error[i],
+                          place(comparison.end[i]));
+  }
+  const auto chosen = static_cast<size_t>(comparison.chosen);
+  context.choices.push_back(
+      {"start of " + id, among[chosen], among,
+       fmt::format(
+           "the search found several places that explain its light; of {} starts {} ended within 1 cm of "
+           "the one kept, which is the best on patches left out, or the first within one standard error "
+           "of it (mean squared normalised error: {})",
+           among.size(), comparison.agreeing, scores)});
+  if (comparison.rivals.empty()) return;
+  std::string others;
+  for (const int rival : comparison.rivals)
+    others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)]);
+  context.warnings.push_back(
+      {"starts_disagree",
+       fmt::format("luminaire {} may hang at {} as well as at {}: both explain its light equally, within one "
+                   "standard error; the latter was kept",
+                   id, others, place(comparison.end[chosen])),
+       fmt::format("give position_m of {} roughly, with position_sigma_m, or measure where the two differ: "
+                   "surfaces close to each, or photos in which {} itself shows",
+                   id, id)});
+}
+
 void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context) {
   std::string scores;
   for (size_t i = 0; i < choice.among.size(); ++i) {

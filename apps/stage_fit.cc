@@ -15,6 +15,7 @@
 #include "inverse/contradiction.h"
 #include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
+#include "inverse/several_starts.h"
 
 namespace luxfit {
 namespace {
@@ -91,7 +92,9 @@ class FitStage {
       data = WithModelledIndirect(room_, result_.data, fit.state);
     }
     if (!fit.IsUsable()) return start_;
-    state = ChooseModels(data, fit.state);
+    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, rivals_, priors_);
+    for (const StartComparison& c : starts.comparisons) RecordStarts(session_, c, context_);
+    state = ChooseModels(data, starts.state);
     state.camera_scale_free = start_.camera_scale_free;
     state.meter_scale_free = start_.meter_scale_free;
     return state;
@@ -302,6 +305,7 @@ class FitStage {
                                   "its photometry is the same all round: no light tells a heading"});
     }
     result_.luminaire_found.push_back(found);
+    rivals_.push_back(given.position_m ? std::vector<Luminaire>() : guessed.rivals);
     start_.luminaires.push_back(luminaire);
     start_.free.push_back(free);
   }
@@ -366,6 +370,7 @@ class FitStage {
   RunContext& context_;
   SessionFit result_;
   LightState start_;
+  std::vector<std::vector<Luminaire>> rivals_;  // of each luminaire's first guess
   std::vector<OpenChoice> open_;
   std::vector<ParameterPrior> priors_;
   int used_readings_ = 0;
