@@ -62,9 +62,9 @@ int FitRoom(const CommandOptions& options, bool with_albedo) {
     session = LinearizeSession(std::move(session), context);
     const RegisteredSession registered = RegisterSession(session, context);
     ExpectSceneFrame(session, registered);
-    const std::vector<Observation> observations = ObserveSession(session, registered, room, context);
-    session = WithCountedLuminaires(std::move(session), room, observations, context);
-    const SessionFit fit = FitSession(session, room, observations, context);
+    const SessionObservations observed = ObserveSession(session, registered, room, context);
+    session = WithCountedLuminaires(std::move(session), room, observed.observations, context);
+    const SessionFit fit = FitSession(session, room, observed, context);
     const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
     result = ResultJson(session, room, registered, fit, files, context);
     if (with_albedo) {

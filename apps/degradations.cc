@@ -201,7 +201,8 @@ void DegradedSessions::ObserveWithMovedTags(double sigma_m, std::mt19937_64& rng
     registered.cameras[i] = WithFocalScale(cameras[i], focal_scale[i]);
     c.context.warnings.push_back({"focal_length_off", "the tags contradict the focal length", ""});
   }
-  c.observations = ThinElements(ObserveSession(c.session, registered, *c.room, c.context), max_elements_);
+  c.observations =
+      ThinElements(ObserveSession(c.session, registered, *c.room, c.context).observations, max_elements_);
 }
 
 void DegradedSessions::ObserveWithoutFurniture(double share, std::mt19937_64& rng, Case& c) {
@@ -209,8 +210,8 @@ void DegradedSessions::ObserveWithoutFurniture(double share, std::mt19937_64& rn
   const int pieces = static_cast<int>(LoosePieces(whole).size());
   c.own_room = MakeRoom(WithoutPieces(whole, std::clamp(ShareOf(share, pieces), 1, pieces), rng));
   c.room = &*c.own_room;
-  c.observations =
-      ThinElements(ObserveSession(c.session, prepared_.registered, *c.room, c.context), max_elements_);
+  c.observations = ThinElements(
+      ObserveSession(c.session, prepared_.registered, *c.room, c.context).observations, max_elements_);
 }
 
 void DegradedSessions::Simulate(const Degradation& degradation, double level, std::mt19937_64& rng, Case& c) {

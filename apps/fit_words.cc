@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -44,6 +45,71 @@ void WarnOfInterchangeable(const Session& session, const std::vector<int>& group
            "are given in the order of x",
            fmt::join(ids, ", ")),
        fmt::format("photograph {} without the others, or give position_m", ids.front())});
+}
+
+void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std::vector<SeenPlace>& seen,
+                      RunContext& context) {
+  const std::vector<std::string> among = {"seen in photos", "search over places"};
+  for (size_t k = 0; k < guess.luminaires.size(); ++k) {
+    const LuminaireGuess& luminaire = guess.luminaires[k];
+    if (!luminaire.found || luminaire.seen_candidates == 0) continue;
+    const std::string explains = fmt::format("leaves {:.1f} % of the direct light unexplained (rms)",
+                                             100 * luminaire.relative_residual);
+    const std::string what = "first guess of " + session.luminaires[k].id;
+    if (!luminaire.seen) {
+      context.choices.push_back(
+          {what, among[1], among,
+           fmt::format("none of the {} bright places in the photos explains its light as well as the place "
+                       "found, which {}",
+                       luminaire.seen_candidates, explains)});
+      continue;
+    }
+    const SeenPlace& place = seen[static_cast<size_t>(*luminaire.seen)];
+    const std::string area = std::isfinite(place.area_m2)
+                                 ? fmt::format(", {:.3f} m2 if it faces down", place.area_m2)
+                                 : std::string();
+    context.choices.push_back(
+        {what, among[0], among,
+         fmt::format(
+             "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
+             place.photos, place.views, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
+             luminaire.was_searched ? ", less than any other place" : ", so that no other was searched")});
+  }
+}
+
+void RecordStarts(const Session& session, const StartComparison& comparison, RunContext& context) {
+  const std::string id = session.luminaires[static_cast<size_t>(comparison.luminaire)].id;
+  const auto place = [](const Eigen::Vector3d& p) {
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
+  };
+  std::vector<std::string> among;
+  std::string scores;
+  for (size_t i = 0; i < comparison.start.size(); ++i) {
+    among.push_back(place(comparison.start[i]));
+    scores += fmt::format("{}{} +- {:.3f} ends at {}", i == 0 ? "" : ", ",
+                          fmt::format("{:.3f}", comparison.score[i]), comparison.standard_error[i],
+                          place(comparison.end[i]));
+  }
+  const auto chosen = static_cast<size_t>(comparison.chosen);
+  context.choices.push_back(
+      {"start of " + id, among[chosen], among,
+       fmt::format(
+           "the search found several places that explain its light; of {} starts {} ended within 1 cm of "
+           "the one kept, which is the best on patches left out, or the first within one standard error "
+           "of it (mean squared normalised error: {})",
+           among.size(), comparison.agreeing, scores)});
+  if (comparison.rivals.empty()) return;
+  std::string others;
+  for (const int rival : comparison.rivals)
+    others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)]);
+  context.warnings.push_back(
+      {"starts_disagree",
+       fmt::format("luminaire {} may hang at {} as well as at {}: both explain its light equally, within one "
+                   "standard error; the latter was kept",
+                   id, others, place(comparison.end[chosen])),
+       fmt::format("give position_m of {} roughly, with position_sigma_m, or measure where the two differ: "
+                   "surfaces close to each, or photos in which {} itself shows",
+                   id, id)});
 }
 
 void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context) {

@@ -7,9 +7,16 @@
 
 #include "apps/stages.h"
 #include "inverse/contradiction.h"
+#include "inverse/first_guess.h"
+#include "inverse/several_starts.h"
 
 namespace luxfit {
 
+// Where the fit of each luminaire that photos may show started from.
+void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std::vector<SeenPlace>& seen,
+                      RunContext& context);
+// Which start was kept, how many agree; warns ("starts_disagree") of another place that is as good.
+void RecordStarts(const Session& session, const StartComparison& comparison, RunContext& context);
 void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context);
 // `start`: the aim it is held at where it is not estimated.
 void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vector3d& start,

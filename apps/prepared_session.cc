@@ -54,8 +54,9 @@ PreparedSession PrepareSession(Session session, RunContext& context) {
   Room room = LoadRoom(session, context);
   session = LinearizeSession(std::move(session), context);
   RegisteredSession registered = RegisterSession(session, context);
-  std::vector<Observation> observations = ObserveSession(session, registered, room, context);
-  return {std::move(session), std::move(room), std::move(registered), std::move(observations)};
+  SessionObservations observed = ObserveSession(session, registered, room, context);
+  return {std::move(session), std::move(room), std::move(registered), std::move(observed.observations),
+          std::move(observed.seen)};
 }
 
 Refit RefitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
@@ -64,7 +65,7 @@ Refit RefitSession(const Session& session, const Room& room, const std::vector<O
   own.out = context.out;
   own.is_quiet = true;
   Refit refit;
-  refit.fit = FitSession(session, room, observations, own);
+  refit.fit = FitSession(session, room, {observations, {}}, own);
   const json result = ResultJson(session, room, {}, refit.fit,
                                  std::vector<LuminaireFiles>(refit.fit.fit.state.luminaires.size()), own);
   refit.luminaires = LuminairesOf(result, refit.fit.fit);

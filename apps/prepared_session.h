@@ -19,6 +19,7 @@ struct PreparedSession {
   Room room;
   RegisteredSession registered;
   std::vector<Observation> observations;  // of every view, not thinned
+  std::vector<SeenPlace> seen;            // where luminaires show
 };
 PreparedSession PrepareSession(Session session, RunContext& context);
 

@@ -15,6 +15,7 @@
 #include "inverse/contradiction.h"
 #include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
+#include "inverse/several_starts.h"
 
 namespace luxfit {
 namespace {
@@ -30,10 +31,9 @@ constexpr double kStartTableSigma = 0.1;
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
  public:
-  FitStage(const Session& session, const Room& room, const std::vector<Observation>& observations,
-           RunContext& context)
-      : session_(session), room_(room), context_(context) {
-    SessionLight light = LightOf(session, observations);
+  FitStage(const Session& session, const Room& room, const SessionObservations& observed, RunContext& context)
+      : session_(session), room_(room), seen_(observed.seen), context_(context) {
+    SessionLight light = LightOf(session, observed.observations);
     RecordReadings(session, light, context);
     result_.data = std::move(light.data);
     priors_ = std::move(light.priors);
@@ -92,7 +92,9 @@ class FitStage {
       data = WithModelledIndirect(room_, result_.data, fit.state);
     }
     if (!fit.IsUsable()) return start_;
-    state = ChooseModels(data, fit.state);
+    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, rivals_, priors_);
+    for (const StartComparison& c : starts.comparisons) RecordStarts(session_, c, context_);
+    state = ChooseModels(data, starts.state);
     state.camera_scale_free = start_.camera_scale_free;
     state.meter_scale_free = start_.meter_scale_free;
     return state;
@@ -218,7 +220,8 @@ class FitStage {
   void Start(const LightData& data) {
     std::vector<std::optional<Eigen::Vector3d>> known;
     for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
-    const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known);
+    const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known, seen_);
+    RecordFirstGuess(session_, guess, seen_, context_);
     MatchKnownFluxes(guess);
     for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(session_, group, context_);
     for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
@@ -302,6 +305,7 @@ class FitStage {
                                   "its photometry is the same all round: no light tells a heading"});
     }
     result_.luminaire_found.push_back(found);
+    rivals_.push_back(given.position_m ? std::vector<Luminaire>() : guessed.rivals);
     start_.luminaires.push_back(luminaire);
     start_.free.push_back(free);
   }
@@ -362,9 +366,11 @@ class FitStage {
 
   const Session& session_;
   const Room& room_;
+  const std::vector<SeenPlace>& seen_;
   RunContext& context_;
   SessionFit result_;
   LightState start_;
+  std::vector<std::vector<Luminaire>> rivals_;  // of each luminaire's first guess
   std::vector<OpenChoice> open_;
   std::vector<ParameterPrior> priors_;
   int used_readings_ = 0;
@@ -395,7 +401,7 @@ void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
 
 }  // namespace
 
-SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+SessionFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
                       RunContext& context) {
   if (session.luminaires.empty()) {
     throw std::runtime_error(session.path +
@@ -405,12 +411,12 @@ SessionFit FitSession(const Session& session, const Room& room, const std::vecto
   const auto& readings = session.luxmeter.readings;
   const bool fitted = std::any_of(readings.begin(), readings.end(),
                                   [](const SessionReading& r) { return r.role == ReadingRole::kFit; });
-  if (observations.empty() && !fitted) {
+  if (observed.observations.empty() && !fitted) {
     throw std::runtime_error(session.path +
                              ": expected something to fit to, got neither photos nor readings; add [photos], "
                              "or fit = [\"*\"] to [luxmeter]");
   }
-  SessionFit fit = FitStage(session, room, observations, context).Run();
+  SessionFit fit = FitStage(session, room, observed, context).Run();
   WriteArtifact(fit.fit, context);
   return fit;
 }

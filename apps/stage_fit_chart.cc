@@ -142,7 +142,7 @@ class FitSweep {
       own.out = context_.out;
       own.is_quiet = true;
       const std::vector<Observation> observed =
-          ObserveSession(prepared_.session, prepared_.registered, room, own);
+          ObserveSession(prepared_.session, prepared_.registered, room, own).observations;
       Add(factor, value, prepared_.session, room, ThinElements(observed, elements_), before_s);
     }
   }

@@ -12,7 +12,9 @@
 #include "apps/observed_light.h"
 #include "apps/stages.h"
 #include "apps/suggest.h"
+#include "calib/bright_blobs.h"
 #include "calib/luminance.h"
+#include "inverse/seen_luminaires.h"
 
 namespace luxfit {
 namespace {
@@ -86,10 +88,36 @@ void RecordAmbient(const Session& session, RunContext& context) {
        "photograph these views with all luminaires off too"});
 }
 
+std::vector<SeenPlace> SeenPlaces(const Room& room, const RegisteredSession& registered,
+                                  const std::vector<std::optional<PhotoBlobs>>& blobs) {
+  std::vector<PhotoBlobs> photos;
+  for (const std::optional<PhotoBlobs>& photo : blobs) {
+    if (photo) photos.push_back(*photo);
+  }
+  return FindSeenLuminaires(room, registered.cameras, registered.registration.views, photos);
+}
+
+nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& places) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const SeenPlace& place : places) {
+    std::vector<std::string> states;
+    for (const int s : place.states) states.push_back(session.states[static_cast<size_t>(s)].id);
+    const Eigen::Vector3d& p = place.position;
+    list.push_back({{"position_m", {p.x(), p.y(), p.z()}},
+                    {"sigma_m", place.sigma_m},
+                    {"states", states},
+                    {"photos", place.photos},
+                    {"views", place.views},
+                    {"photos_without", place.missing},
+                    {"area_facing_down_m2", place.area_m2}});
+  }
+  return list;
+}
+
 }  // namespace
 
-std::vector<Observation> ObserveSession(const Session& session, const RegisteredSession& registered,
-                                        const Room& room, RunContext& context) {
+SessionObservations ObserveSession(const Session& session, const RegisteredSession& registered,
+                                   const Room& room, RunContext& context) {
   const std::vector<RegisteredView>& views = registered.registration.views;
   if (views.empty()) return {};
   const StageTimer timer(
@@ -107,6 +135,7 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
   const bool has_ambient = HasAmbientState(session);
   if (has_ambient) RecordAmbient(session, context);
   std::vector<std::vector<Observation>> by_photo(session.photos.size());
+  std::vector<std::optional<PhotoBlobs>> blobs(session.photos.size());
   tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
     const SessionPhoto& photo = session.photos[i];
     const auto view = std::find_if(views.begin(), views.end(),
@@ -117,6 +146,7 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     const auto image = has_ambient ? ReadLuminaireLight(session, photo, camera)
                                    : std::optional(ReadLuminance(session, photo, camera));
     if (!image) return;
+    blobs[i] = {index, StateIndex(session, photo.state), FindBrightBlobs(*image)};
     by_photo[i] =
         ObservePhoto(maps[static_cast<size_t>(index)], *image, index, StateIndex(session, photo.state));
   });
@@ -130,8 +160,10 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
   observations =
       WithEstimatedVignetting(session, registered, room.patches, std::move(observations), context, json);
   WarnOfExposures(session, registered, observations, context);
+  SessionObservations observed{std::move(observations), SeenPlaces(room, registered, blobs)};
+  json["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", json);
-  return observations;
+  return observed;
 }
 
 }  // namespace luxfit

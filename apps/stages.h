@@ -28,6 +28,7 @@
 #include "inverse/direct_share.h"
 #include "inverse/fit_luminaires.h"
 #include "inverse/observe.h"
+#include "inverse/seen_luminaires.h"
 
 namespace luxfit {
 
@@ -96,9 +97,14 @@ std::string MethodOf(const RegisteredView& view);
 // its camera's response known, and of the camera's size.
 LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
 
-// Relative luminance of every element in every photo of a registered view.
-std::vector<Observation> ObserveSession(const Session& session, const RegisteredSession& registered,
-                                        const Room& room, RunContext& context);
+// What photos of registered views tell: relative luminance of every element in each, and the places where
+// luminaires show.
+struct SessionObservations {
+  std::vector<Observation> observations;
+  std::vector<SeenPlace> seen;
+};
+SessionObservations ObserveSession(const Session& session, const RegisteredSession& registered,
+                                   const Room& room, RunContext& context);
 
 struct SessionFit {
   LuminaireFit fit;
@@ -111,7 +117,7 @@ struct SessionFit {
   // Whether light that comes straight is told from light that comes by the walls.
   bool TellsDirectLight() const { return !direct_share || direct_share->is_determined; }
 };
-SessionFit FitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+SessionFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
                       RunContext& context);
 
 // What a session gives in full, simulated: the artifact of OUT/stages/simulate.json, which it writes with

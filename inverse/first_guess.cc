@@ -24,14 +24,46 @@ std::vector<SparseSource> HeldSources(const LuminaireGroup& group, const KnownPo
   return held;
 }
 
+// Indices of the places that are bright in states of the group, and in none that it is off in.
+std::vector<int> SeenOf(const LuminaireGroup& group, const LightData& data,
+                        const std::vector<SeenPlace>& seen) {
+  std::vector<int> own;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const bool always_on = std::all_of(seen[i].states.begin(), seen[i].states.end(), [&](int state) {
+      return data.dimming[static_cast<size_t>(state)][group.luminaires[0]] > 0;
+    });
+    if (always_on) own.push_back(static_cast<int>(i));
+  }
+  return own;
+}
+
+// A luminaire hangs inside, whatever the sight's error.
+Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p) {
+  if (box.isEmpty()) return p;
+  const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
+  return p.cwiseMax(box.min() + inner).cwiseMin(box.max() - inner);
+}
+
+struct SeenPositions {
+  std::vector<int> index;
+  std::vector<Eigen::Vector3d> position;
+
+  std::optional<int> IndexAt(const Eigen::Vector3d& p) const {
+    const auto at = std::find(position.begin(), position.end(), p);
+    return at == position.end() ? std::nullopt
+                                : std::optional(index[static_cast<size_t>(at - position.begin())]);
+  }
+};
+
 bool ComesFirst(const SparseSource& a, const SparseSource& b) {
   const Eigen::Vector3d &p = a.luminaire.position, &q = b.luminaire.position;
   return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
 }
 
 // A group's sources to its luminaires: held ones to those of a known position, in their order.
+// `seen`: positions of those seen, with their indices.
 void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const KnownPositions& known,
-            double flux_per_strength, FirstGuess& guess) {
+            const SeenPositions& seen, double flux_per_strength, FirstGuess& guess) {
   std::vector<SparseSource> held, free;
   for (const SparseSource& source : found.sources) (source.is_held ? held : free).push_back(source);
   std::sort(free.begin(), free.end(), ComesFirst);
@@ -50,6 +82,10 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
     luminaire.distribution = source.luminaire.distribution;
     luminaire.cosine_exponent = source.luminaire.cosine_exponent;
     luminaire.flux = flux_per_strength * source.strength / group.share[i];
+    if (!is_held) luminaire.seen = seen.IndexAt(source.luminaire.position);
+    luminaire.seen_candidates = is_held ? 0 : static_cast<int>(seen.index.size());
+    luminaire.rivals = source.rivals;
+    luminaire.was_searched = found.was_searched;
     luminaire.relative_residual = 0.1 * std::sqrt(found.mean_square);
   }
 }
@@ -83,7 +119,7 @@ class AlbedoMean {
 }  // namespace
 
 FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownPositions& known_positions,
-                           const FirstGuessOptions& options) {
+                           const std::vector<SeenPlace>& seen, const FirstGuessOptions& options) {
   FirstGuess guess;
   guess.luminaires.resize(data.dimming.empty() ? 0 : static_cast<size_t>(data.dimming[0].size()));
   const GroupedLight light = GroupLight(room, data, options.max_elements);
@@ -94,9 +130,12 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
   const SparseSearch search(room, light, options.grid_m, options.refinements);
   for (size_t g = 0; g < light.groups.size(); ++g) {
     const LuminaireGroup& group = light.groups[g];
+    SeenPositions own{SeenOf(group, data, seen), {}};
+    for (const int i : own.index)
+      own.position.push_back(Inside(room.scene.Bounds(), seen[static_cast<size_t>(i)].position));
     const SparseLuminaires found = search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
-                                               HeldSources(group, known_positions));
-    Assign(group, found, known_positions, data.observations.empty() ? 1 : kPi, guess);
+                                               HeldSources(group, known_positions), own.position);
+    Assign(group, found, known_positions, own, data.observations.empty() ? 1 : kPi, guess);
     if (!found.sources.empty()) albedo.Add(found);
   }
   guess.albedo = albedo.Value();

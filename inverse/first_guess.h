@@ -7,6 +7,8 @@
 //    linear in fluxes and 1 / rho: as many point luminaires as the group has are placed one by one by sparse
 //    non-negative least squares over a grid through the room, with a few lobes and aims at each place
 //    (inverse/internal/sparse_luminaires.h). From readings alone the indirect light is taken as even.
+//    Where photos show places that are bright in states of the group and in no other (inverse/
+//    seen_luminaires.h), these are tried first; if they explain the light, nothing is searched.
 //
 // Fluxes are such that the camera scale is 1. Distances m. Luminaires of one group are interchangeable: they
 // come in the order of their x (then y, then z), those of a known position apart. Sources: Lawson and Hanson
@@ -22,6 +24,7 @@
 
 #include "forward/room.h"
 #include "inverse/light_model.h"
+#include "inverse/seen_luminaires.h"
 
 namespace luxfit {
 
@@ -39,6 +42,14 @@ struct LuminaireGuess {
   double cosine_exponent = 1;
   double flux = 0;               // in units of the camera scale
   double relative_residual = 0;  // rms
+  // Places seen in photos where it may hang, and the index of the one where it does; none: found by the
+  // search over all places.
+  int seen_candidates = 0;
+  std::optional<int> seen;
+  bool was_searched = true;  // places other than those seen were looked at, too
+  // Elsewhere, with what explains the light nearly as well: position, aim and lobe. None where it was not
+  // searched.
+  std::vector<Luminaire> rivals;
 };
 
 struct FirstGuess {
@@ -49,10 +60,11 @@ struct FirstGuess {
   Eigen::VectorXd albedo;  // by material; 0.5 where no observation tells
 };
 
-// `data` with measured indirect light, or readings alone. `known_positions`: one a luminaire, or none at all.
+// `data` with measured indirect light, or readings alone. `known_positions`: one a luminaire, or none at all;
+// `seen`: places seen in photos, if any.
 FirstGuess GuessLuminaires(const Room& room, const LightData& data,
                            const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
-                           const FirstGuessOptions& options = {});
+                           const std::vector<SeenPlace>& seen = {}, const FirstGuessOptions& options = {});
 
 }  // namespace luxfit
 

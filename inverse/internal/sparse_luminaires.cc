@@ -9,73 +9,10 @@
 #include <limits>
 #include <utility>
 
-#include "forward/direct_light.h"
 #include "inverse/internal/group_equations.h"
 
 namespace luxfit {
 namespace {
-
-struct Lobe {
-  Distribution distribution;
-  double exponent;
-  Eigen::Vector3d aim;
-};
-const std::vector<Lobe>& Lobes() {
-  using D = Distribution;
-  static const std::vector<Lobe> lobes = {
-      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}}, {D::kCosinePower, 3, {0, 0, -1}},
-      {D::kCosinePower, 8, {0, 0, -1}}, {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
-      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},  {D::kCosinePower, 1, {0, -1, 0}}};
-  return lobes;
-}
-
-// Direct illuminance per lumen at the places (rows) of every lobe (columns) at one position.
-Eigen::MatrixXf LobeColumns(const Room& room, const std::vector<Sensor>& places,
-                            const Eigen::Vector3d& position) {
-  const auto rows = static_cast<Eigen::Index>(places.size());
-  const auto lobes = static_cast<Eigen::Index>(Lobes().size());
-  Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(rows, lobes);
-  Luminaire lamp;
-  lamp.position = position;
-  lamp.distribution = Distribution::kIsotropic;
-  constexpr double kIsotropicCdPerLm = 0.25 / 3.14159265358979323846;
-  // A candidate close to a surface must not win by one enormous value.
-  constexpr double kNearestM = 0.1;
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const Sensor& place = places[static_cast<size_t>(i)];
-    const Eigen::Vector3d ray = place.position - position;
-    const double distance = ray.norm();
-    if (distance < kNearestM || VisibleFraction(room.rays, lamp, place.position, place.normal, 1) == 0)
-      continue;
-    const double isotropic = SensorIlluminancePerLumen(lamp, place).lx_per_lm;
-    for (Eigen::Index l = 0; l < lobes; ++l) {
-      const Lobe& lobe = Lobes()[static_cast<size_t>(l)];
-      const double cosine = lobe.aim.dot(ray) / distance;
-      lamp.distribution = lobe.distribution;
-      lamp.cosine_exponent = lobe.exponent;
-      columns(i, l) =
-          static_cast<float>(isotropic / kIsotropicCdPerLm * IntensityPerLumen(lamp, cosine).cd_per_lm);
-    }
-    lamp.distribution = Distribution::kIsotropic;
-  }
-  return columns;
-}
-
-// Cell centres of a grid through the box, so that none lies on a wall.
-std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step) {
-  const Eigen::Array3i n = (box.sizes().array() / step).ceil().cast<int>().max(1);
-  std::vector<Eigen::Vector3d> places;
-  places.reserve(static_cast<size_t>(n.cast<double>().prod()));
-  for (int i = 0; i < n[0]; ++i) {
-    for (int j = 0; j < n[1]; ++j) {
-      for (int k = 0; k < n[2]; ++k) {
-        const Eigen::Array3d at = (Eigen::Array3d(i, j, k) + 0.5) / n.cast<double>();
-        places.push_back(box.min() + (at * box.sizes().array()).matrix());
-      }
-    }
-  }
-  return places;
-}
 
 // The room; without a mesh, the box of the sensors, as far again to every side.
 Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& places) {
@@ -87,32 +24,13 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
   return {box.min() - margin, box.max() + margin};
 }
 
-}  // namespace
+// Mean square of the weighted residuals (1: 10 %) below which places seen in photos need no others to be
+// compared with: 5 %. Half a metre off, no lobe explains a room's light so well.
+constexpr double kExplained = 0.25;
 
-struct SparseSearch::Grid {
-  Eigen::AlignedBox3d box;
-  std::vector<Eigen::Vector3d> places;
-  std::vector<Eigen::MatrixXf> columns;  // of each place: rows x lobes
-};
-
-SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
-    : room_(room), light_(light), refinements_(refinements), grid_(std::make_unique<Grid>()) {
-  grid_->box = SearchBox(room, light.places);
-  if (grid_->box.isEmpty()) {
-    step_m_ = grid_m;
-    return;
-  }
-  step_m_ = std::min(grid_m, grid_->box.sizes().maxCoeff() / 8);
-  grid_->places = GridThrough(grid_->box, step_m_);
-  grid_->columns.resize(grid_->places.size());
-  tbb::parallel_for(size_t{0}, grid_->places.size(), [&](size_t i) {
-    grid_->columns[i] = LobeColumns(room_, light_.places, grid_->places[i]);
-  });
-}
-
-SparseSearch::~SparseSearch() = default;
-
-namespace {
+// Squares of a place that explains the light nearly as well as the best: what few facets say of neighbouring
+// rows' common errors does not tell them apart.
+constexpr double kRival = 1.5;
 
 struct Tried {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -123,24 +41,30 @@ struct Tried {
 
 bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }
 
-// The best place of every lobe.
+using Allowed = std::function<bool(const Eigen::Vector3d&)>;
+
+bool Anywhere(const Eigen::Vector3d&) { return true; }
+
+// The best place of every lobe among those allowed.
 std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::MatrixXd& others,
-                               const std::vector<Eigen::Vector3d>& places,
-                               const std::vector<Eigen::MatrixXf>& columns) {
+                               const LitPlaces& places, const Allowed& allowed = Anywhere) {
   const GroupEquations::Base base = equations.Solve(others);
   const size_t lobes = Lobes().size();
   const auto column_of = [&](size_t place, size_t lobe) {
-    return equations.Weighted(columns[place].col(static_cast<Eigen::Index>(lobe)));
+    return equations.Weighted(places.columns[place].col(static_cast<Eigen::Index>(lobe)));
   };
   std::vector<std::vector<std::pair<double, size_t>>> gains(lobes);  // gain, place
-  for (std::vector<std::pair<double, size_t>>& of_lobe : gains) of_lobe.resize(places.size());
-  tbb::parallel_for(size_t{0}, places.size(), [&](size_t i) {
-    for (size_t l = 0; l < lobes; ++l) gains[l][i] = {GroupEquations::Gain(base, column_of(i, l)), i};
+  for (std::vector<std::pair<double, size_t>>& of_lobe : gains) of_lobe.resize(places.positions.size());
+  tbb::parallel_for(size_t{0}, places.positions.size(), [&](size_t i) {
+    const bool counts = allowed(places.positions[i]);
+    for (size_t l = 0; l < lobes; ++l)
+      gains[l][i] = {counts ? GroupEquations::Gain(base, column_of(i, l)) : 0, i};
   });
   constexpr size_t kExact = 6;  // of each lobe, the most promising
   std::vector<Tried> best(lobes);
   tbb::parallel_for(size_t{0}, lobes, [&](size_t l) {
-    const auto end = gains[l].begin() + static_cast<std::ptrdiff_t>(std::min(kExact, places.size()));
+    const auto end =
+        gains[l].begin() + static_cast<std::ptrdiff_t>(std::min(kExact, places.positions.size()));
     std::partial_sort(gains[l].begin(), end, gains[l].end(), std::greater<>());
     best[l].lobe = l;
     for (auto promising = gains[l].begin(); promising != end; ++promising) {
@@ -148,7 +72,7 @@ std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::Mat
       const Eigen::VectorXd column = column_of(promising->second, l);
       const GroupEquations::Solution solution = equations.SolveWith(base, column);
       if (!(solution.strength[solution.strength.size() - 1] > 0) || solution.cost >= best[l].cost) continue;
-      best[l] = {places[promising->second], l, column, solution.cost};
+      best[l] = {places.positions[promising->second], l, column, solution.cost};
     }
   });
   return best;
@@ -180,26 +104,31 @@ class GroupSearch {
         refinements_(refinements) {}
 
   void Start(const SparseSource& source) {
-    const Eigen::MatrixXf columns = LobeColumns(room_, places_, source.luminaire.position);
+    const LitPlaces here = Lit(room_, places_, {source.luminaire.position});
     Tried tried;
     tried.position = source.luminaire.position;
     tried.lobe = source.lobe;
     if (source.is_held) {
-      const std::vector<Tried> lobes =
-          BestOfLobes(equations_, Others(sources_.size()), {tried.position}, {columns});
+      const std::vector<Tried> lobes = BestOfLobes(equations_, Others(sources_.size()), here);
       const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
       if (std::isfinite(best.cost)) tried.lobe = best.lobe;
     }
-    tried.column = equations_.Weighted(columns.col(static_cast<Eigen::Index>(tried.lobe)));
+    tried.column = equations_.Weighted(here.columns[0].col(static_cast<Eigen::Index>(tried.lobe)));
     sources_.push_back(tried);
     is_held_.push_back(source.is_held);
   }
 
-  // False where one more explains nothing more.
-  bool AddOne(const std::vector<Eigen::Vector3d>& grid, const std::vector<Eigen::MatrixXf>& columns) {
+  // At or about one of the places. False where one more explains nothing more.
+  bool AddOne(const std::vector<const LitPlaces*>& lists) {
     const Eigen::MatrixXd rest = Others(sources_.size());
     const double before = equations_.Solve(rest).solution.cost;
-    std::vector<Tried> lobes = BestOfLobes(equations_, rest, grid, columns);
+    std::vector<Tried> lobes(Lobes().size());
+    for (const LitPlaces* const places : lists) {
+      const std::vector<Tried> of_list = BestOfLobes(equations_, rest, *places);
+      for (size_t l = 0; l < lobes.size(); ++l) {
+        if (IsBetter(of_list[l], lobes[l])) lobes[l] = of_list[l];
+      }
+    }
     // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
     for (Tried& lobe : lobes) {
       if (!std::isfinite(lobe.cost)) continue;
@@ -215,11 +144,31 @@ class GroupSearch {
   // Those that were there before give way to the new one, and it to them: coarsely as often as it helps, then
   // finely once.
   void MoveAll() {
-    if (sources_.size() < 2) return;
+    if (sources_.size() < 2 || refinements_ == 0) return;
     constexpr int kSweeps = 5, kCoarse = 2;
     for (int sweep = 0; sweep < kSweeps && MoveEach(0, std::min(kCoarse, refinements_)); ++sweep) {
     }
     MoveEach(std::min(kCoarse, refinements_), refinements_);
+  }
+
+  // Other places for one source that explain the light nearly as well, best first.
+  std::vector<Tried> RivalsOf(size_t source, const LitPlaces& grid) const {
+    const Tried& own = sources_[source];
+    const Eigen::MatrixXd rest = Others(source);
+    const auto is_apart = [&](const Eigen::Vector3d& p) { return (p - own.position).norm() > step_m_; };
+    const auto is_near = [&](const Eigen::Vector3d& p) { return !is_apart(p); };
+    // On the same coarse grid, what is as good as the source's own surroundings.
+    const std::vector<Tried> near = BestOfLobes(equations_, rest, grid, is_near);
+    const double coarse = std::min_element(near.begin(), near.end(), IsBetter)->cost;
+    const double fine = equations_.SolveWith(equations_.Solve(rest), own.column).cost;
+    std::vector<Tried> rivals;
+    for (Tried& lobe : BestOfLobes(equations_, rest, grid, is_apart)) {
+      if (!(lobe.cost <= kRival * coarse)) continue;
+      for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
+      if (lobe.cost <= kRival * fine && is_apart(lobe.position)) rivals.push_back(lobe);
+    }
+    std::sort(rivals.begin(), rivals.end(), IsBetter);
+    return rivals;
   }
 
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
@@ -243,10 +192,7 @@ class GroupSearch {
   Tried Refined(const Tried& source, int halvings, const Eigen::MatrixXd& rest, bool any_lobe) const {
     const std::vector<Eigen::Vector3d> near =
         Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
-    std::vector<Eigen::MatrixXf> columns(near.size());
-    tbb::parallel_for(size_t{0}, near.size(),
-                      [&](size_t i) { columns[i] = LobeColumns(room_, places_, near[i]); });
-    const std::vector<Tried> lobes = BestOfLobes(equations_, rest, near, columns);
+    const std::vector<Tried> lobes = BestOfLobes(equations_, rest, Lit(room_, places_, near));
     const Tried& best =
         any_lobe ? *std::min_element(lobes.begin(), lobes.end(), IsBetter) : lobes[source.lobe];
     return IsBetter(best, source) ? best : source;
@@ -275,42 +221,86 @@ class GroupSearch {
   std::vector<bool> is_held_;
 };
 
-}  // namespace
+Luminaire LuminaireOf(const Tried& tried) {
+  const Lobe& lobe = Lobes()[tried.lobe];
+  Luminaire luminaire;
+  luminaire.position = tried.position;
+  luminaire.aim = lobe.aim;
+  luminaire.distribution = lobe.distribution;
+  luminaire.cosine_exponent = lobe.exponent;
+  return luminaire;
+}
 
-SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start) const {
+SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equations) {
   SparseLuminaires found;
-  GroupEquations equations(light_, group);
-  constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
-  if (equations.rows().size() < kFewestPlaces || grid_->places.empty()) return found;
-  // Once to see what is unlike all else, once without that.
-  const auto searched = [&](int refinements) {
-    GroupSearch search(room_, light_.places, grid_->box, equations, step_m_, refinements);
-    for (const SparseSource& source : start) search.Start(source);
-    while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid_->places, grid_->columns))
-      search.MoveAll();
-    return search;
-  };
-  constexpr int kRough = 2;
-  equations.Reweigh(searched(std::min(kRough, refinements_)).Columns());
-  const GroupSearch search = searched(refinements_);
   const GroupEquations::Solution solution = search.Solve();
   found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
   for (size_t j = 0; j < search.sources().size(); ++j) {
-    const Tried& tried = search.sources()[j];
-    const Lobe& lobe = Lobes()[tried.lobe];
     SparseSource source;
-    source.luminaire.position = tried.position;
-    source.luminaire.aim = lobe.aim;
-    source.luminaire.distribution = lobe.distribution;
-    source.luminaire.cosine_exponent = lobe.exponent;
+    source.luminaire = LuminaireOf(search.sources()[j]);
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
-    source.lobe = tried.lobe;
+    source.lobe = search.sources()[j].lobe;
     found.sources.push_back(source);
   }
   for (size_t m = 0; m < equations.materials().size(); ++m) {
     const double q = solution.other[static_cast<Eigen::Index>(m)];
     if (equations.materials()[m] >= 0 && q > 0) found.albedo[equations.materials()[m]] = 1 / q;
+  }
+  return found;
+}
+
+}  // namespace
+
+SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
+    : room_(room), light_(light), refinements_(refinements), box_(SearchBox(room, light.places)) {
+  step_m_ = box_.isEmpty() ? grid_m : std::min(grid_m, box_.sizes().maxCoeff() / 8);
+}
+
+SparseSearch::~SparseSearch() = default;
+
+const LitPlaces& SparseSearch::Grid() const {
+  if (!grid_) grid_ = std::make_unique<LitPlaces>(Lit(room_, light_.places, GridThrough(box_, step_m_)));
+  return *grid_;
+}
+
+SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start,
+                                    const std::vector<Eigen::Vector3d>& seen) const {
+  const GroupEquations equations(light_, group);
+  constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
+  if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
+  const auto searched = [&](const GroupEquations& in, const std::vector<const LitPlaces*>& lists,
+                            int refinements) {
+    GroupSearch search(room_, light_.places, box_, in, step_m_, refinements);
+    for (const SparseSource& source : start) search.Start(source);
+    while (static_cast<int>(search.sources().size()) < count && search.AddOne(lists)) search.MoveAll();
+    return search;
+  };
+  // Once to see what is unlike all else, once without that.
+  const auto reweighed_after = [&](const std::vector<const LitPlaces*>& lists, int refinements) {
+    GroupEquations reweighed = equations;
+    reweighed.Reweigh(searched(equations, lists, refinements).Columns());
+    return reweighed;
+  };
+  const LitPlaces at_seen = Lit(room_, light_.places, seen);
+  if (!seen.empty()) {
+    const GroupEquations reweighed = reweighed_after({&at_seen}, 0);
+    SparseLuminaires found = Result(searched(reweighed, {&at_seen}, 0), reweighed);
+    const bool is_complete = static_cast<int>(found.sources.size()) == count;
+    if (is_complete && found.mean_square < kExplained) {
+      found.was_searched = false;
+      return found;
+    }
+  }
+  constexpr int kRough = 2;
+  const std::vector<const LitPlaces*> everywhere = {&Grid(), &at_seen};
+  const GroupEquations reweighed = reweighed_after(everywhere, std::min(kRough, refinements_));
+  const GroupSearch search = searched(reweighed, everywhere, refinements_);
+  SparseLuminaires found = Result(search, reweighed);
+  for (size_t j = 0; j < found.sources.size(); ++j) {
+    if (found.sources[j].is_held) continue;
+    for (const Tried& rival : search.RivalsOf(j, Grid()))
+      found.sources[j].rivals.push_back(LuminaireOf(rival));
   }
   return found;
 }

@@ -14,11 +14,13 @@
 #define LUXFIT_INVERSE_INTERNAL_SPARSE_LUMINAIRES_H_
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "inverse/internal/grouped_light.h"
+#include "inverse/internal/lit_places.h"
 
 namespace luxfit {
 
@@ -27,17 +29,21 @@ struct SparseSource {
   double strength = 0;  // g
   bool is_held = false;
   size_t lobe = 0;  // of those that are tried
+  // At other places, each a grid step away and more, that leave less than half more squares: best first.
+  std::vector<Luminaire> rivals;
 };
 
 struct SparseLuminaires {
   std::vector<SparseSource> sources;
   std::map<int, double> albedo;  // by material, of photos
   double mean_square = 0;        // of the weighted residuals: 1 is 10 %
+  bool was_searched = true;      // false: nothing but the places seen was looked at
 };
 
 class SparseSearch {
  public:
-  // Traces the grid's light once for all groups. Keeps references.
+  // The grid's light is traced once for all groups, when it is first needed. Keeps references; not to be
+  // shared by threads.
   SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements);
   ~SparseSearch();
   SparseSearch(const SparseSearch&) = delete;
@@ -46,15 +52,21 @@ class SparseSearch {
   // The light of one group by `count` luminaires, of which `start` are there already: those that are held
   // stay where they are. Fewer sources come back where no more would help; none where fewer than 20 places
   // show the group's light.
-  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {}) const;
+  //
+  // Places `seen` in photos are tried first, as they are: where `count` sources there leave less than 5 % rms
+  // of the light unexplained, nothing else is searched. Else they are among the places of the search.
+  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
+                        const std::vector<Eigen::Vector3d>& seen = {}) const;
 
  private:
-  struct Grid;
+  const LitPlaces& Grid() const;
+
   const Room& room_;
   const GroupedLight& light_;
-  double step_m_;
   int refinements_;
-  std::unique_ptr<Grid> grid_;
+  Eigen::AlignedBox3d box_;
+  double step_m_;
+  mutable std::unique_ptr<LitPlaces> grid_;  // traced when first needed
 };
 
 }  // namespace luxfit

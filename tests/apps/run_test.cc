@@ -63,6 +63,18 @@ TEST_F(OfficeRun, FindsEveryLuminaire) {
   EXPECT_LE(comparison_.worst_flux_percent, 2);
 }
 
+// The photos show all four, and washed-out tags and walls; where a fit starts is said.
+TEST_F(OfficeRun, StartsWhereThePhotosShowLuminaires) {
+  int seen = 0;
+  for (const json& choice : result_["choices"]) {
+    if (choice["what"].get<std::string>().rfind("first guess of ", 0) != 0) continue;
+    EXPECT_EQ(choice["among"], json::array({"seen in photos", "search over places"}));
+    EXPECT_NE(choice["because"], "");
+    seen += choice["chosen"] == "seen in photos" ? 1 : 0;
+  }
+  EXPECT_EQ(seen, 4);
+}
+
 TEST_F(OfficeRun, FindsReflectances) {
   EXPECT_EQ(comparison_.albedo_error.size(), 7u);
   EXPECT_LE(comparison_.worst_albedo, 0.012);  // 0.010 at full resolution; the ceiling is the worst

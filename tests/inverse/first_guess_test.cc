@@ -168,12 +168,7 @@ TEST(GuessLuminaires, SumsThatDoNotTellGroupsApartAreNamed) {
 }
 
 // Photos by the light tracer, which shares no patch with the form factors.
-TEST(GuessLuminaires, FindsPlaceAndReflectanceInPhotosOfAClosedRoom) {
-  const Room cube = support::CubeRoom();
-  const double rho = 0.6;
-  Luminaire lamp;
-  lamp.position = {1.23, 0.81, 1.37};
-  lamp.distribution = Distribution::kIsotropic;
+LightData TracedPhotos(const Room& cube, const Luminaire& lamp, double rho) {
   std::vector<Sensor> sensors;
   for (const Element& element : cube.patches.elements)
     sensors.push_back({element.center, element.normal, {}});
@@ -190,14 +185,81 @@ TEST(GuessLuminaires, FindsPlaceAndReflectanceInPhotosOfAClosedRoom) {
     o.relative_luminance = rho / support::kPi * (traced.direct(row, 0) + traced.indirect(row, 0));
     data.observations.push_back(o);
   }
-  const FirstGuess guess = GuessLuminaires(cube, WithMeasuredIndirect(cube, data));
+  return WithMeasuredIndirect(cube, data);
+}
+
+class GuessInCube : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    cube_ = new Room(support::CubeRoom());
+    lamp_.position = {1.23, 0.81, 1.37};
+    lamp_.distribution = Distribution::kIsotropic;
+    photos_ = TracedPhotos(*cube_, lamp_, kRho);
+  }
+  static void TearDownTestSuite() { delete cube_; }
+
+  static SeenPlace SeenAt(const Eigen::Vector3d& p, const std::vector<int>& states = {0}) {
+    SeenPlace place;
+    place.position = p;
+    place.states = states;
+    return place;
+  }
+
+  static constexpr double kRho = 0.6;
+  static Room* cube_;
+  static Luminaire lamp_;
+  static LightData photos_;
+};
+Room* GuessInCube::cube_ = nullptr;
+Luminaire GuessInCube::lamp_;
+LightData GuessInCube::photos_;
+
+TEST_F(GuessInCube, FindsPlaceAndReflectanceInPhotos) {
+  const FirstGuess guess = GuessLuminaires(*cube_, photos_);
   ASSERT_TRUE(guess.luminaires.at(0).found);
   // The first grid is 2 / 8 m here, the last a sixteenth of that.
-  EXPECT_LT((guess.luminaires[0].position - lamp.position).norm(), std::sqrt(3.) * 0.25 / 16);
+  EXPECT_LT((guess.luminaires[0].position - lamp_.position).norm(), std::sqrt(3.) * 0.25 / 16);
   EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kIsotropic);
   // Of a place half a step off, the direct light is wrong by a few percent.
-  EXPECT_NEAR(guess.albedo[0], rho, 0.03);
+  EXPECT_NEAR(guess.albedo[0], kRho, 0.03);
   EXPECT_NEAR(guess.luminaires[0].flux, 1, 0.1);  // both share that error
+  EXPECT_EQ(guess.luminaires[0].seen_candidates, 0);
+  EXPECT_TRUE(guess.luminaires[0].was_searched);
+}
+
+// Washed-out spots on the floor and the walls are bright in as many photos; the light tells them apart.
+TEST_F(GuessInCube, APlaceSeenInPhotosIsUsedWhereItExplainsTheLight) {
+  const Eigen::Vector3d seen = lamp_.position + Eigen::Vector3d(0.01, -0.01, 0.01);
+  const std::vector<SeenPlace> places = {SeenAt({1, 1, 0.01}), SeenAt({0.4, 1.99, 1.2}), SeenAt(seen),
+                                         SeenAt({1.6, 0.3, 0.74})};
+  const FirstGuess guess = GuessLuminaires(*cube_, photos_, {}, places);
+  ASSERT_TRUE(guess.luminaires.at(0).found);
+  EXPECT_EQ(guess.luminaires[0].seen, 2);
+  EXPECT_EQ(guess.luminaires[0].seen_candidates, 4);
+  EXPECT_FALSE(guess.luminaires[0].was_searched);
+  EXPECT_EQ(guess.luminaires[0].position, seen);
+  EXPECT_EQ(guess.luminaires[0].distribution, Distribution::kIsotropic);
+  EXPECT_NEAR(guess.albedo[0], kRho, 0.03);
+}
+
+// Nothing but what is no luminaire was seen: as if nothing had been.
+TEST_F(GuessInCube, PlacesThatAreNoLuminairesDoNotLeadAstray) {
+  const FirstGuess alone = GuessLuminaires(*cube_, photos_);
+  for (const Eigen::Vector3d& wrong :
+       {Eigen::Vector3d(1, 1, 0.01), Eigen::Vector3d(0.4, 1.99, 1.2), Eigen::Vector3d(1.23, 0.81, 1.9)}) {
+    const FirstGuess guess = GuessLuminaires(*cube_, photos_, {}, {SeenAt(wrong)});
+    ASSERT_TRUE(guess.luminaires.at(0).found);
+    EXPECT_FALSE(guess.luminaires[0].seen.has_value()) << wrong.transpose();
+    EXPECT_TRUE(guess.luminaires[0].was_searched);
+    EXPECT_EQ(guess.luminaires[0].position, alone.luminaires.at(0).position) << wrong.transpose();
+  }
+}
+
+TEST_F(GuessInCube, WhatIsBrightWithoutALuminaireIsNotIt) {
+  LightData data = photos_;
+  data.dimming.push_back(Eigen::VectorXd::Zero(1));
+  const FirstGuess guess = GuessLuminaires(*cube_, data, {}, {SeenAt(lamp_.position, {0, 1})});
+  EXPECT_EQ(guess.luminaires.at(0).seen_candidates, 0);
 }
 
 }  // namespace

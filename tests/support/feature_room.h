@@ -16,6 +16,7 @@
 #include "calib/feature_model.h"
 #include "calib/registration.h"
 #include "calib/tags.h"
+#include "tests/support/look_at.h"
 #include "tests/support/office_camera.h"
 
 namespace luxfit::support {
@@ -39,15 +40,6 @@ inline Eigen::Vector2d ProjectByOpenCv(const Camera& camera, const Eigen::Isomet
   cv::projectPoints(std::vector<cv::Point3d>{{p.x(), p.y(), p.z()}}, cv::Vec3d(r.x(), r.y(), r.z()),
                     cv::Vec3d(t.x(), t.y(), t.z()), matrix, distortion, pixels);
   return {pixels[0].x, pixels[0].y};
-}
-
-inline Eigen::Isometry3d LookAt(const Eigen::Vector3d& from, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d forward = (at - from).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d world_from_cam = Eigen::Isometry3d::Identity();
-  world_from_cam.linear() << right, forward.cross(right), forward;
-  world_from_cam.translation() = from;
-  return world_from_cam.inverse();
 }
 
 // A place on one of the four walls (0..3) and the wall's normal into the room.
