@@ -128,8 +128,7 @@ std::vector<Observation> ObserveSession(const Session& session, const Registered
     json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
   observations =
-      WithEstimatedVignetting(session, registered, room.patches, std::move(observations), context, json);
-  WarnOfExposures(session, registered, observations, context);
+      WithSelfCalibration(session, registered, room.patches, std::move(observations), context, json);
   WriteJson(context.out + "/stages/observe.json", json);
   return observations;
 }
