@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -156,10 +157,12 @@ DegradedSessions::Case DegradedSessions::Degrade(const Degradation& degradation,
     case DegradationKind::kNoise:
       c.observations = WithPixelNoise(thinned_, level / 100, rng);
       break;
-    case DegradationKind::kExposure:
-      c.observations = WithExposureErrors(thinned_, level / 100, rng);
-      WarnOfExposures(c.session, prepared_.registered, c.observations, c.context);
+    case DegradationKind::kExposure: {
+      nlohmann::json unused;
+      c.observations = WithSelfCalibration(c.session, prepared_.registered, prepared_.room.patches,
+                                           WithExposureErrors(thinned_, level / 100, rng), c.context, unused);
       break;
+    }
     case DegradationKind::kViewsDropped: {
       const int views = CountViews(thinned_);
       c.observations = WithoutViews(thinned_, std::clamp(ShareOf(level, views), 1, views - 1), rng);

@@ -16,19 +16,6 @@ constexpr double kUnknownMeterSigma = 0.02;
 // Of a single reading of a meter whose class is given: placing it, and its display.
 constexpr double kReadingSigma = 0.01;
 
-std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
-  std::vector<Eigen::VectorXd> by_state;
-  for (const SessionState& state : session.states) {
-    Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session.luminaires.size()));
-    for (size_t k = 0; k < session.luminaires.size(); ++k) {
-      const auto on = state.dimming.find(session.luminaires[k].id);
-      if (on != state.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
-    }
-    by_state.push_back(std::move(dimming));
-  }
-  return by_state;
-}
-
 int StateIndex(const Session& session, const std::string& id) {
   for (size_t s = 0; s < session.states.size(); ++s) {
     if (session.states[s].id == id) return static_cast<int>(s);
@@ -46,6 +33,19 @@ void AddSensorGains(double sigma, int sensors, SessionLight& light) {
 }
 
 }  // namespace
+
+std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
+  std::vector<Eigen::VectorXd> by_state;
+  for (const SessionState& state : session.states) {
+    Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session.luminaires.size()));
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = state.dimming.find(session.luminaires[k].id);
+      if (on != state.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
+    }
+    by_state.push_back(std::move(dimming));
+  }
+  return by_state;
+}
 
 SessionLight LightOf(const Session& session, const std::vector<Observation>& observations) {
   SessionLight light;

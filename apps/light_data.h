@@ -19,6 +19,9 @@ struct SessionLight {
 };
 SessionLight LightOf(const Session& session, const std::vector<Observation>& observations);
 
+// One a state, by session.luminaires.
+std::vector<Eigen::VectorXd> DimmingOf(const Session& session);
+
 // How sure a reading is taken to be, for `choices`.
 void RecordReadings(const Session& session, const SessionLight& light, RunContext& context);
 

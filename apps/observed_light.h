@@ -1,7 +1,8 @@
 // What observations of the same elements from several views say of the photos themselves.
 //
-// An element is diffuse: in one state its luminance is the same in every photo of a camera. Photos that
-// disagree have another exposure than stated, or the lens darkens towards the corners.
+// An element is diffuse: in one state its luminance is the same in every photo. Photos that disagree have
+// another exposure than stated, the lens darkens towards the corners, or counts are not proportional to light
+// (inverse/self_calibration.h).
 #ifndef LUXFIT_APPS_OBSERVED_LIGHT_H_
 #define LUXFIT_APPS_OBSERVED_LIGHT_H_
 
@@ -12,17 +13,15 @@
 
 namespace luxfit {
 
-// Warns ("exposure_metadata") of photos whose luminance is off by more than 8 % against the other views of
-// their state; exposures stay as they are.
-void WarnOfExposures(const Session& session, const RegisteredSession& registered,
-                     const std::vector<Observation>& observations, RunContext& context);
-
-// For cameras with vignetting = "estimate": observations divided by the vignetting estimated from them, and
-// by their photo's gain. Warns ("vignetting_undetermined") where they do not determine it, and leaves them.
-std::vector<Observation> WithEstimatedVignetting(const Session& session, const RegisteredSession& registered,
-                                                 const Patches& patches,
-                                                 std::vector<Observation> observations, RunContext& context,
-                                                 nlohmann::json& artifact);
+// Observations divided by what the photos' exposures, vignetting and response are found to be off, where
+// calib did not fix them (no flat field, no response curve) and where the criterion asks for it; variances
+// enlarged by that of their photo's gain. Warns of photos whose exposure is off by more than 8 %
+// ("exposure_metadata"), of vignetting and of a response that the session denies ("vignetting_found",
+// "response_not_linear"), of vignetting that is asked for and not determined ("vignetting_undetermined"), and
+// of states whose exposures nothing ties to the others' ("state_exposures_undetermined").
+std::vector<Observation> WithSelfCalibration(const Session& session, const RegisteredSession& registered,
+                                             const Patches& patches, std::vector<Observation> observations,
+                                             RunContext& context, nlohmann::json& artifact);
 
 }  // namespace luxfit
 

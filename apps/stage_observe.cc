@@ -158,8 +158,7 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
     json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
   observations =
-      WithEstimatedVignetting(session, registered, room.patches, std::move(observations), context, json);
-  WarnOfExposures(session, registered, observations, context);
+      WithSelfCalibration(session, registered, room.patches, std::move(observations), context, json);
   SessionObservations observed{std::move(observations), SeenPlaces(room, registered, blobs)};
   json["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", json);

@@ -16,6 +16,7 @@
 namespace luxfit {
 namespace {
 
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -301,9 +302,14 @@ class ObservedLightTest : public LinearizeTest {
         Element element;
         element.center = {0.1 * x, 0.1 * y, 0};
         element.normal = element.origin = element.edge_u = element.edge_v = Eigen::Vector3d::Zero();
+        // Patches of 5 x 5.
+        element.patch = y / 5 * 8 + x / 5;
         patches_.elements.push_back(element);
       }
     }
+    Patch patch;
+    patch.center = patch.origin = patch.edge_u = patch.edge_v = Eigen::Vector3d::Zero();
+    patches_.patches.assign(48, patch);
     for (int view = 0; view < 8; ++view) {
       RegisteredView one;
       one.view = "v" + std::to_string(view);
@@ -345,7 +351,7 @@ TEST_F(ObservedLightTest, VignettingAndSmallGainsAreTakenOut) {
   const std::vector<double> factors{1, 1.01, 0.99, 1.005, 1, 0.995, 1.01, 0.99};
   nlohmann::json artifact;
   const auto corrected =
-      WithEstimatedVignetting(session_, registered_, patches_, Observe(true, factors), context_, artifact);
+      WithSelfCalibration(session_, registered_, patches_, Observe(true, factors), context_, artifact);
   EXPECT_THAT(context_.warnings, IsEmpty());
   ASSERT_THAT(context_.choices, SizeIs(1));
   double scale = 0;
@@ -360,13 +366,19 @@ TEST_F(ObservedLightTest, VignettingAndSmallGainsAreTakenOut) {
 
 TEST_F(ObservedLightTest, OnlyThePhotoThatLiesIsNamed) {
   std::vector<double> factors(8, 1.0);
-  WarnOfExposures(session_, registered_, Observe(false, factors), context_);
+  nlohmann::json artifact;
+  WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
   EXPECT_THAT(context_.warnings, IsEmpty());
+  EXPECT_EQ(context_.choices.at(0).chosen, "as recorded");
   factors[3] = 2;
-  WarnOfExposures(session_, registered_, Observe(false, factors), context_);
+  const auto corrected =
+      WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
   ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
   EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos.csv:5 (v3.png)"));
-  EXPECT_THAT(context_.warnings[0].message, HasSubstr("2.0"));
+  // The prior of the eight holds their mean, which the one that is off moves a little.
+  EXPECT_THAT(context_.warnings[0].message, AnyOf(HasSubstr("1.99"), HasSubstr("2.00")));
+  // It is as bright as the others then.
+  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / truth_[o.element], 1, 0.04);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #     all_on            only the photos and readings with everything on, and nobody says how many luminaires there are
 #     quarter_views     every fourth view
 #     unfurnished       desks and cabinet missing from the mesh
+#     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
 #     wrong_photometry  the panels given as narrow downlights (cosine power 8), the downlights as Lambertian
 # Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and compare_with_truth RESULT/result.json OFFICE/truth.json.
 set -eu
@@ -28,6 +29,11 @@ case $variant in
     rewrite room.obj awk '/^g / { skip = $2 ~ /^(desk|cabinet)/ } !(skip && /^f /)'
     # Tags on what is missing hang in the air: they stay surveyed.
     ;;
+  exposures_off)
+    # Park and Miller's generator: the same numbers with every awk.
+    rewrite photos.csv awk -F, -v OFS=, -v seed="${SEED:-1}" '
+      NR == 1 { print; x = seed * 7919 + 17; for (i = 0; i < 9; i++) x = (16807 * x) % 2147483647; next }
+      { x = (16807 * x) % 2147483647; $5 = sprintf("%.6g", $5 * (0.95 + 0.1 * x / 2147483647)); print }' ;;
   wrong_photometry)
     for id in A B; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "cosine_power"\ncosine_exponent = 8\nshape = "point"\n' $id
@@ -35,5 +41,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -3,6 +3,10 @@
 //
 // vignetting: corners lose two fifths of their light (cos^4 and a mechanical loss); vignetting = "estimate".
 //
+// vignetted: the same, and nobody says so: vignetting = "none".
+//
+// bent: counts go with the power 0.9 of light, and nobody says so: response = "linear".
+//
 // eight_bits: four exposures a photo, two stops apart, in 8 bits with the encoding of sRGB (PNG: without the
 // losses of JPEG); response = "estimate".
 //
@@ -79,21 +83,38 @@ std::string ReadText(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string Vignetting(const fs::path& office, const fs::path& out, std::ofstream& table) {
+// Every photo changed pixel by pixel where it is not saturated: what saturated stays so.
+template <typename Change>
+void WriteChanged(const fs::path& office, const fs::path& out, std::ofstream& table, const Change& change) {
   for (const Row& row : ReadRows(office)) {
     cv::Mat photo = ReadLinear(office / row.file);
     const double u0 = (photo.cols - 1) / 2.0, v0 = (photo.rows - 1) / 2.0;
     photo.forEach<cv::Vec3f>([&](cv::Vec3f& pixel, const int* at) {
       const double r = std::hypot(at[1] - u0, at[0] - v0) / (std::hypot(photo.cols, photo.rows) / 2);
-      // What saturated stays so.
-      if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f)
-        pixel *= luxfit::support::NaturalVignetting(r, 0.5);
+      if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f) pixel = change(pixel, r);
     });
     Write16(out / row.file, photo);
     table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s
           << '\n';
   }
-  return Replaced(ReadText(office / "session.toml"), "vignetting = \"none\"", "vignetting = \"estimate\"");
+}
+
+std::string Vignetted(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, double r) {
+    return pixel * luxfit::support::NaturalVignetting(r, 0.5);
+  });
+  return ReadText(office / "session.toml");
+}
+
+std::string Vignetting(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  return Replaced(Vignetted(office, out, table), "vignetting = \"none\"", "vignetting = \"estimate\"");
+}
+
+std::string Bent(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, double) {
+    return cv::Vec3f(std::pow(pixel[0], 0.9f), std::pow(pixel[1], 0.9f), std::pow(pixel[2], 0.9f));
+  });
+  return ReadText(office / "session.toml");
 }
 
 std::string EightBits(const fs::path& office, const fs::path& out, std::ofstream& table) {
@@ -178,9 +199,15 @@ std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& 
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
-      {"vignetting", Vignetting}, {"eight_bits", EightBits}, {"ambient", Ambient}};
+      {"vignetting", Vignetting},
+      {"vignetted", Vignetted},
+      {"bent", Bent},
+      {"eight_bits", EightBits},
+      {"ambient", Ambient}};
   if (argc != 4 || variants.count(argv[2]) == 0) {
-    std::fprintf(stderr, "usage: office_variants OFFICE_FOLDER vignetting|eight_bits|ambient OUT_FOLDER\n");
+    std::fprintf(
+        stderr,
+        "usage: office_variants OFFICE_FOLDER vignetting|vignetted|bent|eight_bits|ambient OUT_FOLDER\n");
     return 2;
   }
   const fs::path office = argv[1], out = argv[3];
