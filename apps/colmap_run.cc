@@ -1,6 +1,7 @@
 #include "apps/colmap_run.h"
 
 #include <fmt/format.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,9 +103,10 @@ void Extract(const ColmapJob& job, const std::vector<ColmapPicture>& pictures,
             {"--database_path", job.Path("database.db"), "--image_path", job.Path("images"),
              "--image_list_path", list_path, "--ImageReader.single_camera", "1", "--ImageReader.camera_model",
              model.name, "--ImageReader.camera_params", model.parameters, "--SiftExtraction.use_gpu", "0",
-             "--SiftExtraction.num_threads", "1"},
+             "--SiftExtraction.num_threads", fmt::format("{}", tbb::this_task_arena::max_concurrency())},
             120 + 120 * job.pictures());
   }
+  NumberColmapImagesByName(job.Path("database.db"));
 }
 
 void Match(const ColmapJob& job, const std::vector<ColmapPicture>& pictures) {

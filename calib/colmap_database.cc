@@ -201,6 +201,21 @@ std::string AddTagsToColmapDatabase(const std::string& path,
   return text;
 }
 
+void NumberColmapImagesByName(const std::string& path) {
+  const Database database(path);
+  database.Run("BEGIN");
+  database.Run(
+      "CREATE TEMP TABLE numbers AS SELECT image_id AS old, ROW_NUMBER() OVER (ORDER BY name) AS number FROM "
+      "images");
+  // By way of numbers that no image has, since each must be unique at every moment.
+  for (const std::string table : {"images", "keypoints", "descriptors"}) {
+    const std::string update = "UPDATE " + table + " SET image_id = ";
+    database.Run(update + "1000000000 + (SELECT number FROM numbers WHERE old = image_id)");
+    database.Run(update + "image_id - 1000000000");
+  }
+  database.Run("COMMIT");
+}
+
 std::map<std::string, ColmapImageIds> ReadColmapImageIds(const std::string& path) {
   const Database database(path);
   std::map<std::string, ColmapImageIds> ids;

@@ -24,6 +24,10 @@ namespace luxfit {
 std::string AddTagsToColmapDatabase(const std::string& path,
                                     const std::map<std::string, std::vector<TagDetection>>& tags_of_image);
 
+// Numbers the images in the order of their names. COLMAP numbers them as its threads finish them, and what it
+// makes of them depends on the numbers. To be called before there are matches.
+void NumberColmapImagesByName(const std::string& path);
+
 // What COLMAP has numbered an image and its camera, by the image's name: models of known poses need both.
 struct ColmapImageIds {
   int image = 0, camera = 0;
