@@ -210,24 +210,40 @@ double DetectorCornerSigmaPx(double side_px) {
   return std::hypot(blurred_px, kDisplayPx);
 }
 
+namespace {
+
+struct FamilyDetector {
+  explicit FamilyDetector(const std::string& name) : family(MakeTagFamily(name)) {
+    apriltag_detector_add_family(detector.get(), family.get());
+    detector->nthreads = 1;
+  }
+  TagFamilyPtr family;
+  DetectorPtr detector{apriltag_detector_create(), apriltag_detector_destroy};
+};
+
+// To list a family's codes with all their errors takes longer than to search a photo: each thread does it
+// once.
+apriltag_detector_t& DetectorOf(const std::string& family) {
+  thread_local std::map<std::string, FamilyDetector> detectors;
+  return *detectors.try_emplace(family, family).first->second.detector;
+}
+
+}  // namespace
+
 std::vector<TagDetection> DetectTags(const ImagePlane& grey, const DetectTagsOptions& options) {
-  const TagFamilyPtr family = MakeTagFamily(options.family);
   if (!(options.display_gamma > 0)) throw std::invalid_argument("DetectTags: display_gamma: expected > 0");
   if (grey.size() == 0) throw std::invalid_argument("DetectTags: the plane is empty");
   if (options.decimate != 0 && !(options.decimate >= 1))
     throw std::invalid_argument("DetectTags: decimate: expected 0 or at least 1");
   if (!(options.enlarge >= 1)) throw std::invalid_argument("DetectTags: enlarge: expected at least 1");
 
-  const DetectorPtr detector(apriltag_detector_create(), apriltag_detector_destroy);
-  detector->nthreads = 1;
-  detector->quad_decimate = static_cast<float>(DecimationOf(grey, options.decimate));
-  detector->refine_edges = options.refine_edges;
-  apriltag_detector_add_family(detector.get(), family.get());
-
-  std::vector<TagDetection> tags = DetectIn(grey, *detector, options.display_gamma);
+  apriltag_detector_t& detector = DetectorOf(options.family);
+  detector.quad_decimate = static_cast<float>(DecimationOf(grey, options.decimate));
+  detector.refine_edges = options.refine_edges;
+  std::vector<TagDetection> tags = DetectIn(grey, detector, options.display_gamma);
   if (options.enlarge > 1) {
-    detector->quad_decimate = 1;
-    tags = WithOthers(std::move(tags), DetectInEnlarged(grey, *detector, options));
+    detector.quad_decimate = 1;
+    tags = WithOthers(std::move(tags), DetectInEnlarged(grey, detector, options));
   }
   tags.erase(std::remove_if(tags.begin(), tags.end(),
                             [&](const TagDetection& tag) {
