@@ -250,6 +250,24 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
   return found;
 }
 
+// What photos show is worth a start of its own, even where this mesh does not explain its light: a rival of
+// the source nearest to it, before all others.
+void AddSeenRivals(const std::vector<SparseSource>& seen, double apart_m,
+                   std::vector<SparseSource>& sources) {
+  for (const SparseSource& place : seen) {
+    if (place.is_held) continue;
+    const auto distance_m = [&](const SparseSource& source) {
+      return source.is_held ? std::numeric_limits<double>::infinity()
+                            : (source.luminaire.position - place.luminaire.position).norm();
+    };
+    const auto nearest = std::min_element(
+        sources.begin(), sources.end(),
+        [&](const SparseSource& a, const SparseSource& b) { return distance_m(a) < distance_m(b); });
+    if (nearest == sources.end() || nearest->is_held || distance_m(*nearest) < apart_m) continue;
+    nearest->rivals.insert(nearest->rivals.begin(), place.luminaire);
+  }
+}
+
 }  // namespace
 
 SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
@@ -283,13 +301,14 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
     return reweighed;
   };
   const LitPlaces at_seen = Lit(room_, light_.places, seen);
+  SparseLuminaires seen_alone;
   if (!seen.empty()) {
     const GroupEquations reweighed = reweighed_after({&at_seen}, 0);
-    SparseLuminaires found = Result(searched(reweighed, {&at_seen}, 0), reweighed);
-    const bool is_complete = static_cast<int>(found.sources.size()) == count;
-    if (is_complete && found.mean_square < kExplained) {
-      found.was_searched = false;
-      return found;
+    seen_alone = Result(searched(reweighed, {&at_seen}, 0), reweighed);
+    const bool is_complete = static_cast<int>(seen_alone.sources.size()) == count;
+    if (is_complete && seen_alone.mean_square < kExplained) {
+      seen_alone.was_searched = false;
+      return seen_alone;
     }
   }
   constexpr int kRough = 2;
@@ -302,6 +321,7 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
     for (const Tried& rival : search.RivalsOf(j, Grid()))
       found.sources[j].rivals.push_back(LuminaireOf(rival));
   }
+  AddSeenRivals(seen_alone.sources, step_m_, found.sources);
   return found;
 }
 

@@ -86,7 +86,7 @@ TEST(SeveralStarts, StartsThatFindOnePlaceAgree) {
 
 // A start close behind a partition sees none of the light that was read and stays there.
 TEST(SeveralStarts, TheBestIsKeptWhereOthersAreStuck) {
-  const Room room = MakeRoom(support::PartitionScene(), {{3, 3}, {1}});
+  const Room room = MakeRoom(support::PartitionScene(), {{1, 1}, {16}});
   const Eigen::Vector3d lamp(0.5, 0.2, 0.9);
   const LightData data = support::PartitionReadings(lamp, 800);
   LightState state = StartAt({-0.3, 0, 0.8});
