@@ -92,7 +92,10 @@ TEST(SeveralStarts, TheBestIsKeptWhereOthersAreStuck) {
   LightState state = StartAt({-0.3, 0, 0.8});
   state.albedo = Eigen::VectorXd::Constant(3, 0.01);
   state.albedo_free.assign(3, false);
-  const SeveralStarts result = FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}});
+  SeveralStartsOptions options;
+  options.max_outer_iterations = 4;
+  const SeveralStarts result =
+      FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}}, {}, options);
   ASSERT_EQ(result.comparisons.size(), 1u);
   const StartComparison& c = result.comparisons[0];
   EXPECT_EQ(c.chosen, 1);
