@@ -118,22 +118,18 @@ class GroupSearch {
     is_held_.push_back(source.is_held);
   }
 
-  // At or about one of the places. False where one more explains nothing more.
-  bool AddOne(const std::vector<const LitPlaces*>& lists) {
+  // About a place of the grid, or at one of those seen. False where one more explains nothing more.
+  bool AddOne(const LitPlaces& grid, const LitPlaces& seen) {
     const Eigen::MatrixXd rest = Others(sources_.size());
     const double before = equations_.Solve(rest).solution.cost;
-    std::vector<Tried> lobes(Lobes().size());
-    for (const LitPlaces* const places : lists) {
-      const std::vector<Tried> of_list = BestOfLobes(equations_, rest, *places);
-      for (size_t l = 0; l < lobes.size(); ++l) {
-        if (IsBetter(of_list[l], lobes[l])) lobes[l] = of_list[l];
-      }
-    }
+    std::vector<Tried> lobes = BestOfLobes(equations_, rest, grid);
     // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
     for (Tried& lobe : lobes) {
       if (!std::isfinite(lobe.cost)) continue;
       for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
     }
+    const std::vector<Tried> at_seen = BestOfLobes(equations_, rest, seen);
+    lobes.insert(lobes.end(), at_seen.begin(), at_seen.end());
     const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
     if (!(best.cost < before)) return false;
     sources_.push_back(best);
@@ -250,6 +246,24 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
   return found;
 }
 
+// What photos show is worth a start of its own, even where this mesh does not explain its light: a rival of
+// the source nearest to it, before all others.
+void AddSeenRivals(const std::vector<SparseSource>& seen, double apart_m,
+                   std::vector<SparseSource>& sources) {
+  for (const SparseSource& place : seen) {
+    if (place.is_held) continue;
+    const auto distance_m = [&](const SparseSource& source) {
+      return source.is_held ? std::numeric_limits<double>::infinity()
+                            : (source.luminaire.position - place.luminaire.position).norm();
+    };
+    const auto nearest = std::min_element(
+        sources.begin(), sources.end(),
+        [&](const SparseSource& a, const SparseSource& b) { return distance_m(a) < distance_m(b); });
+    if (nearest == sources.end() || nearest->is_held || distance_m(*nearest) < apart_m) continue;
+    nearest->rivals.insert(nearest->rivals.begin(), place.luminaire);
+  }
+}
+
 }  // namespace
 
 SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
@@ -269,39 +283,40 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
   const GroupEquations equations(light_, group);
   constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
   if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
-  const auto searched = [&](const GroupEquations& in, const std::vector<const LitPlaces*>& lists,
-                            int refinements) {
+  const LitPlaces at_seen = Lit(room_, light_.places, seen);
+  const auto searched = [&](const GroupEquations& in, const LitPlaces& grid, int refinements) {
     GroupSearch search(room_, light_.places, box_, in, step_m_, refinements);
     for (const SparseSource& source : start) search.Start(source);
-    while (static_cast<int>(search.sources().size()) < count && search.AddOne(lists)) search.MoveAll();
+    while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid, at_seen))
+      search.MoveAll();
     return search;
   };
   // Once to see what is unlike all else, once without that.
-  const auto reweighed_after = [&](const std::vector<const LitPlaces*>& lists, int refinements) {
+  const auto reweighed_after = [&](const LitPlaces& grid, int refinements) {
     GroupEquations reweighed = equations;
-    reweighed.Reweigh(searched(equations, lists, refinements).Columns());
+    reweighed.Reweigh(searched(equations, grid, refinements).Columns());
     return reweighed;
   };
-  const LitPlaces at_seen = Lit(room_, light_.places, seen);
+  SparseLuminaires seen_alone;
   if (!seen.empty()) {
-    const GroupEquations reweighed = reweighed_after({&at_seen}, 0);
-    SparseLuminaires found = Result(searched(reweighed, {&at_seen}, 0), reweighed);
-    const bool is_complete = static_cast<int>(found.sources.size()) == count;
-    if (is_complete && found.mean_square < kExplained) {
-      found.was_searched = false;
-      return found;
+    const GroupEquations reweighed = reweighed_after({}, 0);
+    seen_alone = Result(searched(reweighed, {}, 0), reweighed);
+    const bool is_complete = static_cast<int>(seen_alone.sources.size()) == count;
+    if (is_complete && seen_alone.mean_square < kExplained) {
+      seen_alone.was_searched = false;
+      return seen_alone;
     }
   }
   constexpr int kRough = 2;
-  const std::vector<const LitPlaces*> everywhere = {&Grid(), &at_seen};
-  const GroupEquations reweighed = reweighed_after(everywhere, std::min(kRough, refinements_));
-  const GroupSearch search = searched(reweighed, everywhere, refinements_);
+  const GroupEquations reweighed = reweighed_after(Grid(), std::min(kRough, refinements_));
+  const GroupSearch search = searched(reweighed, Grid(), refinements_);
   SparseLuminaires found = Result(search, reweighed);
   for (size_t j = 0; j < found.sources.size(); ++j) {
     if (found.sources[j].is_held) continue;
     for (const Tried& rival : search.RivalsOf(j, Grid()))
       found.sources[j].rivals.push_back(LuminaireOf(rival));
   }
+  AddSeenRivals(seen_alone.sources, step_m_, found.sources);
   return found;
 }
 

@@ -29,7 +29,8 @@ struct SparseSource {
   double strength = 0;  // g
   bool is_held = false;
   size_t lobe = 0;  // of those that are tried
-  // At other places, each a grid step away and more, that leave less than half more squares: best first.
+  // At other places, a grid step away and more: first what the places seen alone would be, then those that
+  // leave less than half more squares, best first.
   std::vector<Luminaire> rivals;
 };
 

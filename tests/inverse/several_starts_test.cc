@@ -86,13 +86,16 @@ TEST(SeveralStarts, StartsThatFindOnePlaceAgree) {
 
 // A start close behind a partition sees none of the light that was read and stays there.
 TEST(SeveralStarts, TheBestIsKeptWhereOthersAreStuck) {
-  const Room room = MakeRoom(support::PartitionScene(), {{3, 3}, {1}});
+  const Room room = MakeRoom(support::PartitionScene(), {{1, 1}, {16}});
   const Eigen::Vector3d lamp(0.5, 0.2, 0.9);
   const LightData data = support::PartitionReadings(lamp, 800);
   LightState state = StartAt({-0.3, 0, 0.8});
   state.albedo = Eigen::VectorXd::Constant(3, 0.01);
   state.albedo_free.assign(3, false);
-  const SeveralStarts result = FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}});
+  SeveralStartsOptions options;
+  options.max_outer_iterations = 4;
+  const SeveralStarts result =
+      FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}}, {}, options);
   ASSERT_EQ(result.comparisons.size(), 1u);
   const StartComparison& c = result.comparisons[0];
   EXPECT_EQ(c.chosen, 1);
