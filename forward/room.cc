@@ -84,7 +84,10 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
 void PrepareGather(const Room& room, Receivers& receivers) {
   if (room.sparse || room.patches.elements.empty()) return;
   const FormFactorMatrix& all = room.form_factors.element_to_patch;
-  receivers.element_to_patch = all(receivers.elements, Eigen::all);
+  receivers.element_to_patch.resize(static_cast<Eigen::Index>(receivers.elements.size()), all.cols());
+  tbb::parallel_for(size_t{0}, receivers.elements.size(), [&](size_t i) {
+    receivers.element_to_patch.row(static_cast<Eigen::Index>(i)) = all.row(receivers.elements[i]);
+  });
   const auto sensors = static_cast<Eigen::Index>(receivers.sensors.size());
   receivers.sensor_to_patch.assign(room.scene.materials.size(), Eigen::MatrixXf::Zero(sensors, all.cols()));
   using Gather = Eigen::SparseMatrix<float, Eigen::RowMajor>;
