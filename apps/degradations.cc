@@ -104,7 +104,7 @@ DegradedSessions::DegradedSessions(const PreparedSession& prepared, std::vector<
       context_(context),
       truth_(std::move(truth)),
       thinned_(ThinElements(prepared.observations, max_elements)) {
-  undegraded_ = RefitSession(prepared.session, prepared.room, thinned_, context);
+  undegraded_ = RefitSession(prepared.session, prepared.room, {thinned_, {}}, context);
   if (truth_.empty()) truth_ = undegraded_.luminaires;
   known_warnings_ = undegraded_.warnings;
   for (const Warning& warning : context.warnings) known_warnings_.push_back(warning.code);
@@ -255,7 +255,7 @@ DegradedFit DegradedSessions::Fit(const Degradation& degradation, double level, 
   const auto start = std::chrono::steady_clock::now();
   try {
     const Case c = Degrade(degradation, level, rng);
-    result.refit = RefitSession(c.session, *c.room, c.observations, context_);
+    result.refit = RefitSession(c.session, *c.room, {c.observations, {}}, context_);
     for (const Warning& warning : c.context.warnings) result.refit.warnings.push_back(warning.code);
     for (const std::string& code : result.refit.warnings) {
       if (std::count(known_warnings_.begin(), known_warnings_.end(), code) == 0)

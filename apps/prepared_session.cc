@@ -59,13 +59,13 @@ PreparedSession PrepareSession(Session session, RunContext& context) {
           std::move(observed.seen)};
 }
 
-Refit RefitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,
                    const RunContext& context) {
   RunContext own;
   own.out = context.out;
   own.is_quiet = true;
   Refit refit;
-  refit.fit = FitSession(session, room, {observations, {}}, own);
+  refit.fit = FitSession(session, room, observed, own);
   const json result = ResultJson(session, room, {}, refit.fit,
                                  std::vector<LuminaireFiles>(refit.fit.fit.state.luminaires.size()), own);
   refit.luminaires = LuminairesOf(result, refit.fit.fit);

@@ -32,7 +32,7 @@ struct Refit {
   bool undetermined = false;                   // exit status 1
   double mean_lux_error_percent = 0;           // of the readings that only check; NaN: there are none
 };
-Refit RefitSession(const Session& session, const Room& room, const std::vector<Observation>& observations,
+Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,
                    const RunContext& context);
 
 // True luminaires from a JSON file {"lamps": [{"id", "position", "flux_lm"}, ...]}, as that of

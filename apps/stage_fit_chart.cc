@@ -62,17 +62,17 @@ class FitSweep {
 
  private:
   void Add(const std::string& factor, double value, const Session& session, const Room& room,
-           const std::vector<Observation>& observations, double before_s) {
+           const SessionObservations& observed, double before_s) {
     FitPoint point;
     point.factor = factor;
     point.value = value;
     point.patches = static_cast<int>(room.patches.patches.size());
-    point.photos = PhotosOf(observations);
+    point.photos = PhotosOf(observed.observations);
     point.luminaires = static_cast<int>(session.luminaires.size());
-    point.observations = static_cast<int>(observations.size());
+    point.observations = static_cast<int>(observed.observations.size());
     const double start_s = ProcessorS();
     try {
-      const Refit refit = RefitSession(session, room, observations, context_);
+      const Refit refit = RefitSession(session, room, observed, context_);
       point.is_usable = !refit.undetermined;
       point.found = refit.luminaires;
       point.lux_percent = refit.mean_lux_error_percent;
@@ -86,6 +86,19 @@ class FitSweep {
     points_.push_back(std::move(point));
   }
 
+  // Places of luminaires that photos of these observations' states show.
+  std::vector<SeenPlace> SeenIn(const std::vector<Observation>& observations) const {
+    std::set<int> states;
+    for (const Observation& o : observations) states.insert(o.state);
+    std::vector<SeenPlace> seen;
+    std::copy_if(prepared_.seen.begin(), prepared_.seen.end(), std::back_inserter(seen),
+                 [&](const SeenPlace& place) {
+                   return std::any_of(place.states.begin(), place.states.end(),
+                                      [&](int state) { return states.count(state) > 0; });
+                 });
+    return seen;
+  }
+
   std::vector<Observation> Thinned() const { return ThinElements(prepared_.observations, elements_); }
 
   // The last one has them all, and is the reference where there is no truth.
@@ -97,7 +110,8 @@ class FitSweep {
       counts.push_back(std::max(n, 1));
     counts.push_back(std::max(1, static_cast<int>(observed.size())));
     for (const int n : counts)
-      Add("elements", n, prepared_.session, prepared_.room, ThinElements(prepared_.observations, n), 0);
+      Add("elements", n, prepared_.session, prepared_.room,
+          {ThinElements(prepared_.observations, n), prepared_.seen}, 0);
     if (truth_.empty()) truth_ = points_.back().found;
   }
 
@@ -110,7 +124,7 @@ class FitSweep {
       std::vector<Observation> kept;
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.view <= last; });
-      Add("views", static_cast<double>(n), prepared_.session, prepared_.room, kept, 0);
+      Add("views", static_cast<double>(n), prepared_.session, prepared_.room, {kept, {}}, 0);
     }
   }
 
@@ -125,7 +139,7 @@ class FitSweep {
       std::vector<Observation> kept;
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.state <= last; });
-      Add("states", static_cast<double>(n), prepared_.session, prepared_.room, kept, 0);
+      Add("states", static_cast<double>(n), prepared_.session, prepared_.room, {kept, SeenIn(kept)}, 0);
     }
   }
 
@@ -141,9 +155,9 @@ class FitSweep {
       RunContext own;
       own.out = context_.out;
       own.is_quiet = true;
-      const std::vector<Observation> observed =
-          ObserveSession(prepared_.session, prepared_.registered, room, own).observations;
-      Add(factor, value, prepared_.session, room, ThinElements(observed, elements_), before_s);
+      SessionObservations observed = ObserveSession(prepared_.session, prepared_.registered, room, own);
+      observed.observations = ThinElements(observed.observations, elements_);
+      Add(factor, value, prepared_.session, room, observed, before_s);
     }
   }
 
@@ -175,7 +189,7 @@ class FitSweep {
       });
       if (!has_scale && !readings.empty()) readings.front().role = ReadingRole::kScale;
       if (kept.empty() && readings.empty()) continue;
-      Add("luminaires", static_cast<double>(n), session, prepared_.room, kept, 0);
+      Add("luminaires", static_cast<double>(n), session, prepared_.room, {kept, SeenIn(kept)}, 0);
     }
   }
 
