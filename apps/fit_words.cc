@@ -29,6 +29,20 @@ std::string NameOf(const Eigen::Vector3d& aim) {
   return fmt::format("towards ({:.2f}, {:.2f}, {:.2f})", aim.x(), aim.y(), aim.z());
 }
 
+std::string ScoresOf(const DetailChoice& choice) {
+  std::string scores;
+  for (const DetailCandidate& c : choice.among)
+    scores += fmt::format("{}{} {:.3f}", scores.empty() ? "" : ", ", c.name, c.score);
+  return scores;
+}
+
+std::vector<std::string> NamesOf(const DetailChoice& choice) {
+  std::vector<std::string> names;
+  names.reserve(choice.among.size());
+  for (const DetailCandidate& c : choice.among) names.push_back(c.name);
+  return names;
+}
+
 }  // namespace
 
 void WarnOfInterchangeable(const Session& session, const std::vector<int>& group, RunContext& context) {
@@ -240,11 +254,6 @@ void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& 
   if (!session.count_is_estimated)
     context.choices.push_back(
         {"number of luminaires", std::to_string(session.luminaires.size()), {}, "given by the session"});
-  context.choices.push_back({"colour",
-                             "luminance",
-                             {"luminance", "rgb"},
-                             "readings and fluxes are photometric; albedo_rgb is estimated afterwards, "
-                             "for luminaires neutral in the camera's RGB"});
   if (fit.status == FitStatus::kNotConverged) {
     context.warnings.push_back(
         {"not_converged", fit.message,
@@ -264,6 +273,83 @@ void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& 
     context.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
                                 "check the mesh around it, or give what is known of it"});
   }
+}
+
+void RecordDetail(const SceneDetail& detail, RunContext& context) {
+  const std::string why_all = "the radiosity system is factored once: every bounce costs the same as one";
+  if (!detail.is_compared) {
+    context.choices.push_back({"bounces", "all", {}, why_all});
+    return;
+  }
+  context.choices.push_back(
+      {"bounces", "all", NamesOf(detail.bounces),
+       fmt::format(
+           "{}; {} would do: the fewest within one standard error of the best on patches left out (mean "
+           "squared normalised error: {})",
+           why_all, detail.bounces.Chosen().name, ScoresOf(detail.bounces))});
+  const auto record = [&](const std::string& what, const DetailChoice& choice, double size_m, double error) {
+    context.choices.push_back(
+        {what + " size",
+         fmt::format("{:.2g} m", size_m),
+         {fmt::format("{:.2g} m", 2 * size_m), fmt::format("{:.2g} m", size_m)},
+         fmt::format(
+             "cut before the fit; it errs by {:.2g} % of the light, the fit's other errors are {:.2g} %; "
+             "twice the size {} on patches left out (mean squared normalised error: {})",
+             100 * error, 100 * detail.model_error,
+             choice.chosen == 0 ? "would do as well" : "would be worse", ScoresOf(choice))});
+  };
+  record("patch", detail.patches, detail.patch_size_m, detail.patch_error);
+  record("element", detail.elements, detail.element_size_m, detail.element_error);
+  if (detail.IsFineEnough()) return;
+  context.warnings.push_back(
+      {"elements_too_coarse",
+       fmt::format(
+           "patches of {:.2g} m err by {:.2g} % of the light, elements of {:.2g} m by {:.2g} %: more than "
+           "the {:.2g} % by which the fit misses its data otherwise",
+           detail.patch_size_m, 100 * detail.patch_error, detail.element_size_m, 100 * detail.element_error,
+           100 * detail.model_error),
+       "luxfit chart SESSION --fit shows how far results move with finer ones; leave out photos of surfaces "
+       "close to a luminaire"});
+}
+
+void RecordColours(const Session& session, const Room& room, const ColourDetail& colours,
+                   RunContext& context) {
+  std::string coloured, grey;
+  for (size_t m = 0; m < colours.materials.size(); ++m) {
+    const DetailChoice& choice = colours.materials[m];
+    if (choice.among.empty()) continue;
+    std::string& list = choice.chosen == 0 ? grey : coloured;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", room.scene.materials[m], ScoresOf(choice));
+  }
+  if (coloured.empty() && grey.empty()) {
+    context.choices.push_back({"colour",
+                               "luminance",
+                               {"luminance", "rgb"},
+                               "readings and fluxes are photometric; no photo tells a material's colour"});
+    return;
+  }
+  context.choices.push_back(
+      {"colour",
+       coloured.empty() ? "luminance" : "rgb",
+       {"luminance", "rgb"},
+       fmt::format(
+           "readings and fluxes are photometric, reflectances by channel follow from them; coloured on "
+           "patches left out (mean squared normalised error): {}; grey, and given as such: {}",
+           coloured.empty() ? "none" : coloured, grey.empty() ? "none" : grey)});
+  if (colours.luminaires.among.empty()) return;
+  std::string tints;
+  for (Eigen::Index k = 0; k < colours.tint.cols(); ++k) {
+    if (colours.tint.col(k).allFinite())
+      tints += fmt::format("; {} {:.3f} {:.3f} {:.3f}", session.luminaires[static_cast<size_t>(k)].id,
+                           colours.tint(0, k), colours.tint(1, k), colours.tint(2, k));
+  }
+  context.choices.push_back(
+      {"colour of the luminaires", colours.luminaires.Chosen().name, NamesOf(colours.luminaires),
+       fmt::format(
+           "the simplest within one standard error of the best on patches left out (mean squared normalised "
+           "error: {}); red, green and blue of their light against the mean{}{}",
+           ScoresOf(colours.luminaires), tints,
+           colours.luminaires.chosen == 0 ? "" : "; albedo_rgb is that in their mean light")});
 }
 
 }  // namespace luxfit

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "apps/stages.h"
+#include "inverse/colour_detail.h"
 #include "inverse/contradiction.h"
 #include "inverse/first_guess.h"
+#include "inverse/scene_detail.h"
 #include "inverse/several_starts.h"
 
 namespace luxfit {
@@ -24,6 +26,11 @@ void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vec
 void RecordRefinement(const Session& session, const Refinement& step, RunContext& context);
 void RecordDirectShare(const DirectShare& share, RunContext& context);
 void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& context);
+// Reflections, patches and elements; warns ("elements_too_coarse") where their size says more than the
+// model's other errors.
+void RecordDetail(const SceneDetail& detail, RunContext& context);
+void RecordColours(const Session& session, const Room& room, const ColourDetail& colours,
+                   RunContext& context);
 
 // Which of several that are always on together is which, their light does not say. Luminaires that nobody
 // named have no other name to be mistaken for.

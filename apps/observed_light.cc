@@ -111,7 +111,7 @@ void RecordChoice(const Session& session, const SelfCalibration& found, RunConte
       scores + ")";
   for (size_t c = 0; c < session.cameras.size() && found.Chosen().order > 0; ++c) {
     if (!session.cameras[c].vignetting_model)
-      choice.because += fmt::format("; the corner of {} has {:.1f} +- {:.1f} % of the centre's light",
+      choice.because += fmt::format("; the corner of {} has {:.1f} +- {:.2f} % of the centre's light",
                                     session.cameras[c].id, 100 * Corner(found, c), 100 * found.corner_sigma);
   }
   choice.because += HeldBy(session);

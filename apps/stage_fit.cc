@@ -57,6 +57,7 @@ class FitStage {
       RecordDirectShare(*result_.direct_share, context_);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
+    CompareDetails(fit);
     result_.fit = std::move(fit);
     WarnOfMisfit(room_, result_, context_);
     RecordOutcome(session_, result_.fit, context_);
@@ -117,6 +118,19 @@ class FitStage {
     for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, priors_))
       WarnOfContradiction(session_, c, context_);
     return choice.state;
+  }
+
+  // What detail the data ask for, at the fitted state; materials that are as good grey are given as grey.
+  void CompareDetails(const LuminaireFit& fit) {
+    const StageTimer timer(context_, "detail", "");
+    RecordDetail(CompareDetail(room_, result_.data, fit), context_);
+    const ColourDetail colours = CompareColours(room_, result_.data, fit);
+    RecordColours(session_, room_, colours, context_);
+    for (size_t m = 0; m < colours.materials.size(); ++m) {
+      const Eigen::Index material = static_cast<Eigen::Index>(m);
+      if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)
+        result_.albedo_rgb.col(material).setConstant(fit.state.albedo[material]);
+    }
   }
 
   // A size that shrank to nothing beside the others' light is a point.

@@ -94,8 +94,6 @@ Room LoadRoom(const Session& session, RunContext& context) {
                              {},
                              "indirect light varies over patches, direct light over elements; "
                              "docs/accuracy.md tells what finer ones change"});
-  context.choices.push_back(
-      {"bounces", "all", {}, "the radiosity system is factored once: every bounce costs the same as one"});
   WarnOfMesh(mesh.findings, room, context);
   return room;
 }

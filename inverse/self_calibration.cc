@@ -21,9 +21,9 @@ constexpr double kUnseen = 1e-6;     // curvature of a direction that no data se
 // Of q: light to the power 2 to that of 1/3, steeper than any display's curve.
 constexpr double kLeastExponent = -0.5, kMostExponent = 2;
 constexpr int kMinElements = 20;
-// Of the best one's score. All elements of a view share its pose's error, and gains take up some of it: that
-// comes back on what was left out, too.
-constexpr double kWorthHaving = 0.1;
+// Of the best one's score. All elements of a view share its pose's error, furniture that the mesh lacks is at
+// another place in each view, and gains take up some of it: that comes back on what was left out, too.
+constexpr double kWorthHaving = 0.25;
 // Views of a surface differ by less than this for no reason that a camera's model could know.
 constexpr double kLeastSigma = 1e-3;
 

@@ -5,6 +5,7 @@
 #     quarter_views     every fourth view
 #     unfurnished       desks and cabinet missing from the mesh
 #     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
+#     exposures_apart   the same, and only the states that show one luminaire each: nothing ties their exposures
 #     wrong_photometry  the panels given as narrow downlights (cosine power 8), the downlights as Lambertian
 # Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and compare_with_truth RESULT/result.json OFFICE/truth.json.
 set -eu
@@ -29,11 +30,16 @@ case $variant in
     rewrite room.obj awk '/^g / { skip = $2 ~ /^(desk|cabinet)/ } !(skip && /^f /)'
     # Tags on what is missing hang in the air: they stay surveyed.
     ;;
-  exposures_off)
+  exposures_off | exposures_apart)
     # Park and Miller's generator: the same numbers with every awk.
     rewrite photos.csv awk -F, -v OFS=, -v seed="${SEED:-1}" '
       NR == 1 { print; x = seed * 7919 + 17; for (i = 0; i < 9; i++) x = (16807 * x) % 2147483647; next }
-      { x = (16807 * x) % 2147483647; $5 = sprintf("%.6g", $5 * (0.95 + 0.1 * x / 2147483647)); print }' ;;
+      { x = (16807 * x) % 2147483647; $5 = sprintf("%.6g", $5 * (0.95 + 0.1 * x / 2147483647)); print }'
+    if [ "$variant" = exposures_apart ]; then
+      rewrite photos.csv awk -F, '$4 != "all" && $4 != "evening"'
+      rewrite luxmeter.csv awk -F, '$8 != "all" && $8 != "evening"'
+      rewrite session.toml sed -e '/^all =/d' -e '/^evening =/d' -e 's/L3@all/L3@A/'
+    fi ;;
   wrong_photometry)
     for id in A B; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "cosine_power"\ncosine_exponent = 8\nshape = "point"\n' $id
@@ -41,5 +47,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -1,0 +1,247 @@
+#include "inverse/colour_detail.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "inverse/internal/simplest_choice.h"
+#include "inverse/measured_indirect.h"
+
+namespace luxfit {
+namespace {
+
+constexpr int kMaxElements = 1000;
+constexpr int kLeftOutOf = 5;
+constexpr int kMinRows = 20;
+constexpr size_t kFewFacets = 8, kFewPatches = 40;
+constexpr double kMostSquare = 9;
+constexpr double kLeastSigma = 5e-4;  // of a ratio of channels
+
+// One channel of one observation.
+struct Row {
+  int channel = 0, material = 0, facet = 0, patch = 0, element = 0;
+  int luminaire = -1;  // the only one that is on
+  bool is_left_out = false;
+  int group = 0;                    // of what shares its errors
+  double value = 0, grey = 0;       // of the channel; as grey surfaces would have it
+  double indirect = 0, direct = 0;  // of a white surface
+};
+
+int OnlyLuminaire(const Eigen::VectorXd& dimming) {
+  int lit = -1;
+  for (int k = 0; k < static_cast<int>(dimming.size()); ++k) {
+    if (dimming[k] > 0) lit = lit < 0 ? k : -2;
+    if (lit == -2) return -1;
+  }
+  return lit;
+}
+
+LightData InChannel(LightData data, Eigen::Index channel) {
+  for (Observation& o : data.observations) o.relative_luminance = o.relative_rgb[channel];
+  return data;
+}
+
+std::vector<Row> RowsOf(const Room& room, const LightData& data, const LuminaireFit& fit) {
+  const LightData measured = WithMeasuredIndirect(room, data);
+  std::array<LightData, 3> channels;
+  for (size_t c = 0; c < 3; ++c)
+    channels[c] = WithMeasuredIndirect(room, InChannel(data, static_cast<Eigen::Index>(c)));
+  std::map<int, int> order;
+  for (const Observation& o : data.observations) order.emplace(o.element, 0);
+  int count = 0;
+  for (auto& [element, number] : order) number = count++;
+  const int stride = std::max(1, (count + kMaxElements - 1) / kMaxElements);
+  std::vector<Row> rows;
+  rows.reserve(3 * data.observations.size() / static_cast<size_t>(stride));
+  for (size_t i = 0; i < data.observations.size(); ++i) {
+    const Observation& o = measured.observations[i];
+    const bool is_used = fit.weight[static_cast<Eigen::Index>(i)] > 0;
+    if (!is_used || order.at(o.element) % stride != 0 || !(o.relative_rgb.minCoeff() > 0)) continue;
+    const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
+    Row row;
+    row.material = room.patches.patches[static_cast<size_t>(patch)].material;
+    row.facet = room.patches.patches[static_cast<size_t>(patch)].facet;
+    row.patch = patch;
+    row.luminaire = OnlyLuminaire(data.dimming[static_cast<size_t>(o.state)]);
+    row.element = o.element;
+    const double rho = fit.state.albedo[row.material];
+    row.direct = std::max(0.0, o.relative_luminance / rho - o.relative_indirect);
+    for (size_t c = 0; c < 3; ++c) {
+      row.channel = static_cast<int>(c);
+      row.value = o.relative_rgb[row.channel];
+      row.indirect = channels[c].observations[i].relative_indirect;
+      row.grey = rho * (row.indirect + row.direct);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Median of each key's ratios of values to what was modelled; 1 for a key without any.
+using Ratios = std::map<int, std::vector<double>>;
+using Factors = std::map<int, double>;
+Factors FactorsOf(const Ratios& ratios) {
+  Factors factors;
+  for (const auto& [key, list] : ratios) factors[key] = MedianOf(list);
+  return factors;
+}
+double FactorOf(const Factors& factors, int key) {
+  const auto found = factors.find(key);
+  return found == factors.end() ? 1 : found->second;
+}
+
+// Every fifth patch is left out, of little furniture every fifth element; judged by facets where there are
+// enough of them.
+void Cut(std::vector<Row>& rows) {
+  std::set<int> facets, patches;
+  for (const Row& row : rows) {
+    facets.insert(row.facet);
+    patches.insert(row.patch);
+  }
+  const auto piece_of = [&](const Row& row) {
+    return patches.size() < kFewPatches ? row.element : row.patch;
+  };
+  std::map<int, int> number;
+  for (const Row& row : rows) number.emplace(piece_of(row), 0);
+  int count = 0;
+  for (auto& [piece, n] : number) n = count++;
+  for (Row& row : rows) {
+    row.is_left_out = number.at(piece_of(row)) % kLeftOutOf == 2;
+    row.group = facets.size() < kFewFacets ? piece_of(row) : row.facet;
+  }
+}
+
+// Of what was left out, `modelled` a value a row.
+std::map<int, GroupScore> Score(const std::vector<Row>& rows, const std::vector<double>& modelled,
+                                double sigma) {
+  std::map<int, GroupScore> scores;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].is_left_out) continue;
+    const double z = (modelled[i] / rows[i].value - 1) / sigma;
+    GroupScore& score = scores[rows[i].group];
+    score.sum += std::min(z * z, kMostSquare);
+    ++score.count;
+  }
+  return scores;
+}
+
+double SigmaOf(const std::vector<Row>& rows, const std::vector<double>& modelled) {
+  std::vector<double> relative;
+  relative.reserve(rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    if (!rows[i].is_left_out) relative.push_back(std::abs(modelled[i] / rows[i].value - 1));
+  }
+  return relative.empty() ? kLeastSigma : std::max(kLeastSigma, 1.4826 * MedianOf(std::move(relative)));
+}
+
+bool IsEnough(const std::vector<Row>& rows) {
+  const auto out = std::count_if(rows.begin(), rows.end(), [](const Row& r) { return r.is_left_out; });
+  return out >= kMinRows && static_cast<std::ptrdiff_t>(rows.size()) - out >= kMinRows;
+}
+
+DetailChoice CompareMaterial(std::vector<Row> rows) {
+  Cut(rows);
+  if (!IsEnough(rows)) return {};
+  Ratios ratios;
+  for (const Row& row : rows) {
+    if (!row.is_left_out) ratios[row.channel].push_back(row.value / row.grey);
+  }
+  const Factors factors = FactorsOf(ratios);
+  std::vector<double> grey, coloured;
+  grey.reserve(rows.size());
+  coloured.reserve(rows.size());
+  for (const Row& row : rows) {
+    grey.push_back(row.grey);
+    coloured.push_back(FactorOf(factors, row.channel) * row.grey);
+  }
+  const double sigma = SigmaOf(rows, coloured);
+  return SimplestWithinOneStandardError({"grey", "coloured"},
+                                        {Score(rows, grey, sigma), Score(rows, coloured, sigma)});
+}
+
+// Rows of luminaires that are on alone; reflectances by material and channel in both.
+void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const Row& r) { return r.luminaire < 0; }),
+             rows.end());
+  Cut(rows);
+  std::map<int, int> seen;
+  for (const Row& row : rows) ++seen[row.luminaire];
+  if (seen.size() < 2 || !IsEnough(rows)) return;
+  const auto material_key = [](const Row& r) { return 3 * r.material + r.channel; };
+  Ratios ratios;
+  for (const Row& row : rows) {
+    if (!row.is_left_out) ratios[material_key(row)].push_back(row.value / row.grey);
+  }
+  const Factors reflectance = FactorsOf(ratios);
+  // The tint is that of the direct light; the measured indirect light has it already.
+  Ratios direct;
+  for (const Row& row : rows) {
+    const double rho = row.grey / (row.indirect + row.direct) * FactorOf(reflectance, material_key(row));
+    if (!row.is_left_out && row.direct > row.indirect)
+      direct[3 * row.luminaire + row.channel].push_back((row.value - rho * row.indirect) /
+                                                        (rho * row.direct));
+  }
+  const Factors tints = FactorsOf(direct);
+  const auto tint_of = [&](int luminaire) -> Eigen::Vector3d {
+    const Eigen::Vector3d tint(FactorOf(tints, 3 * luminaire), FactorOf(tints, 3 * luminaire + 1),
+                               FactorOf(tints, 3 * luminaire + 2));
+    return tint / tint.mean();
+  };
+  std::vector<double> alike, own;
+  alike.reserve(rows.size());
+  own.reserve(rows.size());
+  const auto tinted = [&](const Row& row) {
+    return row.grey / (row.indirect + row.direct) *
+           (row.indirect + tint_of(row.luminaire)[row.channel] * row.direct);
+  };
+  Ratios again;
+  for (const Row& row : rows) {
+    if (!row.is_left_out) again[material_key(row)].push_back(row.value / tinted(row));
+  }
+  const Factors refitted = FactorsOf(again);
+  for (const Row& row : rows) {
+    alike.push_back(FactorOf(reflectance, material_key(row)) * row.grey);
+    own.push_back(FactorOf(refitted, material_key(row)) * tinted(row));
+  }
+  const double sigma = SigmaOf(rows, own);
+  detail.luminaires = SimplestWithinOneStandardError({"alike", "each its own"},
+                                                     {Score(rows, alike, sigma), Score(rows, own, sigma)});
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& [luminaire, count] : seen) {
+    detail.tint.col(luminaire) = tint_of(luminaire);
+    mean += detail.tint.col(luminaire) / static_cast<double>(seen.size());
+  }
+  for (const auto& [luminaire, count] : seen)
+    detail.tint.col(luminaire) = detail.tint.col(luminaire).cwiseQuotient(mean);
+}
+
+}  // namespace
+
+ColourDetail CompareColours(const Room& room, const LightData& data, const LuminaireFit& fit) {
+  ColourDetail detail;
+  const size_t materials = room.scene.materials.size();
+  detail.materials.resize(materials);
+  detail.tint.setConstant(3, static_cast<Eigen::Index>(fit.state.luminaires.size()),
+                          std::numeric_limits<double>::quiet_NaN());
+  if (!fit.IsUsable() || data.observations.empty()) return detail;
+  const std::vector<Row> rows = RowsOf(room, data, fit);
+  std::vector<std::vector<Row>> of_material(materials);
+  for (const Row& row : rows) of_material[static_cast<size_t>(row.material)].push_back(row);
+  for (size_t m = 0; m < materials; ++m) {
+    if (fit.state.albedo_free[m]) detail.materials[m] = CompareMaterial(of_material[m]);
+  }
+  CompareLuminaires(rows, detail);
+  return detail;
+}
+
+}  // namespace luxfit
