@@ -3,7 +3,8 @@
 // WholeFit is all that `luxfit fit` does after the photos were observed, with its stages as counters.
 // AnalyticFit and FiniteDifferenceFit solve the same problem from the same start, 10 cm and 20 % off:
 // position and flux of every luminaire, all reflectances, the camera's scale. The first is the fit's own; the
-// second is Ceres with finite differences (forward), each a full solve: visibility, radiosity, gather.
+// second is Ceres at its default tolerances with finite differences (forward), each a full
+// solve: visibility, radiosity, gather.
 // `off_mm` is the worst luminaire's distance from where the whole fit puts it.
 #include <benchmark/benchmark.h>
 #include <ceres/ceres.h>
@@ -154,7 +155,6 @@ void FiniteDifferenceFit(benchmark::State& state) {
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-    options.function_tolerance = 1e-4;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
