@@ -19,10 +19,10 @@ LightState KnownReflectances(const Session& session, const Room& room) {
   LightState state;
   state.albedo = Eigen::VectorXd::Constant(materials, 0.5);
   state.albedo_free.assign(room.scene.materials.size(), true);
-  for (size_t m = 0; session.scene && m < room.scene.materials.size(); ++m) {
-    const auto known = session.scene->known_albedo_rgb.find(room.scene.materials[m]);
-    if (known == session.scene->known_albedo_rgb.end()) continue;
-    state.albedo[static_cast<Eigen::Index>(m)] = LuminanceWeights(session).dot(known->second);
+  const std::vector<std::optional<double>> known = KnownAlbedo(session, room);
+  for (size_t m = 0; m < known.size(); ++m) {
+    if (!known[m]) continue;
+    state.albedo[static_cast<Eigen::Index>(m)] = *known[m];
     state.albedo_free[m] = false;
   }
   return state;

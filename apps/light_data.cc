@@ -47,6 +47,16 @@ std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   return by_state;
 }
 
+std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room) {
+  std::vector<std::optional<double>> known(room.scene.materials.size());
+  for (size_t m = 0; session.scene && m < known.size(); ++m) {
+    const auto given = session.scene->known_albedo_rgb.find(room.scene.materials[m]);
+    if (given != session.scene->known_albedo_rgb.end())
+      known[m] = LuminanceWeights(session).dot(given->second);
+  }
+  return known;
+}
+
 SessionLight LightOf(const Session& session, const std::vector<Observation>& observations) {
   SessionLight light;
   light.data.dimming = DimmingOf(session);

@@ -3,6 +3,7 @@
 #define LUXFIT_APPS_LIGHT_DATA_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "apps/stages.h"
@@ -17,6 +18,9 @@ struct SessionLight {
   bool sensor_gains_free = false;
   int used_readings = 0;  // fitted to, or for the scale
 };
+// By material of the room's mesh: the luminance reflectance that the session gives.
+std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room);
+
 SessionLight LightOf(const Session& session, const std::vector<Observation>& observations);
 
 // One a state, by session.luminaires.

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <stdexcept>
 
 #include "apps/fit_words.h"
-#include "apps/given_luminaire.h"
+#include "apps/fit_start.h"
 #include "apps/light_data.h"
 #include "apps/stages.h"
 #include "forward/photometry.h"
 #include "inverse/albedo_rgb.h"
 #include "inverse/contradiction.h"
-#include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
 #include "inverse/several_starts.h"
 
@@ -22,38 +20,29 @@ namespace {
 
 // Observed elements used until the models are chosen: positions are then known to a few millimetres.
 constexpr int kMaxElementsToChoose = 2000;
-// A material with fewer observed elements is as good as unseen.
-constexpr int kMinElementsOfMaterial = 3;
-
-// Of a table that is asked for, until its strength is chosen.
-constexpr double kStartTableSigma = 0.1;
-
 // Everything between session and inversion; a class because each step adds to the same few things.
 class FitStage {
  public:
   FitStage(const Session& session, const Room& room, const SessionObservations& observed, RunContext& context)
-      : session_(session), room_(room), seen_(observed.seen), context_(context) {
-    SessionLight light = LightOf(session, observed.observations);
-    RecordReadings(session, light, context);
-    result_.data = std::move(light.data);
-    priors_ = std::move(light.priors);
-    used_readings_ = light.used_readings;
-    start_.meter_scale_free = light.meter_scale_free;
-    start_.sensor_gain = light.sensor_gain;
-    start_.sensor_gains_free = light.sensor_gains_free;
-    FillKnown();
+      : session_(session),
+        room_(room),
+        seen_(observed.seen),
+        context_(context),
+        light_(LightOf(session, observed.observations)) {
+    RecordReadings(session, light_, context);
+    result_.data = light_.data;
   }
 
   SessionFit Run() {
     const StageTimer timer(
         context_, "fit",
         fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
-                    result_.data.observations.size(), used_readings_, session_.luminaires.size()));
+                    result_.data.observations.size(), light_.used_readings, session_.luminaires.size()));
     LightState state = StartByParts();
     SettleScale(state);
     LuminaireFit fit = FitToAll(state);
     if (fit.IsUsable() && AsksForDirectShare()) {
-      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, priors_);
+      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, start_.priors);
       RecordDirectShare(*result_.direct_share, context_);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
@@ -73,31 +62,32 @@ class FitStage {
     LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
     {
       const StageTimer timer(context_, "guess", "where the luminaires may be");
-      Start(data);
+      start_ = StartFit(session_, room_, light_, data, seen_, context_);
+      result_.luminaire_found = start_.luminaire_found;
     }
-    LightState state = start_;
+    LightState state = start_.state;
     // Without readings, a flux tells the camera's scale, or it is given.
-    if (photos) state.camera_scale_free = state.camera_scale_free && flux_known_;
+    if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;
     if (photos) state.meter_scale_free = false;
     LightData part = data;
     part.observations = ThinElements(data.observations, kMaxElementsToChoose);
     FitLuminairesOptions quick;
     quick.covariance = false;
-    LuminaireFit fit = FitLuminaires(room_, part, state, priors_, quick);
-    if (fit.status == FitStatus::kNoData) return start_;
+    LuminaireFit fit = FitLuminaires(room_, part, state, start_.priors, quick);
+    if (fit.status == FitStatus::kNoData) return start_.state;
     if (photos) {
       // With the radiosity solved, so that the models are compared in its light.
       part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose / 2);
       part.indirect_is_held = false;
-      fit = FitLuminaires(room_, part, fit.state, priors_, quick);
+      fit = FitLuminaires(room_, part, fit.state, start_.priors, quick);
       data = WithModelledIndirect(room_, result_.data, fit.state);
     }
-    if (!fit.IsUsable()) return start_;
-    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, rivals_, priors_);
+    if (!fit.IsUsable()) return start_.state;
+    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
     for (const StartComparison& c : starts.comparisons) RecordStarts(session_, c, context_);
     state = ChooseModels(data, starts.state);
-    state.camera_scale_free = start_.camera_scale_free;
-    state.meter_scale_free = start_.meter_scale_free;
+    state.camera_scale_free = start_.state.camera_scale_free;
+    state.meter_scale_free = start_.state.meter_scale_free;
     return state;
   }
 
@@ -110,12 +100,12 @@ class FitStage {
                        found && !given.shape.has_value() && given.photometry_path.empty(),
                        found && !given.aim.has_value(), RefinementsOf(k)});
     }
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, priors_);
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, start_.priors);
     for (const LuminaireChoice& c : choice.choices) RecordChoice(session_, c, context_);
     for (const AimChoice& c : choice.aims)
       RecordAim(session_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, context_);
     for (const Refinement& r : choice.refinements) RecordRefinement(session_, r, context_);
-    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, priors_))
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, start_.priors))
       WarnOfContradiction(session_, c, context_);
     return choice.state;
   }
@@ -155,22 +145,22 @@ class FitStage {
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, kMaxElementsToChoose);
     if (part.observations.size() == result_.data.observations.size())
-      return FitLuminaires(room_, result_.data, start, priors_);
+      return FitLuminaires(room_, result_.data, start, start_.priors);
     FitLuminairesOptions options;
     options.covariance = false;
-    LuminaireFit near = FitLuminaires(room_, part, start, priors_, options);
+    LuminaireFit near = FitLuminaires(room_, part, start, start_.priors, options);
     if (near.status == FitStatus::kNoData) return near;
     const LightState refined = WithoutVanishedSizes(near.state);
     options.covariance = true;
     options.start_is_near = true;
     options.initial_relative_sigma = near.relative_sigma;
-    return FitLuminaires(room_, result_.data, refined, priors_, options);
+    return FitLuminaires(room_, result_.data, refined, start_.priors, options);
   }
 
   // What is open of a luminaire beyond its simple model.
   OpenRefinements RefinementsOf(size_t k) const {
     const SessionLuminaire& given = session_.luminaires[k];
-    const Luminaire& start = start_.luminaires[k];
+    const Luminaire& start = start_.state.luminaires[k];
     OpenRefinements open;
     if (!result_.luminaire_found[k] || given.is_held) return open;
     const bool is_file = !given.photometry_path.empty();
@@ -190,162 +180,14 @@ class FitStage {
 
   // Reflectances that only readings speak of.
   bool AsksForDirectShare() const {
-    return result_.data.observations.empty() && used_readings_ > 0 &&
-           std::count(start_.albedo_free.begin(), start_.albedo_free.end(), true) > 0;
-  }
-
-  // Reflectances, camera scale: known, to be estimated, or out of reach.
-  void FillKnown() {
-    const std::vector<std::string>& materials = room_.scene.materials;
-    std::vector<std::set<int>> seen(materials.size());
-    for (const Observation& o : result_.data.observations) {
-      const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
-      seen[static_cast<size_t>(room_.patches.patches[static_cast<size_t>(patch)].material)].insert(o.element);
-    }
-    start_.albedo = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(materials.size()), 0.5);
-    start_.albedo_free.assign(materials.size(), false);
-    for (size_t m = 0; m < materials.size(); ++m) {
-      const bool observed = static_cast<int>(seen[m].size()) >= kMinElementsOfMaterial;
-      const auto known = session_.scene->known_albedo_rgb.find(materials[m]);
-      if (known != session_.scene->known_albedo_rgb.end()) {
-        start_.albedo[static_cast<Eigen::Index>(m)] = LuminanceWeights(session_).dot(known->second);
-      } else if (observed || (result_.data.observations.empty() && used_readings_ > 0)) {
-        start_.albedo_free[m] = true;
-      } else if (!result_.data.observations.empty()) {
-        context_.warnings.push_back(
-            {"material_unseen",
-             fmt::format("the reflectance of \"{}\" is not determined: no photo shows it; 0.5 was "
-                         "taken for the light that it reflects",
-                         materials[m]),
-             fmt::format("photograph it, or give scene.albedo.{}", materials[m])});
-      }
-    }
-    start_.camera_scale_free = !result_.data.observations.empty();
-    if (!session_.cameras.empty() && session_.cameras[0].cdm2_per_count_s > 0) {
-      // Relative luminance 1 is full scale at 1 s.
-      const double range_counts =
-          session_.cameras[0].full_scale_counts - session_.cameras[0].black_level_counts;
-      start_.camera_scale = 1 / (session_.cameras[0].cdm2_per_count_s * range_counts);
-      start_.camera_scale_free = false;
-    }
-  }
-
-  // `data`: with the indirect light that photos measured, or readings alone.
-  void Start(const LightData& data) {
-    std::vector<std::optional<Eigen::Vector3d>> known;
-    for (const SessionLuminaire& luminaire : session_.luminaires) known.push_back(luminaire.position_m);
-    const FirstGuess guess = IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known, seen_);
-    RecordFirstGuess(session_, guess, seen_, context_);
-    MatchKnownFluxes(guess);
-    for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(session_, group, context_);
-    for (Eigen::Index m = 0; m < start_.albedo.size(); ++m) {
-      if (start_.albedo_free[static_cast<size_t>(m)]) start_.albedo[m] = guess.albedo[m];
-    }
-    for (size_t k = 0; k < session_.luminaires.size(); ++k) AddLuminaire(guess, static_cast<int>(k));
-    if (!guess.separable) {
-      context_.warnings.push_back(
-          {"luminaires_not_separated", "no start for luminaires without a given position: " + guess.message,
-           "photograph each luminaire in at least one state without the others, or give position_m"});
-    }
-  }
-
-  // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
-  void MatchKnownFluxes(const FirstGuess& guess) {
-    double guessed = 0, known = 0;
-    for (size_t k = 0; k < session_.luminaires.size(); ++k) {
-      if (!session_.luminaires[k].flux_lm || !guess.luminaires[k].found) continue;
-      guessed += guess.luminaires[k].flux;
-      known += *session_.luminaires[k].flux_lm;
-    }
-    if (start_.camera_scale_free && guessed > 0 && known > 0) start_.camera_scale = guessed / known;
-  }
-
-  bool IsAllHeld() const {
-    return !session_.luminaires.empty() && std::all_of(session_.luminaires.begin(), session_.luminaires.end(),
-                                                       [](const SessionLuminaire& l) { return l.is_held; });
-  }
-
-  FirstGuess NothingToGuess() const {
-    FirstGuess guess;
-    guess.separable = true;
-    guess.luminaires.resize(session_.luminaires.size());
-    guess.albedo = start_.albedo;
-    return guess;
-  }
-
-  void AddLuminaire(const FirstGuess& guess, int index) {
-    const SessionLuminaire& given = session_.luminaires[static_cast<size_t>(index)];
-    const LuminaireGuess& guessed = guess.luminaires[static_cast<size_t>(index)];
-    const GivenLuminaire known = ReadGivenLuminaire(given);
-    Luminaire luminaire = known.luminaire;
-    FreeQuantities free;
-    RecordGivenPhotometry(known, context_);
-    free.table_sigma = given.photometry == "table" && given.gamma_deg.empty() ? kStartTableSigma : 0;
-    const bool automatic = given.photometry == "auto";
-    if (automatic && guessed.found) luminaire.cosine_exponent = std::max(1.0, guessed.cosine_exponent);
-    free.exponent = luminaire.distribution == Distribution::kCosinePower;
-    const bool size_known = luminaire.size_m[0] > 0;
-    if (!size_known) luminaire.size_m.setConstant(0.3);
-    free.size = luminaire.shape != LuminaireShape::kPoint && luminaire.shape != LuminaireShape::kSphere &&
-                !size_known;
-    luminaire.position = given.position_m.value_or(guessed.position);
-    luminaire.flux_lm = given.flux_lm.value_or(guessed.flux / start_.camera_scale);
-    if (!given.aim && guessed.found && given.photometry_path.empty()) luminaire.aim = guessed.aim;
-    const bool found = guessed.found || given.position_m.has_value();
-    constexpr double kAnyFluxLm =
-        1000;  // of a known place, where the guess says nothing: a start, not a value
-    if (found && !(luminaire.flux_lm > 0)) luminaire.flux_lm = kAnyFluxLm;
-    if (!found) {
-      // Without a place it gives no light, so that the others can still be fitted.
-      luminaire.flux_lm = 1e-9;
-      free = {false, false, false, false, false};
-      context_.undetermined = true;
-      context_.warnings.push_back(
-          {"luminaire_undetermined",
-           fmt::format("luminaire {} is not determined: the data show too little of its own light", given.id),
-           fmt::format("photograph {} alone", given.id)});
-    }
-    free.position = found && !(given.position_sigma_m && *given.position_sigma_m == 0);
-    free.flux = found && !(given.flux_sigma_lm && *given.flux_sigma_lm == 0);
-    if (given.is_held) {
-      free = {false, false, false, false, false};
-      flux_known_ = true;
-    }
-    if (found && !given.is_held) AddPriors(given, index);
-    if (!given.heading && !given.photometry_path.empty() && IsSymmetricAboutAim(*luminaire.table)) {
-      context_.choices.push_back({"heading of " + given.id,
-                                  "not estimated",
-                                  {"not estimated", "estimated"},
-                                  "its photometry is the same all round: no light tells a heading"});
-    }
-    result_.luminaire_found.push_back(found);
-    rivals_.push_back(given.position_m ? std::vector<Luminaire>() : guessed.rivals);
-    start_.luminaires.push_back(luminaire);
-    start_.free.push_back(free);
-  }
-
-  void AddPriors(const SessionLuminaire& given, int index) {
-    if (given.position_m && given.position_sigma_m.value_or(0) > 0) {
-      for (int axis = 0; axis < 3; ++axis) {
-        priors_.push_back({ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis),
-                           (*given.position_m)[axis], *given.position_sigma_m});
-      }
-    }
-    if (given.flux_lm && given.flux_sigma_lm.value_or(0) > 0) {
-      priors_.push_back({ParameterKind::kLogFlux,
-                         index,
-                         {},
-                         std::log(*given.flux_lm),
-                         *given.flux_sigma_lm / *given.flux_lm});
-      flux_known_ = true;
-    }
-    flux_known_ = flux_known_ || (given.flux_lm && given.flux_sigma_lm.value_or(1) == 0);
+    return result_.data.observations.empty() && light_.used_readings > 0 &&
+           std::count(start_.state.albedo_free.begin(), start_.state.albedo_free.end(), true) > 0;
   }
 
   // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
   // camera.
   void SettleScale(LightState& state) {
-    result_.absolute = used_readings_ > 0 || flux_known_ || !state.camera_scale_free;
+    result_.absolute = light_.used_readings > 0 || start_.flux_known || !state.camera_scale_free;
     if (!result_.absolute) {
       state.camera_scale_free = false;
       context_.undetermined = true;
@@ -355,7 +197,7 @@ class FitStage {
            "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
            "sigma"});
     }
-    if (used_readings_ > 0 && state.camera_scale_free) MatchScale(state);
+    if (light_.used_readings > 0 && state.camera_scale_free) MatchScale(state);
   }
 
   // Fluxes in the readings' scale: one linear factor, solved exactly.
@@ -382,13 +224,10 @@ class FitStage {
   const Room& room_;
   const std::vector<SeenPlace>& seen_;
   RunContext& context_;
+  SessionLight light_;
   SessionFit result_;
-  LightState start_;
-  std::vector<std::vector<Luminaire>> rivals_;  // of each luminaire's first guess
+  FitStart start_;
   std::vector<OpenChoice> open_;
-  std::vector<ParameterPrior> priors_;
-  int used_readings_ = 0;
-  bool flux_known_ = false;
 };
 
 // Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.
