@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "apps/fit_words.h"
 #include "apps/fit_start.h"
+#include "apps/fit_words.h"
 #include "apps/light_data.h"
 #include "apps/stages.h"
 #include "forward/photometry.h"
