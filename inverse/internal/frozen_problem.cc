@@ -153,7 +153,7 @@ double SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& option
   ceres_options.linear_solver_type = ceres::DENSE_QR;
   ceres_options.max_num_iterations = options.max_iterations;
   // Light is summed in single precision: smaller changes of the cost are rounding.
-  ceres_options.function_tolerance = options.is_near ? 1e-6 : 1e-4;
+  ceres_options.function_tolerance = options.is_near ? 1e-6 : 1e-5;
   ceres_options.parameter_tolerance = 1e-7;
   ceres_options.initial_trust_region_radius = options.is_near ? 1e8 : 10;
   if (options.is_near) {
