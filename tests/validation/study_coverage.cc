@@ -13,7 +13,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
@@ -23,6 +22,7 @@
 #include "inverse/fit_luminaires.h"
 #include "inverse/simulated_light.h"
 #include "tests/support/poster_room.h"
+#include "tests/support/study_options.h"
 
 namespace {
 
@@ -126,18 +126,8 @@ class Study {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "-o" && i + 1 < argc) folder = argv[++i];
-    if (argument == "--quick") is_quick = true;
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "study_coverage -o FOLDER [--quick]\n");
-    return 2;
-  }
-  std::filesystem::create_directories(folder);
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
   const Study study;
   luxfit::LineChart chart;
   chart.title = "95 % intervals that hold the truth";
@@ -148,7 +138,8 @@ int main(int argc, char** argv) {
   std::string csv = "facet_error_percent,quantity,intervals,held_percent,rms_z\n";
   bool is_good = true;
   constexpr int kTrials = 40, kAlbedo = 2;
-  for (const double percent : is_quick ? std::vector<double>{1} : std::vector<double>{0, 0.5, 1, 2, 4}) {
+  for (const double percent :
+       options->is_quick ? std::vector<double>{1} : std::vector<double>{0, 0.5, 1, 2, 4}) {
     std::mt19937_64 rng(11);
     const Coverage coverage = study.Run(percent / 100, kTrials, rng);
     int held = 0, all = 0;
@@ -167,9 +158,9 @@ int main(int argc, char** argv) {
     const double share = all > 0 ? static_cast<double>(held) / all : 0;
     is_good = is_good && share <= 0.985;
   }
-  if (!is_quick) {
-    std::ofstream(folder + "/fit_coverage.csv") << csv;
-    std::ofstream(folder + "/fit_coverage.svg") << LineChartSvg(chart);
+  if (!options->is_quick) {
+    std::ofstream(options->folder + "/fit_coverage.csv") << csv;
+    std::ofstream(options->folder + "/fit_coverage.svg") << LineChartSvg(chart);
   }
-  return is_good || !is_quick ? 0 : 1;
+  return is_good || !options->is_quick ? 0 : 1;
 }

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <random>
 #include <string>
@@ -25,6 +24,7 @@
 #include "apps/prepared_session.h"
 #include "inverse/first_guess.h"
 #include "inverse/measured_indirect.h"
+#include "tests/support/study_options.h"
 
 namespace luxfit {
 namespace {
@@ -149,17 +149,9 @@ bool StudyOffsets(const Office& office, const std::string& folder, bool is_quick
 }  // namespace luxfit
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) is_quick = true;
-    if (std::strcmp(argv[i], "-o") == 0 && i + 1 < argc) folder = argv[++i];
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_first_guess -o FOLDER [--quick]\n");
-    return 2;
-  }
-  const luxfit::Office office = luxfit::PrepareOffice(folder);
-  if (!is_quick) luxfit::CompareWithSearch(office);
-  return luxfit::StudyOffsets(office, folder, is_quick) ? 0 : 1;
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  const luxfit::Office office = luxfit::PrepareOffice(options->folder);
+  if (!options->is_quick) luxfit::CompareWithSearch(office);
+  return luxfit::StudyOffsets(office, options->folder, options->is_quick) ? 0 : 1;
 }

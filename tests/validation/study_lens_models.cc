@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <limits>
 #include <random>
@@ -24,6 +23,7 @@
 #include "apps/line_chart_svg.h"
 #include "calib/calibration.h"
 #include "tests/support/board_views.h"
+#include "tests/support/study_options.h"
 
 namespace luxfit {
 namespace {
@@ -235,15 +235,7 @@ int Run(const std::string& folder, bool quick) {
 }  // namespace luxfit
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool quick = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) quick = true;
-    if (std::strcmp(argv[i], "-o") == 0 && i + 1 < argc) folder = argv[++i];
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_lens_models -o FOLDER [--quick]\n");
-    return 2;
-  }
-  return luxfit::Run(folder, quick);
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  return luxfit::Run(options->folder, options->is_quick);
 }

@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <functional>
 #include <random>
@@ -25,6 +24,7 @@
 #include "inverse/fit_luminaires.h"
 #include "tests/support/partition_readings.h"
 #include "tests/support/plane_readings.h"
+#include "tests/support/study_options.h"
 
 namespace luxfit {
 namespace {
@@ -152,15 +152,7 @@ bool Study(const std::string& folder, bool is_quick) {
 }  // namespace luxfit
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) is_quick = true;
-    if (std::strcmp(argv[i], "-o") == 0 && i + 1 < argc) folder = argv[++i];
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_occluder -o FOLDER [--quick]\n");
-    return 2;
-  }
-  return luxfit::Study(folder, is_quick) ? 0 : 1;
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  return luxfit::Study(options->folder, options->is_quick) ? 0 : 1;
 }

@@ -28,6 +28,7 @@
 #include "tests/support/gray_sphere.h"
 #include "tests/support/poster_room.h"
 #include "tests/support/stereo_scene.h"
+#include "tests/support/study_options.h"
 
 namespace {
 
@@ -264,22 +265,12 @@ class Study {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string folder, sphere;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "-o" && i + 1 < argc) folder = argv[++i];
-    if (argument == "--sphere" && i + 1 < argc) sphere = argv[++i];
-    if (argument == "--quick") is_quick = true;
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "study_photometric_stereo -o FOLDER [--quick] [--sphere FOLDER]\n");
-    return 2;
-  }
-  Study study(folder, is_quick);
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  Study study(options->folder, options->is_quick);
   const bool object = study.Object();
   const bool room = study.RoomChart();
-  if (!sphere.empty()) study.RealSphere(sphere);
+  if (!options->sphere.empty()) study.RealSphere(options->sphere);
   study.Close();
   return object && room ? 0 : 1;
 }

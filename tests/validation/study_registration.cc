@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <functional>
 #include <opencv2/calib3d.hpp>
@@ -26,6 +24,7 @@
 #include "calib/mesh_alignment.h"
 #include "calib/registration.h"
 #include "tests/support/feature_room.h"
+#include "tests/support/study_options.h"
 
 namespace luxfit {
 namespace {
@@ -448,18 +447,10 @@ bool StudyStability(const std::string& folder, bool is_quick) {
 }  // namespace luxfit
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) is_quick = true;
-    if (std::strcmp(argv[i], "-o") == 0 && i + 1 < argc) folder = argv[++i];
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_registration -o FOLDER [--quick]\n");
-    return 2;
-  }
-  luxfit::StudyPnp(folder, is_quick);
-  luxfit::StudyMethods(folder, is_quick);
-  luxfit::StudyBundle(folder, is_quick);
-  return luxfit::StudyStability(folder, is_quick) ? 0 : 1;
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  luxfit::StudyPnp(options->folder, options->is_quick);
+  luxfit::StudyMethods(options->folder, options->is_quick);
+  luxfit::StudyBundle(options->folder, options->is_quick);
+  return luxfit::StudyStability(options->folder, options->is_quick) ? 0 : 1;
 }

@@ -22,6 +22,7 @@
 #include "apps/line_chart_svg.h"
 #include "calib/estimate_response.h"
 #include "tests/support/camera_model.h"
+#include "tests/support/study_options.h"
 
 namespace {
 
@@ -214,22 +215,9 @@ class Study {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    if (argument == "--quick") {
-      is_quick = true;
-    } else if (argument == "-o" && i + 1 < argc) {
-      folder = argv[++i];
-    }
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_response -o FOLDER [--quick]\n");
-    return 2;
-  }
-  std::filesystem::create_directories(folder);
-  Study study(folder, is_quick);
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  Study study(options->folder, options->is_quick);
   const bool is_found = study.SpeedAndAccuracy();
   study.Stability();
   study.WriteTable();

@@ -10,7 +10,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <functional>
 #include <limits>
@@ -25,6 +24,7 @@
 #include "calib/tag_refine.h"
 #include "calib/tags.h"
 #include "tests/support/board_render.h"
+#include "tests/support/study_options.h"
 #include "tests/support/tag_scene.h"
 
 namespace luxfit {
@@ -359,16 +359,8 @@ void StudySpeed(const std::string& folder, bool is_quick) {
 }  // namespace luxfit
 
 int main(int argc, char** argv) {
-  std::string folder;
-  bool is_quick = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) is_quick = true;
-    if (std::strcmp(argv[i], "-o") == 0 && i + 1 < argc) folder = argv[++i];
-  }
-  if (folder.empty()) {
-    std::fprintf(stderr, "usage: study_tag_detection -o FOLDER [--quick]\n");
-    return 2;
-  }
-  luxfit::StudySpeed(folder, is_quick);
-  return luxfit::StudyStability(folder, is_quick) ? 0 : 1;
+  const auto options = luxfit::support::ReadStudyOptions(argc, argv);
+  if (!options) return 2;
+  luxfit::StudySpeed(options->folder, options->is_quick);
+  return luxfit::StudyStability(options->folder, options->is_quick) ? 0 : 1;
 }
