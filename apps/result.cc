@@ -144,6 +144,8 @@ json LuminairesJson(const Session& session, const SessionFit& fit, const std::ve
       entry["cosine_exponent"] = luminaire.cosine_exponent;
       entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
     }
+    if (fit.tint_rgb.cols() > index && fit.tint_rgb.col(index).allFinite())
+      entry["tint_rgb"] = Vector(fit.tint_rgb.col(index));
     if (!files[k].ies.empty()) entry["files"] = {{"ies", files[k].ies}, {"ldt", files[k].ldt}};
     luminaires.push_back(entry);
   }

@@ -116,6 +116,7 @@ class FitStage {
     RecordDetail(CompareDetail(room_, result_.data, fit), context_);
     const ColourDetail colours = CompareColours(room_, result_.data, fit);
     RecordColours(session_, room_, colours, context_);
+    if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) result_.tint_rgb = colours.tint;
     for (size_t m = 0; m < colours.materials.size(); ++m) {
       const Eigen::Index material = static_cast<Eigen::Index>(m);
       if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)

@@ -110,7 +110,9 @@ struct SessionFit {
   LuminaireFit fit;
   LightData data;
   std::vector<bool> luminaire_found;
-  Eigen::Matrix3Xd albedo_rgb;              // by material; NaN where not estimated
+  Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
+  // By luminaire, relative to their mean (inverse/colour_detail.h); empty where they are alike.
+  Eigen::Matrix3Xd tint_rgb;
   bool absolute = false;                    // whether fluxes are in lm
   std::optional<DirectShare> direct_share;  // of fits to readings alone with reflectances free
 

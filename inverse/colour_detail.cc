@@ -183,32 +183,32 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
     if (!row.is_left_out) ratios[material_key(row)].push_back(row.value / row.grey);
   }
   const Factors reflectance = FactorsOf(ratios);
+  // Tints and reflectances in turn, each by medians with the other held: of a few luminaires that differ the
+  // first reflectances are a mixture.
+  constexpr int kTurns = 4;
+  Factors tints, refitted = reflectance;
+  const auto tint_of = [&](const Row& row) { return FactorOf(tints, 3 * row.luminaire + row.channel); };
   // The tint is that of the direct light; the measured indirect light has it already.
-  Ratios direct;
-  for (const Row& row : rows) {
-    const double rho = row.grey / (row.indirect + row.direct) * FactorOf(reflectance, material_key(row));
-    if (!row.is_left_out && row.direct > row.indirect)
+  const auto tinted = [&](const Row& row) {
+    return row.grey / (row.indirect + row.direct) * (row.indirect + tint_of(row) * row.direct);
+  };
+  for (int turn = 0; turn < kTurns; ++turn) {
+    Ratios direct, again;
+    for (const Row& row : rows) {
+      if (row.is_left_out || row.direct <= row.indirect) continue;
+      const double rho = row.grey / (row.indirect + row.direct) * FactorOf(refitted, material_key(row));
       direct[3 * row.luminaire + row.channel].push_back((row.value - rho * row.indirect) /
                                                         (rho * row.direct));
+    }
+    tints = FactorsOf(direct);
+    for (const Row& row : rows) {
+      if (!row.is_left_out) again[material_key(row)].push_back(row.value / tinted(row));
+    }
+    refitted = FactorsOf(again);
   }
-  const Factors tints = FactorsOf(direct);
-  const auto tint_of = [&](int luminaire) -> Eigen::Vector3d {
-    const Eigen::Vector3d tint(FactorOf(tints, 3 * luminaire), FactorOf(tints, 3 * luminaire + 1),
-                               FactorOf(tints, 3 * luminaire + 2));
-    return tint / tint.mean();
-  };
   std::vector<double> alike, own;
   alike.reserve(rows.size());
   own.reserve(rows.size());
-  const auto tinted = [&](const Row& row) {
-    return row.grey / (row.indirect + row.direct) *
-           (row.indirect + tint_of(row.luminaire)[row.channel] * row.direct);
-  };
-  Ratios again;
-  for (const Row& row : rows) {
-    if (!row.is_left_out) again[material_key(row)].push_back(row.value / tinted(row));
-  }
-  const Factors refitted = FactorsOf(again);
   for (const Row& row : rows) {
     alike.push_back(FactorOf(reflectance, material_key(row)) * row.grey);
     own.push_back(FactorOf(refitted, material_key(row)) * tinted(row));
@@ -218,7 +218,7 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
                                                      {Score(rows, alike, sigma), Score(rows, own, sigma)});
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& [luminaire, count] : seen) {
-    detail.tint.col(luminaire) = tint_of(luminaire);
+    for (int c = 0; c < 3; ++c) detail.tint(c, luminaire) = FactorOf(tints, 3 * luminaire + c);
     mean += detail.tint.col(luminaire) / static_cast<double>(seen.size());
   }
   for (const auto& [luminaire, count] : seen)

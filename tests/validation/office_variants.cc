@@ -7,6 +7,9 @@
 //
 // bent: counts go with the power 0.9 of light, and nobody says so: response = "linear".
 //
+// tinted: luminaire C is warmer, its red 1.1 and its blue 0.592 of what they were (the same luminance on
+// grey); states of one luminaire each.
+//
 // eight_bits: four exposures a photo, two stops apart, in 8 bits with the encoding of sRGB (PNG: without the
 // losses of JPEG); response = "estimate".
 //
@@ -117,6 +120,32 @@ std::string Bent(const fs::path& office, const fs::path& out, std::ofstream& tab
   return ReadText(office / "session.toml");
 }
 
+std::string Tinted(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  for (const Row& row : ReadRows(office)) {
+    if (row.state == "all" || row.state == "evening") continue;
+    cv::Mat photo = ReadLinear(office / row.file);
+    if (row.state == "C") {
+      photo.forEach<cv::Vec3f>([](cv::Vec3f& pixel, const int*) {  // blue, green, red; saturated stays so
+        if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f)
+          pixel = {0.592f * pixel[0], pixel[1], 1.1f * pixel[2]};
+      });
+    }
+    Write16(out / row.file, photo);
+    table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s
+          << '\n';
+  }
+  std::string session = ReadText(office / "session.toml");
+  session = Replaced(session, "all = { A = 1.0, B = 1.0, C = 1.0, D = 1.0 }\n", "");
+  session = Replaced(session, "evening = { A = 0.3, C = 1.0, D = 1.0 }\n", "");
+  std::ifstream readings(office / "luxmeter.csv");
+  std::ofstream written(out / "luxmeter.csv");
+  for (std::string line; std::getline(readings, line);) {
+    if (line.find(",all,") == std::string::npos && line.find(",evening,") == std::string::npos)
+      written << line << '\n';
+  }
+  return Replaced(session, "L3@all", "L3@A");
+}
+
 std::string EightBits(const fs::path& office, const fs::path& out, std::ofstream& table) {
   for (const Row& row : ReadRows(office)) {
     const cv::Mat photo = ReadLinear(office / row.file);
@@ -199,15 +228,12 @@ std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& 
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
-      {"vignetting", Vignetting},
-      {"vignetted", Vignetted},
-      {"bent", Bent},
-      {"eight_bits", EightBits},
-      {"ambient", Ambient}};
+      {"vignetting", Vignetting}, {"vignetted", Vignetted},  {"bent", Bent},
+      {"tinted", Tinted},         {"eight_bits", EightBits}, {"ambient", Ambient}};
   if (argc != 4 || variants.count(argv[2]) == 0) {
-    std::fprintf(
-        stderr,
-        "usage: office_variants OFFICE_FOLDER vignetting|vignetted|bent|eight_bits|ambient OUT_FOLDER\n");
+    std::fprintf(stderr,
+                 "usage: office_variants OFFICE_FOLDER vignetting|vignetted|bent|tinted|eight_bits|ambient "
+                 "OUT_FOLDER\n");
     return 2;
   }
   const fs::path office = argv[1], out = argv[3];
