@@ -64,8 +64,8 @@ class FittedRoom : public testing::Test {
         data_.observations.push_back({e, -1, state, 100, 1, 0, Eigen::Vector3d::Ones(), 0});
     }
     std::normal_distribution<double> noise(0, kNoise);
-    fit_.state.albedo = albedo_rgb.colwise().mean();
-    fit_.predicted = Light(fit_.state.albedo, flux_rgb.colwise().mean());
+    fit_.state.albedo = albedo_rgb.transpose() * luminance_weights_;
+    fit_.predicted = Light(fit_.state.albedo, flux_rgb.transpose() * luminance_weights_);
     fit_.weight = Eigen::VectorXd::Ones(fit_.predicted.size());
     std::array<Eigen::VectorXd, 3> channels;
     for (int c = 0; c < 3; ++c) channels[static_cast<size_t>(c)] = Light(albedo_rgb.row(c), flux_rgb.row(c));
@@ -73,9 +73,9 @@ class FittedRoom : public testing::Test {
       Observation& o = data_.observations[i];
       const Eigen::Index row = static_cast<Eigen::Index>(i);
       const double factor = 1 + noise(rng_);
-      // Luminance is the mean of the channels here; a pose's error is that of all of them.
+      // A pose's error is that of all channels.
       for (int c = 0; c < 3; ++c) o.relative_rgb[c] = factor * channels[static_cast<size_t>(c)][row];
-      o.relative_luminance = o.relative_rgb.mean();
+      o.relative_luminance = o.relative_rgb.dot(luminance_weights_);
       o.variance = std::pow(kNoise * o.relative_luminance, 2);
     }
   }
@@ -85,6 +85,7 @@ class FittedRoom : public testing::Test {
   }
 
   std::mt19937_64 rng_ = support::TestRng();
+  Eigen::Vector3d luminance_weights_ = Eigen::Vector3d::Constant(1.0 / 3);
   Room room_ = MakeRoom(Scene{});
   LightData data_;
   LuminaireFit fit_;
@@ -196,6 +197,18 @@ TEST_F(FittedRoom, LuminairesOfTwoColoursAreToldApart) {
   for (int c = 0; c < 3; ++c) {
     for (int k = 0; k < 2; ++k) EXPECT_NEAR(colours.tint(c, k), flux(c, k) / 1000, 0.01) << c << k;
   }
+}
+
+TEST_F(FittedRoom, AWarmLuminaireKeepsItsLuminance) {
+  Make(0.5, 0.25);
+  luminance_weights_ = {0.265, 0.67, 0.065};
+  const Eigen::Vector3d warm(1.1, 1, 0.592);  // its luminance is 1, its mean is not
+  Eigen::Matrix<double, 3, 2> flux = Eigen::Matrix<double, 3, 2>::Constant(1000);
+  flux.col(1) = 1000 * warm;
+  Photograph(Eigen::Matrix3Xd::Constant(3, 6, 0.3), flux);
+  const ColourDetail colours = CompareColours(room_, data_, fit_);
+  EXPECT_EQ(colours.luminaires.Chosen().name, "each its own");
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(colours.tint(c, 1) / colours.tint(c, 0), warm[c], 0.015) << c;
 }
 
 }  // namespace
