@@ -1,4 +1,5 @@
 #include "calib/registration.h"
+#include "tests/support/look_at.h"
 #include "tests/support/office_camera.h"
 #include "tests/support/test_rng.h"
 
@@ -33,14 +34,7 @@ std::vector<SurveyedTag> RoomCorner() {
           Tag(3, {0.9, 0, 1.4}, y, z), Tag(4, {1.8, 0, 1.8}, y, z), Tag(5, {1.0, 1.0, 0}, z, -x)};
 }
 
-Eigen::Isometry3d LookAt(const Eigen::Vector3d& from, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d forward = (at - from).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d world_from_cam = Eigen::Isometry3d::Identity();
-  world_from_cam.linear() << right, forward.cross(right), forward;
-  world_from_cam.translation() = from;
-  return world_from_cam.inverse();
-}
+using support::LookAt;
 
 std::vector<Eigen::Isometry3d> FourPoses() {
   return {LookAt({3.2, 2.6, 1.6}, {0.4, 0.4, 1.3}), LookAt({2.6, 3.2, 1.2}, {0.3, 0.6, 1.2}),
