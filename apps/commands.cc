@@ -195,12 +195,7 @@ int RegisterCommand(const CommandOptions& options) {
 }
 
 int CheckCommand(const CommandOptions& options) {
-  const nlohmann::json result = ReadJson(options.out + "/result.json");
-  if (result.value("format", "") != "luxfit-result-1") {
-    throw std::runtime_error(
-        options.out +
-        "/result.json: format: expected \"luxfit-result-1\"; run `luxfit run` into this folder");
-  }
+  const nlohmann::json result = ReadResult(options.out + "/result.json");
   const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
   if (options.json) {
     Print(nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}

@@ -37,7 +37,7 @@ add_dependencies(apps_luminaire_files_test luxfit)
 luxfit_test(apps register_on_mesh_test LINK luxfit::calib opencv_core opencv_calib3d fmt::fmt
             nlohmann_json::nlohmann_json)
 add_dependencies(apps_register_on_mesh_test luxfit)
-luxfit_test(apps run_test SLOW WHOLE LINK truth_comparison nlohmann_json::nlohmann_json)
+luxfit_test(apps run_test SLOW WHOLE LINK luxfit_apps truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_run_test luxfit)
 luxfit_test(apps stability_test SLOW LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_stability_test luxfit)

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/fitted_room.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 
@@ -228,6 +229,31 @@ TEST(Commands, ExitStatuses) {
   EXPECT_EQ(RunLuxfit("run 2> /dev/null"), 2);
   EXPECT_EQ(RunLuxfit("run " + folder.Path("none.toml") + " -o " + folder.Path("out") + " 2> /dev/null"), 2);
   EXPECT_EQ(RunLuxfit("check " + folder.Path("") + " 2> /dev/null"), 2);
+}
+
+// What reads the folder afterwards must see the very room that was fitted.
+TEST_F(OfficeRun, IsReadAgainAsItWasFitted) {
+  const FittedRoom fitted = ReadFittedRoom(Out());
+  ASSERT_EQ(fitted.luminaires.size(), result_["luminaires"].size());
+  EXPECT_EQ(fitted.registered.registration.views.size(), result_["views"].size());
+  const auto& readings = fitted.session.luxmeter.readings;
+  std::vector<Sensor> sensors;
+  sensors.reserve(readings.size());
+  for (const SessionReading& reading : readings)
+    sensors.push_back({reading.position_m, reading.normal, fitted.session.luxmeter.response});
+  const PlaceLight light = LightAt(fitted, sensors);
+  for (size_t i = 0; i < readings.size(); ++i) {
+    const double predicted_lux = result_["luxmeter"][i]["predicted_lux"];
+    const double lux =
+        light.total_lx.row(static_cast<Eigen::Index>(i)).dot(DimmingOf(fitted, readings[i].state));
+    // The fit's last step freezes visibility where luminaires stood a step before.
+    EXPECT_NEAR(lux, predicted_lux, 2e-3 * predicted_lux) << readings[i].id << "@" << readings[i].state;
+  }
+}
+
+TEST_F(OfficeRun, SaysWhichFileTheFolderLacks) {
+  EXPECT_THAT([] { ReadFittedRoom(Out() + "/nowhere"); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("nowhere/result.json")));
 }
 
 }  // namespace
