@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/form_factors_command.h"
 #include "apps/process.h"
+#include "apps/report_command.h"
 #include "apps/version.h"
 #include "forward/form_factors.h"
 #include "forward/threads.h"
@@ -113,6 +114,16 @@ void AddFitCharts(CLI::App& chart, luxfit::CommandOptions& options) {
   });
 }
 
+CLI::App* AddReport(CLI::App& app, luxfit::ReportCommandOptions& report) {
+  CLI::App* sub = app.add_subcommand("report", "one self-contained HTML page of an earlier run");
+  sub->add_option("OUT", report.out, "folder of an earlier run")->required();
+  sub->add_option("--session", report.session, "the session file, where it is not any more where it was");
+  sub->add_option("--targets", report.targets, "areas and observers with what is asked of them (TOML)");
+  sub->add_option("--state", report.state, "the state shown first (the brightest)");
+  sub->add_flag("--json", report.json, "print the areas' statistics as JSON on standard output");
+  return sub;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -184,6 +195,9 @@ int main(int argc, char** argv) {
   CLI::App* const form_factors_command = AddFormFactors(app, form_factors, options.threads);
   luxfit::BoardCommandOptions board;
   CLI::App* const board_command = AddBoard(app, board);
+  luxfit::ReportCommandOptions report;
+  report.command_line = options.command_line;
+  CLI::App* const report_command = AddReport(app, report);
 
   try {
     app.parse(argc, argv);
@@ -194,6 +208,7 @@ int main(int argc, char** argv) {
   try {
     if (form_factors_command->parsed()) return luxfit::FormFactorsCommand(form_factors);
     if (board_command->parsed()) return luxfit::BoardCommand(board);
+    if (report_command->parsed()) return luxfit::ReportCommand(report);
     for (const auto& [sub, command] : commands) {
       if (sub->parsed()) return command(options);
     }

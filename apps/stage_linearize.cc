@@ -116,7 +116,7 @@ Session LinearizeSession(Session session, RunContext& context) {
     artifact["warnings"].push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
   }
   artifact["choices"] = ChoicesJson(context);
-  WriteJson(context.out + "/stages/linearize.json", artifact);
+  if (!context.out.empty()) WriteJson(context.out + "/stages/linearize.json", artifact);
   return session;
 }
 

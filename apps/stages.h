@@ -81,7 +81,7 @@ Room LoadRoom(const Session& session, RunContext& context);
 
 // Photos as the later stages use them: one for each view, state and camera with its bracket of exposures, the
 // cameras with their response and vignetting, readings without ambient light. Writes
-// OUT/stages/linearize.json.
+// OUT/stages/linearize.json, where context.out is not empty.
 Session LinearizeSession(Session session, RunContext& context);
 
 struct RegisteredSession {
