@@ -1,6 +1,7 @@
 #include "apps/report.h"
 
 #include <ctime>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/artifact.h"
@@ -102,12 +103,16 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
           {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
   data["result"] = *fitted.result;
   data["states"] = StatesJson(fitted);
+  auto T=[](const char*n){std::fprintf(stderr,"%s cpu %.2f\n",n,double(clock())/CLOCKS_PER_SEC);};T("start");
   data["luminaires"] = ReportLuminairesJson(fitted);
   data["room"] = ReportRoomJson(fitted);
+  T("room");
   data["cameras"] = ReportCamerasJson(fitted);
   data["tags"] = ReportTagsJson(fitted);
   data["places"] = PlacesJson(fitted, PlacesOf(fitted, targets));
+  T("places");
   data["views"] = ReportViewsJson(fitted, state);
+  T("views");
   data["conditions"] = ConditionsJson(fitted);
   data["tasks"] = TasksJson();
   data["targets"] = {{"path", targets.path}, {"toml", TargetsToml(targets)}};

@@ -16,6 +16,35 @@ using nlohmann::json;
 
 constexpr double kPi = 3.14159265358979323846;
 
+// Odd, so that the standard's points are among the fine ones.
+void Refine(const FittedRoom& fitted, ReportPlane& plane) {
+  constexpr Eigen::Index kMaxFinePoints = 800;
+  while ((plane.refined + 2) * (plane.refined + 2) * plane.grid.points.cols() <= kMaxFinePoints)
+    plane.refined += 2;
+  plane.fine_grid =
+      GridOf(plane.plane, plane.refined * plane.grid.count_u, plane.refined * plane.grid.count_v);
+  plane.fine_kinds =
+      ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);
+}
+
+// One call for all planes: the luminaires' shadows are looked for once.
+void LightFinePoints(const FittedRoom& fitted, std::vector<ReportPlane>& planes) {
+  constexpr int kRays = 2048;
+  std::vector<Sensor> sensors;
+  for (const ReportPlane& plane : planes) {
+    sensors.reserve(sensors.size() + static_cast<size_t>(plane.fine_grid.points.cols()));
+    for (const auto& point : plane.fine_grid.points.colwise())
+      sensors.push_back({point, plane.fine_grid.normal, {}});
+  }
+  if (sensors.empty()) return;
+  const Eigen::MatrixXd total_lx = LightAt(fitted, sensors, kRays).total_lx;
+  Eigen::Index first = 0;
+  for (ReportPlane& plane : planes) {
+    plane.fine_lx = total_lx.middleRows(first, plane.fine_grid.points.cols());
+    first += plane.fine_grid.points.cols();
+  }
+}
+
 std::vector<ReportPlane> PlanesOf(const FittedRoom& fitted, const std::vector<TargetArea>& areas) {
   std::vector<ReportPlane> planes;
   for (const TargetArea& area : areas) {
@@ -38,6 +67,7 @@ std::vector<ReportPlane> PlanesOf(const FittedRoom& fitted, const std::vector<Ta
     plane.plane.spacing_m = area.spacing_m;
     plane.grid = GridOf(plane.plane);
     plane.kinds = ClassifyPoints(fitted.room, plane.grid, area.polygon_m, !area.plane);
+    Refine(fitted, plane);
     planes.push_back(std::move(plane));
   }
   return planes;
@@ -102,6 +132,12 @@ json StatisticsJson(const PlaneStatistics& s, bool has_sigma) {
   return entry;
 }
 
+json KindsJson(const std::vector<GridPointKind>& kinds) {
+  json list = json::array();
+  for (const GridPointKind kind : kinds) list.push_back(static_cast<int>(kind));
+  return list;
+}
+
 json PlaneJson(const FittedRoom& fitted, const ReportPlaces& places, const ReportPlane& plane) {
   json entry = {{"id", plane.area.id},
                 {"task", plane.area.task},
@@ -116,8 +152,10 @@ json PlaneJson(const FittedRoom& fitted, const ReportPlaces& places, const Repor
                 {"count_v", plane.grid.count_v},
                 {"light", LightJson(places.light, plane.first_place, plane.grid.points.cols())},
                 {"statistics", json::array()}};
-  entry["kinds"] = json::array();
-  for (const GridPointKind kind : plane.kinds) entry["kinds"].push_back(static_cast<int>(kind));
+  entry["kinds"] = KindsJson(plane.kinds);
+  entry["fine"] = {{"refined", plane.refined},
+                   {"kinds", KindsJson(plane.fine_kinds)},
+                   {"total", Base64Floats(plane.fine_lx)}};
   for (const SessionState& state : fitted.session.states)
     entry["statistics"].push_back(StatisticsJson(StatisticsUnder(places, plane, DimmingOf(fitted, state.id)),
                                                  places.light.factor.size() > 0));
@@ -156,6 +194,7 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
   std::vector<Sensor> sensors = places.readings.sensors;
   if (!fitted.room.scene.facets.empty()) {
     places.planes = PlanesOf(fitted, targets.areas);
+    LightFinePoints(fitted, places.planes);
     places.observers = ObserversOf(fitted, targets.observers);
   }
   for (ReportPlane& plane : places.planes) {

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-constexpr int kMaxWidthPx = 480;
+constexpr int kMaxWidthPx = 400;
 
 // A photo and its prediction, pixel by pixel, reduced.
 struct ComparedView {
@@ -84,7 +84,10 @@ ComparedView CompareView(const FittedRoom& fitted, const Session& session, const
   for (auto direction : directions.colwise()) {
     if (!direction.allFinite()) direction = axis;
   }
-  const Eigen::MatrixXd luminance = RenderView(fitted.room, lit, world_from_cam.translation(), directions);
+  ViewOptions options;
+  options.shadow_grid = 1;
+  const Eigen::MatrixXd luminance =
+      RenderView(fitted.room, lit, world_from_cam.translation(), directions, options);
   for (int c = 0; c < 3; ++c)
     compared.predicted_rgb[static_cast<size_t>(c)] = PlaneOf(luminance.col(c), width, height);
   compared.predicted = PlaneOf(luminance.col(3), width, height);

@@ -1,0 +1,46 @@
+// Unified glare ratings of the observers under the present dimming.
+
+import { h, replace, table } from './dom.js';
+import { digits, fixed, isNumber, kNone, vector } from './format.js';
+import { glare, verdict } from './light.js';
+import { badge } from './work_plane.js';
+
+// CIE 117 is meant for sources between these solid angles, sr.
+const kSmallest = 0.0003, kLargest = 0.1;
+
+// Of the flux's scale, common to sources and background: 8/ln 10 times its relative sigma.
+function ratingSigma(data, dimming) {
+  const shares = data.result.luminaires.filter((l, k) => dimming[k] > 0).map((l) => (isNumber(l.flux_sigma_lm) && l.flux_lm > 0 ? l.flux_sigma_lm / l.flux_lm : null));
+  if (shares.length === 0 || shares.some((s) => s === null)) return null;
+  return (8 / Math.LN10) * Math.max(...shares);
+}
+
+function sizes(observer, dimming) {
+  const seen = observer.sources.filter((s, k) => dimming[k] > 0 && s.sum > 0).map((s) => s.solid_angle_sr);
+  if (seen.length === 0) return '';
+  if (seen.some((w) => w > kLargest)) return 'a source is larger than 0.1 sr: UGR rates it too mildly';
+  if (seen.some((w) => w < kSmallest)) return 'a source is smaller than 0.0003 sr: UGR rates it too harshly';
+  return '';
+}
+
+export function glareTable(data, light) {
+  const body = h('div');
+  const { observers } = data.places;
+  if (observers.length === 0) return h('p', null, 'No observers: the scene has no floor, or the targets name none.');
+  if (!data.is_absolute) return h('p', null, 'UGR is not determined: it needs luminances in cd/m\u00b2, and this session has no absolute scale.');
+  light.onChange(() => {
+    const sigma = ratingSigma(data, light.dimming);
+    const rated = observers.map((o) => ({ observer: o, ...glare(o, light.dimming) }));
+    replace(body, table([
+      { title: 'Observer', text: true, of: (r) => r.observer.id },
+      { title: 'Eye', unit: 'm', of: (r) => vector(r.observer.eye_m, 2) },
+      { title: 'Background', unit: 'cd/m\u00b2', of: (r) => (isNumber(r.background) ? digits(r.background, 3) : '\u2013') },
+      { title: 'Brightest source', unit: 'cd/m\u00b2', of: (r) => digits(Math.max(0, ...r.observer.sources.map((s, k) => light.dimming[k] * s.luminance_cd_m2)), 3) },
+      { title: 'UGR', of: (r) => (isNumber(r.rating) ? h('b', null, fixed(r.rating, 1), isNumber(sigma) ? h('span', { class: 'interval' }, ' \u00b1 ', fixed(1.96 * sigma, 1)) : null) : r.reason || kNone) },
+      { title: 'Limit', of: (r) => (isNumber(r.observer.ugr) ? fixed(r.observer.ugr, 0) : '\u2013') },
+      { title: '', text: true, of: (r) => (isNumber(r.observer.ugr) && (isNumber(r.rating) || r.reason.startsWith('no luminaire')) ? badge(isNumber(r.rating) ? verdict(r.observer.ugr - r.rating, sigma) : 'met') : null) },
+      { title: '', text: true, of: (r) => sizes(r.observer, light.dimming) },
+    ], rated));
+  });
+  return body;
+}
