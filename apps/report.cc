@@ -1,7 +1,6 @@
 #include "apps/report.h"
 
 #include <ctime>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "apps/artifact.h"
@@ -58,7 +57,8 @@ json ConditionsJson(const FittedRoom& fitted) {
   return {{"photos", photos},
           {"cameras", cameras},
           {"meter_class", session.luxmeter.meter_class},
-          {"sensitivity", session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
+          {"sensitivity",
+           session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
           {"ambient_lx", has_ambient ? json(largest_ambient_lx) : json()},
           {"mesh", session.scene ? json(session.scene->mesh) : json()},
           {"unit", session.scene ? json(session.scene->unit) : json()},
@@ -99,20 +99,16 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
       options.targets_path.empty() ? DefaultTargets(fitted.room.scene) : ReadTargets(options.targets_path);
   const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
   DimmingOf(fitted, state);  // names the known ones where it is not one
-  json data = {{"format", "luxfit-report-1"}, {"luxfit_version", kVersion},   {"date", NowUtc()},
-          {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
+  json data = {{"format", "luxfit-report-1"},    {"luxfit_version", kVersion},        {"date", NowUtc()},
+               {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
   data["result"] = *fitted.result;
   data["states"] = StatesJson(fitted);
-  auto T=[](const char*n){std::fprintf(stderr,"%s cpu %.2f\n",n,double(clock())/CLOCKS_PER_SEC);};T("start");
   data["luminaires"] = ReportLuminairesJson(fitted);
   data["room"] = ReportRoomJson(fitted);
-  T("room");
   data["cameras"] = ReportCamerasJson(fitted);
   data["tags"] = ReportTagsJson(fitted);
   data["places"] = PlacesJson(fitted, PlacesOf(fitted, targets));
-  T("places");
   data["views"] = ReportViewsJson(fitted, state);
-  T("views");
   data["conditions"] = ConditionsJson(fitted);
   data["tasks"] = TasksJson();
   data["targets"] = {{"path", targets.path}, {"toml", TargetsToml(targets)}};
@@ -121,12 +117,9 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
 }
 
 json ReportSummary(const json& data) {
-  json summary = {{"session", data.at("session")},
-                  {"state", data.at("state")},
-                  {"is_absolute", data.at("is_absolute")},
-                  {"states", json::array()},
-                  {"areas", json::array()},
-                  {"observers", json::array()}};
+  json summary = {
+      {"session", data.at("session")}, {"state", data.at("state")}, {"is_absolute", data.at("is_absolute")},
+      {"states", json::array()},       {"areas", json::array()},    {"observers", json::array()}};
   for (const json& state : data.at("states")) summary["states"].push_back(state.at("id"));
   for (const json& plane : data.at("places").at("planes"))
     summary["areas"].push_back({{"id", plane.at("id")}, {"statistics", plane.at("statistics")}});

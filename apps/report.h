@@ -1,7 +1,7 @@
 // The report of a run: OUT/report.html, one file that opens from disk with no network.
 //
-// The light is that of the fitted room (apps/fitted_room.h): one column a luminaire, so that the page's sliders
-// recombine it. docs/report.md says what each part means.
+// The light is that of the fitted room (apps/fitted_room.h): one column a luminaire, so that the page's
+// sliders recombine it. docs/report.md says what each part means.
 #ifndef LUXFIT_APPS_REPORT_H_
 #define LUXFIT_APPS_REPORT_H_
 

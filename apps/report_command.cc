@@ -28,11 +28,12 @@ std::string SummaryText(const json& summary) {
     for (size_t s = 0; s < states.size(); ++s) {
       const json& statistics = area.at("statistics").at(s);
       if (states[s] != summary.at("state")) continue;
-      text += fmt::format("{}, state {}: {} points, mean {}, least {}, U0 {}\n", area.at("id").get<std::string>(),
-                          states[s].get<std::string>(), statistics.at("points").get<int>(),
-                          PlusMinus(statistics.at("average_lx"), statistics.at("average_sigma_lx"), unit),
-                          PlusMinus(statistics.at("least_lx"), statistics.at("least_sigma_lx"), unit),
-                          PlusMinus(statistics.at("uniformity"), statistics.at("uniformity_sigma"), ""));
+      text +=
+          fmt::format("{}, state {}: {} points, mean {}, least {}, U0 {}\n", area.at("id").get<std::string>(),
+                      states[s].get<std::string>(), statistics.at("points").get<int>(),
+                      PlusMinus(statistics.at("average_lx"), statistics.at("average_sigma_lx"), unit),
+                      PlusMinus(statistics.at("least_lx"), statistics.at("least_sigma_lx"), unit),
+                      PlusMinus(statistics.at("uniformity"), statistics.at("uniformity_sigma"), ""));
     }
   }
   return text;

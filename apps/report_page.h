@@ -1,7 +1,8 @@
 // The page of a report: one HTML file that needs nothing else.
 //
-// Style, program (three.js among it) and data stand in it. The data are JSON in a script element that no browser
-// runs: every '<', '>' and '&' of it is written as \u003c, \u003e, \u0026, so that no text of the user can end it.
+// Style, program (three.js among it) and data stand in it. The data are JSON in a script element that no
+// browser runs: every '<', '>' and '&' of it is written as \u003c, \u003e, \u0026, so that no text of the
+// user can end it.
 //
 // Source: HTML Living Standard, sec. 4.12.1.3 (restrictions for contents of script elements).
 #ifndef LUXFIT_APPS_REPORT_PAGE_H_

@@ -23,8 +23,7 @@ void Refine(const FittedRoom& fitted, ReportPlane& plane) {
     plane.refined += 2;
   plane.fine_grid =
       GridOf(plane.plane, plane.refined * plane.grid.count_u, plane.refined * plane.grid.count_v);
-  plane.fine_kinds =
-      ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);
+  plane.fine_kinds = ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);
 }
 
 // One call for all planes: the luminaires' shadows are looked for once.
@@ -81,8 +80,7 @@ std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
     PlaneGrid eye;
     eye.normal = target.looking;
     eye.points = target.eye_m;
-    observer.is_inside =
-        ClassifyPoints(fitted.room, eye, {}, false).front() == GridPointKind::kInSolid;
+    observer.is_inside = ClassifyPoints(fitted.room, eye, {}, false).front() == GridPointKind::kInSolid;
     for (const Luminaire& luminaire : fitted.luminaires)
       observer.sources.push_back(GlareOf(fitted.room.rays, luminaire, {target.eye_m, target.looking}));
     observers.push_back(std::move(observer));
@@ -120,12 +118,8 @@ json LightJson(const PredictedPlaces& light, Eigen::Index first, Eigen::Index co
 json OptionalJson(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
 json StatisticsJson(const PlaneStatistics& s, bool has_sigma) {
-  json entry = {{"points", s.points},
-                {"average_lx", s.average_lx},
-                {"least_lx", s.least_lx},
-                {"largest_lx", s.largest_lx},
-                {"uniformity", s.uniformity},
-                {"diversity", s.diversity}};
+  json entry = {{"points", s.points},         {"average_lx", s.average_lx}, {"least_lx", s.least_lx},
+                {"largest_lx", s.largest_lx}, {"uniformity", s.uniformity}, {"diversity", s.diversity}};
   entry["average_sigma_lx"] = has_sigma ? json(s.average_sigma_lx) : json();
   entry["least_sigma_lx"] = has_sigma ? json(s.least_sigma_lx) : json();
   entry["uniformity_sigma"] = has_sigma ? json(s.uniformity_sigma) : json();
@@ -259,7 +253,8 @@ json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places) {
   const Eigen::Index count = static_cast<Eigen::Index>(places.readings.sensors.size());
   page["points"] = json::array();
   for (const Sensor& sensor : places.readings.sensors)
-    page["points"].push_back({{"position_m", VectorJson(sensor.position)}, {"normal", VectorJson(sensor.normal)}});
+    page["points"].push_back(
+        {{"position_m", VectorJson(sensor.position)}, {"normal", VectorJson(sensor.normal)}});
   page["point_of_reading"] = places.readings.sensor_of_reading;
   page["point_light"] = LightJson(places.light, 0, count);
   page["relative_model_error"] = places.relative_model_error;

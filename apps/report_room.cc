@@ -86,16 +86,11 @@ json ReportRoomJson(const FittedRoom& fitted, int max_cells) {
   const Eigen::MatrixXd total = CellMeans(patches, display, fitted.element_lx);
   const Eigen::MatrixXd direct = CellMeans(patches, display, fitted.element_direct_lx);
   const Eigen::AlignedBox3d box = fitted.room.scene.Bounds();
-  return {{"facets", FacetsJson(fitted, display)},
-          {"cells", CellPlacesJson(fitted, display)},
-          {"elements", patches.elements.size()},
-          {"merged", display.merged},
-          {"total", Base64Floats(total.transpose())},
-          {"direct", Base64Shorts(DirectShares(direct, total))},
-          {"materials", fitted.room.scene.materials},
-          {"albedo", VectorJson(fitted.albedo)},
-          {"min_m", VectorJson(box.min())},
-          {"max_m", VectorJson(box.max())}};
+  return {{"facets", FacetsJson(fitted, display)},    {"cells", CellPlacesJson(fitted, display)},
+          {"elements", patches.elements.size()},      {"merged", display.merged},
+          {"total", Base64Floats(total.transpose())}, {"direct", Base64Shorts(DirectShares(direct, total))},
+          {"materials", fitted.room.scene.materials}, {"albedo", VectorJson(fitted.albedo)},
+          {"min_m", VectorJson(box.min())},           {"max_m", VectorJson(box.max())}};
 }
 
 json ReportLuminairesJson(const FittedRoom& fitted) {

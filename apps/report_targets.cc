@@ -34,7 +34,8 @@ void TakeTask(const std::string& key, TargetArea& area) {
 
 double Share(const TomlCursor& value) {
   const double share = value.NumberAbove(0, "0..1");
-  if (share > 1) throw value.Error("expected a share in 0..1, got " + value.Shown() + "; 60 % is written 0.6");
+  if (share > 1)
+    throw value.Error("expected a share in 0..1, got " + value.Shown() + "; 60 % is written 0.6");
   return share;
 }
 
@@ -52,8 +53,8 @@ std::vector<Eigen::Vector2d> ReadPolygon(const TomlCursor& value) {
     area += 0.5 * (a.x() * b.y() - b.x() * a.y());
   }
   if (polygon.size() < 3 || std::abs(area) < 1e-6)
-    throw value.Error("expected three corners or more round an area, got " +
-                      std::to_string(polygon.size()) + "; write [[x, y], [x, y], [x, y], ...]");
+    throw value.Error("expected three corners or more round an area, got " + std::to_string(polygon.size()) +
+                      "; write [[x, y], [x, y], [x, y], ...]");
   return polygon;
 }
 
@@ -82,8 +83,9 @@ TargetArea ReadArea(const TomlCursor& table) {
   const auto origin = table.Find("origin_m"), polygon = table.Find("polygon_m");
   const auto height = table.Find("height_m"), margin = table.Find("margin_m");
   if (origin && (polygon || height || margin))
-    throw origin->Error("expected origin_m with its edges, or polygon_m, height_m and margin_m, got both; "
-                        "remove one");
+    throw origin->Error(
+        "expected origin_m with its edges, or polygon_m, height_m and margin_m, got both; "
+        "remove one");
   if (polygon && margin)
     throw margin->Error("expected it beside the whole floor only, got polygon_m too; remove it");
   if (height) area.height_m = height->NumberAtLeast(0, "m");
@@ -109,6 +111,16 @@ TargetObserver ReadObserver(const TomlCursor& table) {
 
 std::string Vector3Toml(const Eigen::Vector3d& v) {
   return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x(), v.y(), v.z());
+}
+
+// "+x", or the angle from +x where it lies along no axis.
+std::string DirectionName(const Eigen::Vector3d& direction) {
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(direction[axis]) > 0.999)
+      return (direction[axis] > 0 ? "+" : "-") + std::string(1, "xy"[axis]);
+  }
+  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  return fmt::format("{:.0f} degrees from +x", kDegrees * std::atan2(direction.y(), direction.x()));
 }
 
 }  // namespace
@@ -164,11 +176,12 @@ ReportTargets DefaultTargets(const Scene& scene) {
   const Eigen::Vector3d centre = floor->origin + 0.5 * (floor->edge_u + floor->edge_v) + kSeatedEyeM * up;
   // Just off the wall: a head leans against nothing.
   constexpr double kOffWallM = 0.2;
-  const double half_u = 0.5 * floor->edge_u.norm() - kOffWallM, half_v = 0.5 * floor->edge_v.norm() - kOffWallM;
-  for (const auto& [name, direction, back_m] :
-       {std::tuple("Looking along +u", u, half_u), std::tuple("Looking along -u", Eigen::Vector3d(-u), half_u),
-        std::tuple("Looking along +v", v, half_v), std::tuple("Looking along -v", Eigen::Vector3d(-v), half_v)}) {
-    targets.observers.push_back({name, centre - back_m * direction, direction, area.ugr});
+  const double half_u = 0.5 * floor->edge_u.norm() - kOffWallM,
+               half_v = 0.5 * floor->edge_v.norm() - kOffWallM;
+  for (const auto& [direction, back_m] : {std::pair(u, half_u), std::pair(Eigen::Vector3d(-u), half_u),
+                                          std::pair(v, half_v), std::pair(Eigen::Vector3d(-v), half_v)}) {
+    targets.observers.push_back(
+        {"looking along " + DirectionName(direction), centre - back_m * direction, direction, area.ugr});
   }
   return targets;
 }

@@ -36,9 +36,9 @@ struct TargetArea {
   std::optional<double> average_lx, uniformity, ugr;
   double height_m = 0.75;
   double margin_m = kStandardMargin;
-  double spacing_m = 0;                     // 0: EN 12464-1
-  std::vector<Eigen::Vector2d> polygon_m;   // empty: none
-  std::optional<IlluminancePlane> plane;    // of edges that were given
+  double spacing_m = 0;                    // 0: EN 12464-1
+  std::vector<Eigen::Vector2d> polygon_m;  // empty: none
+  std::optional<IlluminancePlane> plane;   // of edges that were given
 };
 
 struct TargetObserver {

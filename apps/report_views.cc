@@ -110,7 +110,8 @@ double QuantileOf(std::vector<float> values, double share) {
   values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }),
                values.end());
   if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -182,9 +183,9 @@ json ReportViewsJson(const FittedRoom& fitted, const std::string& state, const R
   const LitRoom lit = LightRoom(fitted.room, luminaires, ChannelsOf(fitted));
   std::vector<ComparedView> views;
   for (const RegisteredView& view : registered) {
-    const auto photo =
-        std::find_if(session.photos.begin(), session.photos.end(),
-                     [&](const SessionPhoto& p) { return p.view == view.view && p.state == state; });
+    const auto photo = std::find_if(session.photos.begin(), session.photos.end(), [&](const SessionPhoto& p) {
+      return p.view == view.view && p.state == state;
+    });
     if (photo == session.photos.end()) continue;
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
     views.push_back(CompareView(fitted, session, lit, *photo, view,

@@ -19,7 +19,7 @@ namespace luxfit {
 constexpr double kResidualLimitPercent = 20;
 
 struct ReportViewsOptions {
-  int max_pixels = 250'000;  // of all views together
+  int max_pixels = 180'000;  // of all views together
 };
 
 // Photos taken in one state. Empty where there are none; throws as ReadLuminance does.

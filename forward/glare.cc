@@ -35,14 +35,13 @@ std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vect
   const double area_m2 = luminaire.size_m[0] * across_m * (disc ? kPi / 4 : 1.0);
   std::vector<Piece> pieces;
   for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
-    const Eigen::Vector3d at = luminaire.position + sample.a * luminaire.size_m[0] * axes.along +
-                               sample.b * across_m * axes.across;
+    const Eigen::Vector3d at =
+        luminaire.position + sample.a * luminaire.size_m[0] * axes.along + sample.b * across_m * axes.across;
     const Eigen::Vector3d to_eye = eye - at;
     const double distance_m = to_eye.norm();
     const Eigen::Vector3d direction = to_eye / distance_m;
     const double cosine = std::abs(direction.dot(luminaire.aim));
-    const double intensity_cd =
-        luminaire.flux_lm * IntensityPerLumen(luminaire, axes, direction).cd_per_lm;
+    const double intensity_cd = luminaire.flux_lm * IntensityPerLumen(luminaire, axes, direction).cd_per_lm;
     if (cosine < 1e-6 || !(intensity_cd > 0)) continue;
     pieces.push_back({at, sample.weight * area_m2 * cosine / (distance_m * distance_m),
                       intensity_cd / (area_m2 * cosine)});
@@ -62,8 +61,8 @@ std::vector<Piece> PiecesOfSphere(const Luminaire& luminaire, const Eigen::Vecto
       luminaire.flux_lm * IntensityPerLumen(luminaire, AxesOf(luminaire), normal).cd_per_lm;
   std::vector<Piece> pieces;
   for (const SurfaceSample& sample : SampleSurface(LuminaireShape::kDisc, order)) {
-    const Eigen::Vector3d at = luminaire.position + radius_m * normal +
-                               2 * radius_m * (sample.a * along + sample.b * across);
+    const Eigen::Vector3d at =
+        luminaire.position + radius_m * normal + 2 * radius_m * (sample.a * along + sample.b * across);
     pieces.push_back({at, sample.weight * area_m2 / (distance_m * distance_m), intensity_cd / area_m2});
   }
   return pieces;

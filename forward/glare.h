@@ -8,8 +8,9 @@
 // sigma: angle between the line of sight and the source; tau: angle of the plane that holds both from the
 // vertical. L_k: luminance of the luminous surface as seen, omega its solid angle, p Guth's position index,
 // E_indirect: vertical illuminance at the eye without the luminaires' own light. A luminaire is summed over
-// its luminous surface piece by piece (occlusion tested), which for a small one is CIE 117's single term. What
-// lies outside the table of CIE 117 (T/R > 3, H/R > 1.9, behind the observer) does not count, as it says.
+// its luminous surface piece by piece (occlusion tested), which for a small one is CIE 117's single term.
+// What lies outside the table of CIE 117 (T/R > 3, H/R > 1.9, behind the observer) does not count, as it
+// says.
 //
 // A luminaire dimmed to d sends d times the luminance: sums of d^2 luminaire_sum and of d E_indirect give any
 // state. Undefined for a point, whose luminous area is not known.
@@ -37,11 +38,11 @@ struct Observer {
 double PositionIndex(const Observer& observer, const Eigen::Vector3d& towards);
 
 struct GlareSource {
-  bool is_defined = true;         // false: a point
-  double sum = 0;                 // sum L^2 omega / p^2, cd^2 m^-4 sr
-  double solid_angle_sr = 0;      // of what is seen of it, wherever it stands
-  double luminance_cd_m2 = 0;     // its mean over that
-  double least_index = 0;         // of its pieces that count; 0: none does
+  bool is_defined = true;      // false: a point
+  double sum = 0;              // sum L^2 omega / p^2, cd^2 m^-4 sr
+  double solid_angle_sr = 0;   // of what is seen of it, wherever it stands
+  double luminance_cd_m2 = 0;  // its mean over that
+  double least_index = 0;      // of its pieces that count; 0: none does
 };
 
 // Of one luminaire fully on (its flux_lm). `order` pieces a side of its surface.

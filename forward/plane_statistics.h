@@ -1,4 +1,5 @@
-// What standards ask of the illuminance over an area: its mean, its least, its uniformity, and how sure they are.
+// What standards ask of the illuminance over an area: its mean, its least, its uniformity, and how sure they
+// are.
 //
 //   E_avg = mean E_i,   E_min = min E_i,   U0 = E_min / E_avg,   Ud = E_min / E_max          lx
 //   Var(E_avg) = |mean s_i|^2 + (f E_avg)^2,   Var(E_min) = |s_min|^2 + (f E_min)^2

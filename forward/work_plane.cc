@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kLeastUp = 0.99;        // cosine of what faces up
+constexpr double kLeastUp = 0.99;         // cosine of what faces up
 constexpr double kFloorThickness = 0.05;  // m
 constexpr double kStandardBand = 0.5;     // m
 constexpr double kBandShare = 0.15;       // of the shorter side
@@ -24,18 +24,16 @@ std::vector<Facet> FloorFacets(const Scene& scene) {
     floor.push_back(facet);
     lowest = std::min(lowest, facet.origin.z());
   }
-  floor.erase(
-      std::remove_if(floor.begin(), floor.end(),
-                     [&](const Facet& facet) { return facet.origin.z() > lowest + kFloorThickness; }),
-      floor.end());
+  floor.erase(std::remove_if(floor.begin(), floor.end(),
+                             [&](const Facet& facet) { return facet.origin.z() > lowest + kFloorThickness; }),
+              floor.end());
   return floor;
 }
 
 // Along the floor's largest facet, turned by whole quarters to lie nearest to +x.
 Eigen::Vector2d DirectionOf(const std::vector<Facet>& floor) {
-  const auto largest = std::max_element(floor.begin(), floor.end(), [](const Facet& a, const Facet& b) {
-    return a.AreaM2() < b.AreaM2();
-  });
+  const auto largest = std::max_element(
+      floor.begin(), floor.end(), [](const Facet& a, const Facet& b) { return a.AreaM2() < b.AreaM2(); });
   Eigen::Vector2d along = largest->edge_u.head<2>().normalized();
   if (std::abs(along.y()) > std::abs(along.x())) along = Eigen::Vector2d(along.y(), -along.x());
   return along.x() < 0 ? -along : along;
@@ -65,8 +63,8 @@ std::optional<IlluminancePlane> FloorPlane(const Scene& scene, double height_m, 
   const Eigen::Vector2d u = DirectionOf(floor), v(-u.y(), u.x());
   Eigen::AlignedBox2d box;
   for (const Facet& facet : floor) {
-    for (const auto& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1),
-                               Eigen::Vector2d(1, 1)}) {
+    for (const auto& corner :
+         {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)}) {
       if (facet.kind == FacetKind::kTriangle && corner.sum() > 1) continue;
       const Eigen::Vector2d p = facet.PointAt(corner[0], corner[1]).head<2>();
       box.extend(Eigen::Vector2d(p.dot(u), p.dot(v)));

@@ -4,9 +4,8 @@
 // that lies along the edges of its largest facet, at a height, less a margin. Points in a solid, points off
 // the floor (a room that is no rectangle) and points outside a given outline do not count.
 //
-// Metres, world frame, z up. EN 12464-1 lets a band along the walls be left out: 0.5 m, or 15 % of the shorter
-// side where that is less.
-// Source: EN 12464-1:2021, sec. 4.4 (grid, band).
+// Metres, world frame, z up. EN 12464-1 lets a band along the walls be left out: 0.5 m, or 15 % of the
+// shorter side where that is less. Source: EN 12464-1:2021, sec. 4.4 (grid, band).
 #ifndef LUXFIT_FORWARD_WORK_PLANE_H_
 #define LUXFIT_FORWARD_WORK_PLANE_H_
 

@@ -33,7 +33,8 @@ LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
 // Each luminaire alone, at every place.
 LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
   LightData data;
-  for (Eigen::Index k = 0; k < luminaires; ++k) data.dimming.emplace_back(Eigen::VectorXd::Unit(luminaires, k));
+  for (Eigen::Index k = 0; k < luminaires; ++k)
+    data.dimming.emplace_back(Eigen::VectorXd::Unit(luminaires, k));
   data.readings.reserve(places.size() * static_cast<size_t>(luminaires));
   for (const Sensor& place : places) {
     for (int k = 0; k < static_cast<int>(luminaires); ++k) {

@@ -23,6 +23,15 @@ function sizes(observer, dimming) {
   return '';
 }
 
+// A lower bound can miss a limit, never meet it.
+function judge({ observer, rating, points, reason }, sigma) {
+  if (!isNumber(observer.ugr)) return null;
+  if (reason === 'nothing glares') return badge('met');
+  if (!isNumber(rating)) return badge('open');
+  const kind = verdict(observer.ugr - rating, sigma);
+  return badge(points.length > 0 && kind === 'met' ? 'open' : kind);
+}
+
 export function glareTable(data, light) {
   const body = h('div');
   const { observers } = data.places;
@@ -36,10 +45,10 @@ export function glareTable(data, light) {
       { title: 'Eye', unit: 'm', of: (r) => vector(r.observer.eye_m, 2) },
       { title: 'Background', unit: 'cd/m\u00b2', of: (r) => (isNumber(r.background) ? digits(r.background, 3) : '\u2013') },
       { title: 'Brightest source', unit: 'cd/m\u00b2', of: (r) => digits(Math.max(0, ...r.observer.sources.map((s, k) => light.dimming[k] * s.luminance_cd_m2)), 3) },
-      { title: 'UGR', of: (r) => (isNumber(r.rating) ? h('b', null, fixed(r.rating, 1), isNumber(sigma) ? h('span', { class: 'interval' }, ' \u00b1 ', fixed(1.96 * sigma, 1)) : null) : r.reason || kNone) },
+      { title: 'UGR', of: (r) => (isNumber(r.rating) ? h('b', null, r.points.length > 0 ? '\u2265 ' : '', fixed(r.rating, 1), isNumber(sigma) ? h('span', { class: 'interval' }, ' \u00b1 ', fixed(1.96 * sigma, 1)) : null) : r.reason || kNone) },
       { title: 'Limit', of: (r) => (isNumber(r.observer.ugr) ? fixed(r.observer.ugr, 0) : '\u2013') },
-      { title: '', text: true, of: (r) => (isNumber(r.observer.ugr) && (isNumber(r.rating) || r.reason.startsWith('no luminaire')) ? badge(isNumber(r.rating) ? verdict(r.observer.ugr - r.rating, sigma) : 'met') : null) },
-      { title: '', text: true, of: (r) => sizes(r.observer, light.dimming) },
+      { title: '', text: true, of: (r) => judge(r, sigma) },
+      { title: '', text: true, of: (r) => h('span', { class: 'interval' }, r.points && r.points.length > 0 ? `leaves out ${r.points.map((k) => data.luminaires[k].id).join(', ')}: points, luminous area not known` : sizes(r.observer, light.dimming)) },
     ], rated));
   });
   return body;

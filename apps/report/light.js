@@ -93,18 +93,20 @@ export function verdict(margin, sigma) {
   return margin >= 0 ? 'met' : 'missed';
 }
 
-// Unified glare rating of an observer (forward/glare.h); null where it is not defined, with the reason.
+// Unified glare rating of an observer (forward/glare.h); null where it is not defined, with the reason. Luminaires that
+// are points are left out, since their luminous area is not known: the rating is then a lower bound.
 export function glare(observer, dimming) {
   if (observer.is_inside) return { rating: null, reason: 'the eye would be inside a solid' };
   let sum = 0, indirect = 0;
+  const points = [];
   for (let k = 0; k < dimming.length; ++k) {
     const source = observer.sources[k];
-    if (dimming[k] > 0 && !source.is_defined) return { rating: null, reason: 'a luminaire is a point: its luminous area is not known' };
+    if (dimming[k] > 0 && !source.is_defined) points.push(k);
     sum += dimming[k] * dimming[k] * source.sum;
     indirect += dimming[k] * observer.indirect_lx[k];
   }
-  if (!(indirect > 0)) return { rating: null, reason: 'no background light' };
+  if (!(indirect > 0)) return { rating: null, points, reason: 'no background light' };
   const background = indirect / Math.PI;
-  return { rating: sum > 0 ? 8 * Math.log10(0.25 * sum / background) : null, background,
-    reason: sum > 0 ? '' : 'no luminaire within the field of view' };
+  if (sum > 0) return { rating: 8 * Math.log10(0.25 * sum / background), background, points, reason: '' };
+  return { rating: null, background, points, reason: points.length > 0 ? 'luminous areas not known' : 'nothing glares' };
 }

@@ -15,6 +15,9 @@ import { findings, schedule } from './schedule.js';
 import { selfTest } from './self_test.js';
 import { WorkPlane } from './work_plane.js';
 
+const kShortNames = { answer: 'Answer', readings: 'Readings', room: 'Room', planes: 'Work planes', glare: 'Glare', curves: 'Distribution', photos: 'Photos',
+  surfaces: 'Surfaces', table: 'Table', conditions: 'Conditions', choices: 'Choices', speed: 'Speed', provenance: 'Provenance' };
+
 const card = (title, value, note) => h('div', { class: 'card' }, h('div', { class: 'card-title' }, title), h('div', { class: 'card-value' }, value), h('div', { class: 'card-note' }, note));
 
 function cards(data, planes) {
@@ -54,7 +57,7 @@ function build(data) {
     section('speed', 'Speed and accuracy of this run', null, speed(data)),
     section('provenance', 'Provenance', null, provenance(data)),
   ].filter(Boolean);
-  const nav = h('nav', { class: 'no-print', 'aria-label': 'Parts of the report' }, parts.map((p) => h('a', { href: '#' + p.id }, p.querySelector('h2').textContent)));
+  const nav = h('nav', { class: 'no-print', 'aria-label': 'Parts of the report' }, parts.map((p) => h('a', { href: '#' + p.id }, kShortNames[p.id])));
   document.getElementById('page').append(header(data), h('div', { class: 'bar no-print' }, nav, lightBar(data, light)), h('main', null, parts));
   return { data, light, room, planes };
 }

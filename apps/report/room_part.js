@@ -23,7 +23,7 @@ export class RoomPart {
     try {
       this.view = new RoomView(data, this.stage);
     } catch (error) {
-      this.view = null;
+      this.view = null; console.warn(error);
       this.stage.remove();
     }
     const flats = h('details', { class: 'flats-fold', open: !this.view }, h('summary', null, 'Plan, ceiling and walls'), this.flat.element, h('p', { class: 'note' }, this.flat.caption));

@@ -71,7 +71,8 @@ function luminaireShape(luminaire) {
   else geometry = new THREE.SphereBufferGeometry(luminaire.shape === 'sphere' ? luminaire.size_m[0] / 2 : 0.04, 24, 16);
   const material = new THREE.MeshBasicMaterial({ color: kYellow, side: THREE.DoubleSide });
   const mesh = new THREE.Mesh(geometry, material);
-  mesh.applyMatrix4(new THREE.Matrix4().makeBasis(along, across, normal).setPosition(vec(luminaire.position_m)));
+  mesh.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(along, across, normal));
+  mesh.position.copy(vec(luminaire.position_m));
   return mesh;
 }
 
@@ -139,7 +140,7 @@ export class RoomView {
     this.addLayer('cameras', data.cameras.map((c) => frustum(c, 0.45)));
     this.addLayer('tags', data.tags.map(tagSquare));
     this.pointMeshes = data.places.points.map((p) => {
-      const dot = new THREE.Mesh(new THREE.SphereBufferGeometry(0.045, 16, 12), new THREE.MeshBasicMaterial({ color: kGreen }));
+      const dot = new THREE.Mesh(new THREE.SphereBufferGeometry(0.055, 16, 12), new THREE.MeshBasicMaterial({ color: kGreen }));
       dot.position.copy(vec(p.position_m));
       return dot;
     });
@@ -221,9 +222,9 @@ export class RoomView {
       this.camera.position.copy(vec(view.position_m));
       this.controls.target.copy(vec(view.position_m).add(vec(view.forward).multiplyScalar(0.3 * radius)));
     } else if (from === 'top') {
-      this.camera.position.copy(centre).add(new THREE.Vector3(0, -0.001, 0.9 * distance));
+      this.camera.position.copy(centre).add(new THREE.Vector3(0, -0.001, 0.8 * distance));
     } else {
-      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar(0.92 * distance));
+      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar(0.74 * distance));
     }
     this.controls.update();
     this.requestRender();
