@@ -32,7 +32,14 @@ Added AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string
   return {command, options};
 }
 
+void AddRunOptions(const Added& added) {
+  added.command->add_flag("--dry-run", added.options->dry_run,
+                          "tell which stages would run and why, and do nothing");
+  added.command->add_flag("--fresh", added.options->fresh, "take nothing over from an earlier run into OUT");
+}
+
 void AddLuminairesOption(const Added& added) {
+  AddRunOptions(added);
   added.command->add_option(
       "--luminaires", added.options->earlier_luminaires,
       "result.json of an earlier fit: its luminaires count as given, such as those read "
@@ -98,6 +105,7 @@ void AddAlbedo(CLI::App& app, Invocation& invocation) {
   const Added albedo = AddSessionCommand(
       app, invocation, "albedo",
       "albedo in detail: of a room after its fit, or of an object by photometric stereo", AlbedoCommand);
+  AddRunOptions(albedo);
   AddExample(*albedo.command, "luxfit albedo office/session.toml -o out",
              "material           albedo    sigma  from radiosity    sigma  detail     unlike the rest\n"
              "wall               0.7040   0.0019          0.7040   0.0019  material   0 of 3998 elements\n"
