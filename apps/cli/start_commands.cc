@@ -4,6 +4,7 @@
 
 #include "apps/board_command.h"
 #include "apps/cli/cli.h"
+#include "apps/explain_command.h"
 
 namespace luxfit {
 namespace {
@@ -48,8 +49,27 @@ void AddBoard(CLI::App& app, Invocation& invocation) {
              "board = { type = \"aprilgrid\", columns = 5, rows = 7, tag_size_m = 0.03, spacing = 0.3 }");
 }
 
+void AddExplain(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "explain", "a warning's code, a key of the session file, or a whole result, in words");
+  const auto options = std::make_shared<ExplainCommandOptions>();
+  command->add_option("TOPIC", options->topic,
+                      "scale_undetermined, camera.response, OUT (default: what there is)");
+  AddJson(*command, options->json);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return ExplainCommand(*options); }; });
+  AddExample(
+      *command, "luxfit explain scale_undetermined",
+      "Photos alone give fluxes up to one common factor. Positions, distributions and reflectances stand; "
+      "lumens and lux do not.\n"
+      "Mend: name one luxmeter reading in `luxmeter.scale`, or ...");
+}
+
 }  // namespace
 
-void AddStartCommands(CLI::App& app, Invocation& invocation) { AddBoard(app, invocation); }
+void AddStartCommands(CLI::App& app, Invocation& invocation) {
+  AddBoard(app, invocation);
+  AddExplain(app, invocation);
+}
 
 }  // namespace luxfit
