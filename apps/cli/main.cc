@@ -8,6 +8,7 @@
 
 #include "apps/cli/cli.h"
 #include "apps/cli/parse_error.h"
+#include "apps/cli/shell_commands.h"
 #include "apps/process.h"
 #include "apps/version.h"
 #include "forward/threads.h"
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
   luxfit::AddSessionCommands(app, invocation);
   luxfit::AddForwardCommands(app, invocation);
   luxfit::AddResultCommands(app, invocation);
+  luxfit::AddShellCommands(app, invocation);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
