@@ -1,0 +1,57 @@
+// Commands on what a run left in its folder.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/cli/cli.h"
+#include "apps/commands.h"
+#include "apps/report_command.h"
+
+namespace luxfit {
+namespace {
+
+void AddCheck(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("check", "measured against predicted luxmeter readings of an earlier run");
+  const auto options = std::make_shared<CommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("--subset", options->subset,
+                      "a row for the readings of this pattern too: id or id@state, * for any text");
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return CheckCommand(*options); }; });
+  AddExample(*command, "luxfit check out --subset '*@all'",
+             "of           readings  mean lx   mean error %   mean |error| lx   % of mean   largest %\n"
+             "L1                  6    135.3          +0.85              1.17        0.87        2.92\n"
+             "...\n"
+             "*@all               7    319.1          +0.67              2.49        0.78        1.47\n"
+             "no reading disagrees: |z| stays below 3.27, the limit for so many readings");
+}
+
+void AddReport(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand("report", "one self-contained HTML page of an earlier run");
+  const auto options = std::make_shared<ReportCommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("--session", options->session,
+                      "the session file, where it is not where it was any more");
+  command->add_option("--targets", options->targets, "areas and observers with what is asked of them (TOML)");
+  command->add_option("--state", options->state, "the state shown first (the brightest)");
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return ReportCommand(*options); };
+  });
+  AddExample(*command, "luxfit report out",
+             "Work plane, state all: 40 points, mean 345.9 ± 14 lx, least 248 ± 9.8 lx, U0 0.7169 ± 0.0032\n"
+             "done      2.1 s, out/report.html, 1.7 MB");
+}
+
+}  // namespace
+
+void AddResultCommands(CLI::App& app, Invocation& invocation) {
+  AddCheck(app, invocation);
+  AddReport(app, invocation);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,139 @@
+// Commands for the beginning, before there is a session.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/board_command.h"
+#include "apps/cli/cli.h"
+#include "apps/demo_command.h"
+#include "apps/doctor_command.h"
+#include "apps/explain_command.h"
+#include "apps/init_command.h"
+
+namespace luxfit {
+namespace {
+
+void AddBoardOptions(CLI::App& sub, BoardCommandOptions& options) {
+  const auto size = [&](const std::string& flag, double& value, const std::string& help) {
+    sub.add_option(flag, value, help)->check(CLI::PositiveNumber);
+  };
+  sub.add_option("TYPE", options.type, "aprilgrid | chessboard | charuco | tags")->required();
+  sub.add_option("-o,--out", options.file, "file to write, .pdf or .svg")->required();
+  sub.add_option("--paper", options.paper, "A0 to A5, letter, legal, tabloid, or WIDTHxHEIGHT in mm")
+      ->capture_default_str();
+  sub.add_option("--columns", options.columns,
+                 "tags, inner corners (chessboard) or squares (charuco) along a row")
+      ->check(CLI::PositiveNumber);
+  sub.add_option("--rows", options.rows, "the same along a column")->check(CLI::PositiveNumber);
+  size("--tag-size", options.tag_size_m, "aprilgrid, tags: side of a black square, m (default: what fits)");
+  size("--spacing", options.spacing, "aprilgrid: gap between black squares, in tag sizes (default: 0.3)");
+  size("--square-size", options.square_size_m,
+       "chessboard, charuco: side of a square, m (default: what fits)");
+  size("--marker-size", options.marker_size_m, "charuco: side of a marker, m (default: 0.7 squares)");
+  sub.add_option("--first-id", options.first_id, "aprilgrid, charuco")->check(CLI::NonNegativeNumber);
+  sub.add_option("--ids", options.ids, "tags: ids and ranges, 0-11,20")->capture_default_str();
+  sub.add_option("--family", options.family, "aprilgrid, tags: tag family")->capture_default_str();
+  sub.add_option("--dictionary", options.dictionary, "charuco: OpenCV's name")->capture_default_str();
+  sub.add_flag("--corner-squares", options.has_corner_squares,
+               "aprilgrid: black squares between the tags' corners, as Kalibr prints");
+  sub.add_option("--border-bits", options.border_bits,
+                 "aprilgrid: cells of a tag's black border; 2: Kalibr's")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2));
+}
+
+void AddBoard(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("board", "calibration boards and room tags to print, at true scale");
+  const auto options = std::make_shared<BoardCommandOptions>();
+  AddBoardOptions(*command, *options);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return BoardCommand(*options); }; });
+  AddExample(*command, "luxfit board aprilgrid -o board.pdf",
+             "board = { type = \"aprilgrid\", columns = 5, rows = 7, tag_size_m = 0.03, spacing = 0.3 }");
+}
+
+void AddExplain(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "explain", "a warning's code, a key of the session file, or a whole result, in words");
+  const auto options = std::make_shared<ExplainCommandOptions>();
+  command->add_option("TOPIC", options->topic,
+                      "scale_undetermined, camera.response, OUT (default: what there is)");
+  AddJson(*command, options->json);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return ExplainCommand(*options); }; });
+  AddExample(
+      *command, "luxfit explain scale_undetermined",
+      "Photos alone give fluxes up to one common factor. Positions, distributions and reflectances stand; "
+      "lumens and lux do not.\n"
+      "Mend: name one luxmeter reading in `luxmeter.scale`, or ...");
+}
+
+void AddInit(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("init", "a session to start from, out of photos and a mesh; every guess is marked");
+  const auto options = std::make_shared<InitCommandOptions>();
+  command->add_option("--photos", options->photos, "folder of the photos")->required();
+  command->add_option("--mesh", options->mesh, "OBJ, PLY or glTF of the room")->required();
+  command->add_option("--tags", options->tags, "map of the tags (JSON)");
+  command
+      ->add_option("-o,--out", options->out, "folder to write session.toml, photos.csv and luxmeter.csv into")
+      ->capture_default_str();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return InitCommand(*options); }; });
+  AddExample(*command,
+             "luxfit init --photos office/photos --mesh office/room.obj --tags office/tags.json -o mine",
+             "mine/session.toml: 49 photos, 6 states, 7 materials, tags 0 1 2 3 4 5 6 7 8 9 10 11\n"
+             "check the lines that end in GUESS; then:\n"
+             "- photos.csv: exposure_s of 49 photos: they do not say it themselves\n"
+             "...");
+}
+
+void AddDoctor(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("doctor", "what this machine has, and what a session still lacks");
+  const auto options = std::make_shared<DoctorCommandOptions>();
+  command->add_option("SESSION", options->session, "the session file (TOML; default: the machine alone)");
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return DoctorCommand(*options); }; });
+  AddExample(*command, "luxfit doctor office/session.toml",
+             "good  luxfit 0.1.0, 2 cores\n"
+             "good  colmap is installed: views without tags can be placed by features\n"
+             "good  9 of 10 views show tags\n"
+             "note  no surveyed tag is seen in v08\n"
+             "      hang one there, 40 pixels a side and more, or let COLMAP place these views by features\n"
+             "...");
+}
+
+void AddDemo(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("demo", "run the office that comes with luxfit, photos to report");
+  const auto options = std::make_shared<CommandOptions>();
+  command->add_option("-o,--out", options->out, "folder for the results")->required();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return DemoCommand(*options); };
+  });
+  AddExample(*command, "luxfit demo -o demo",
+             "session office: done\n"
+             "8 views registered, reprojection RMS 0.031 px\n"
+             "...\n"
+             "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
+}
+
+}  // namespace
+
+void AddStartCommands(CLI::App& app, Invocation& invocation) {
+  AddDemo(app, invocation);
+  AddInit(app, invocation);
+  AddDoctor(app, invocation);
+  AddBoard(app, invocation);
+  AddExplain(app, invocation);
+}
+
+}  // namespace luxfit
