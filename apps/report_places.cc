@@ -19,8 +19,8 @@ constexpr double kPi = 3.14159265358979323846;
 // Odd, so that the standard's points are among the fine ones.
 void Refine(const FittedRoom& fitted, ReportPlane& plane) {
   constexpr Eigen::Index kMaxFinePoints = 800;
-  while ((plane.refined + 2) * (plane.refined + 2) * plane.grid.points.cols() <= kMaxFinePoints)
-    plane.refined += 2;
+  for (Eigen::Index side = 3; side * side * plane.grid.points.cols() <= kMaxFinePoints; side += 2)
+    plane.refined = static_cast<int>(side);
   plane.fine_grid =
       GridOf(plane.plane, plane.refined * plane.grid.count_u, plane.refined * plane.grid.count_v);
   plane.fine_kinds = ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);

@@ -28,6 +28,18 @@ struct Piece {
   double luminance_cd_m2 = 0;
 };
 
+// Of the cell of an uneven surface over its mean.
+double RelativeEmission(const Luminaire& luminaire, const SurfaceSample& sample) {
+  const Eigen::ArrayXXd& emission = luminaire.emission;
+  if (emission.size() == 0) return 1;
+  const auto cell = [](double at, Eigen::Index count) {
+    return std::clamp(static_cast<Eigen::Index>((at + 0.5) * static_cast<double>(count)), Eigen::Index{0},
+                      count - 1);
+  };
+  return emission(cell(sample.a, emission.rows()), cell(sample.b, emission.cols())) *
+         static_cast<double>(emission.size());
+}
+
 std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vector3d& eye, int order) {
   const LuminaireAxes axes = AxesOf(luminaire);
   const bool disc = luminaire.shape == LuminaireShape::kDisc;
@@ -44,7 +56,7 @@ std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vect
     const double intensity_cd = luminaire.flux_lm * IntensityPerLumen(luminaire, axes, direction).cd_per_lm;
     if (cosine < 1e-6 || !(intensity_cd > 0)) continue;
     pieces.push_back({at, sample.weight * area_m2 * cosine / (distance_m * distance_m),
-                      intensity_cd / (area_m2 * cosine)});
+                      RelativeEmission(luminaire, sample) * intensity_cd / (area_m2 * cosine)});
   }
   return pieces;
 }

@@ -15,12 +15,12 @@ function ratingSigma(data, dimming) {
   return (8 / Math.LN10) * Math.max(...shares);
 }
 
-function sizes(observer, dimming) {
-  const seen = observer.sources.filter((s, k) => dimming[k] > 0 && s.sum > 0).map((s) => s.solid_angle_sr);
-  if (seen.length === 0) return '';
-  if (seen.some((w) => w > kLargest)) return 'a source is larger than 0.1 sr: UGR rates it too mildly';
-  if (seen.some((w) => w < kSmallest)) return 'a source is smaller than 0.0003 sr: UGR rates it too harshly';
-  return '';
+function notes(data, light, rated) {
+  const points = data.luminaires.filter((l, k) => rated.some((r) => r.points && r.points.includes(k))).map((l) => l.id);
+  const seen = rated.flatMap((r) => r.observer.sources.filter((s, k) => light.dimming[k] > 0 && s.sum > 0).map((s) => s.solid_angle_sr));
+  return [points.length > 0 ? `${points.join(', ')}: fitted as points, so that their luminous areas and luminances are not known; ratings without them are lower bounds (\u2265), which can miss a limit but not meet it.` : null,
+    seen.some((w) => w > kLargest) ? 'A source is seen larger than 0.1 sr, beyond what UGR is meant for: it is rated too mildly.' : null,
+    seen.some((w) => w < kSmallest) ? 'A source is seen smaller than 0.0003 sr, beyond what UGR is meant for: it is rated too harshly.' : null].filter(Boolean);
 }
 
 // A lower bound can miss a limit, never meet it.
@@ -48,8 +48,7 @@ export function glareTable(data, light) {
       { title: 'UGR', of: (r) => (isNumber(r.rating) ? h('b', null, r.points.length > 0 ? '\u2265 ' : '', fixed(r.rating, 1), isNumber(sigma) ? h('span', { class: 'interval' }, ' \u00b1 ', fixed(1.96 * sigma, 1)) : null) : r.reason || kNone) },
       { title: 'Limit', of: (r) => (isNumber(r.observer.ugr) ? fixed(r.observer.ugr, 0) : '\u2013') },
       { title: '', text: true, of: (r) => judge(r, sigma) },
-      { title: '', text: true, of: (r) => h('span', { class: 'interval' }, r.points && r.points.length > 0 ? `leaves out ${r.points.map((k) => data.luminaires[k].id).join(', ')}: points, luminous area not known` : sizes(r.observer, light.dimming)) },
-    ], rated));
+    ], rated), notes(data, light, rated).map((n) => h('p', { class: 'note' }, n)));
   });
   return body;
 }

@@ -224,9 +224,10 @@ export class RoomView {
     } else if (from === 'top') {
       this.camera.position.copy(centre).add(new THREE.Vector3(0, -0.001, 0.8 * distance));
     } else {
-      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar(0.74 * distance));
+      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar((this.camera.aspect < 1.3 ? 0.82 : 0.74) * distance));
     }
     this.controls.update();
+    this.camera.updateMatrixWorld();
     this.requestRender();
   }
 
@@ -262,7 +263,22 @@ export class RoomView {
   // The picture as it is now, for the printed page.
   snapshot() {
     this.render();
-    return this.canvas.toDataURL('image/jpeg', 0.92);
+    const copy = document.createElement('canvas'), pen = copy.getContext('2d'), ratio = this.renderer.getPixelRatio();
+    copy.width = this.canvas.width;
+    copy.height = this.canvas.height;
+    pen.drawImage(this.canvas, 0, 0);
+    pen.font = `600 ${13 * ratio}px system-ui, sans-serif`;
+    pen.lineWidth = 3 * ratio;
+    pen.strokeStyle = '#000a';
+    for (const { element, position } of this.labels) {
+      if (element.style.display === 'none') continue;
+      const p = position.clone().project(this.camera);
+      const at = [((0.5 + 0.5 * p.x) * this.width + 7) * ratio, ((0.5 - 0.5 * p.y) * this.height - 6) * ratio];
+      pen.fillStyle = getComputedStyle(element).color;
+      pen.strokeText(element.textContent, ...at);
+      pen.fillText(element.textContent, ...at);
+    }
+    return copy.toDataURL('image/jpeg', 0.92);
   }
 
   // What is under a place of the canvas (CSS pixels): the cell and the point.

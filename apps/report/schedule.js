@@ -52,9 +52,9 @@ function opening(result) {
 export function schedule(data) {
   return table([
     { title: 'Luminaire', text: true, of: (r) => r.id },
+    { title: 'Luminous flux', unit: data.is_absolute ? 'lm' : '', of: (r) => flux(r, data) },
     { title: 'Position x, y, z', unit: 'm', of: position },
     { title: 'Aim', text: true, of: aim },
-    { title: 'Luminous flux', unit: data.is_absolute ? 'lm' : '', of: (r) => flux(r, data) },
     { title: 'Distribution', text: true, of: distribution },
     { title: 'Luminous opening', text: true, of: opening },
   ], data.result.luminaires, { class: 'schedule' });

@@ -83,6 +83,18 @@ TEST(Glare, APanelIsTheSumOfItsQuarters) {
   EXPECT_NEAR(whole, quarters, 1e-6 * whole);
 }
 
+// One half of it dark: half the area at twice the luminance.
+TEST(Glare, AnUnevenPanelIsThatOfItsBrightHalf) {
+  const RayScene rays{Scene{}};
+  Luminaire uneven = Panel({3, 0, 2.0}, 0.4, 1000);
+  uneven.emission.resize(2, 1);
+  uneven.emission << 1, 0;
+  Luminaire half = Panel({3, -0.1, 2.0}, 0.4, 1000);
+  half.size_m = {0.2, 0.4};
+  const double want = GlareOf(rays, half, kObserver, 16).sum;
+  EXPECT_NEAR(GlareOf(rays, uneven, kObserver, 16).sum, want, 1e-3 * want);
+}
+
 TEST(Glare, AnOccluderHidesASource) {
   Scene scene;
   scene.materials = {"screen"};
