@@ -67,6 +67,25 @@ TEST(WorkPlane, PointsOffTheFloorAndInSolidsDoNotCount) {
   EXPECT_EQ(Count(within, GridPointKind::kCounts), 16);
 }
 
+// Turned by 30 degrees and cut into triangles: the rectangle turns with it, whatever the diagonals.
+TEST(WorkPlane, LiesAlongATurnedRoom) {
+  const Eigen::AngleAxisd turn(0.5236, Eigen::Vector3d::UnitZ());
+  Scene scene;
+  scene.materials = {"floor"};
+  const std::vector<Eigen::Vector3d> corners = {
+      turn * Eigen::Vector3d(0, 0, 0), turn * Eigen::Vector3d(5, 0, 0), turn * Eigen::Vector3d(5, 3, 0),
+      turn * Eigen::Vector3d(0, 3, 0)};
+  for (const auto& triangle : {std::vector<Eigen::Vector3d>{corners[0], corners[1], corners[2]},
+                               std::vector<Eigen::Vector3d>{corners[0], corners[2], corners[3]}}) {
+    for (const Facet& facet : FacetsFromPolygon(triangle, 0)) scene.facets.push_back(facet);
+  }
+  const auto plane = FloorPlane(scene, 0.75, 0);
+  ASSERT_TRUE(plane);
+  EXPECT_NEAR(plane->edge_u.norm(), 5, 1e-9);
+  EXPECT_NEAR(plane->edge_v.norm(), 3, 1e-9);
+  EXPECT_TRUE(plane->edge_u.normalized().isApprox(turn * Eigen::Vector3d::UnitX(), 1e-9));
+}
+
 TEST(WorkPlane, OverAnOutline) {
   const IlluminancePlane plane = PlaneOverOutline({{1, 1}, {3, 1}, {2, 4}}, 0.8);
   EXPECT_TRUE(plane.origin.isApprox(Eigen::Vector3d(1, 1, 0.8)));
