@@ -77,7 +77,8 @@ int FitRoom(const CommandOptions& options, bool with_albedo) {
   const std::string path = context.out + "/result.json";
   if (!plan.empty()) WriteText(context.out + "/plan.svg", plan);
   WriteJson(path, result);
-  Print(options.json ? result.dump(2) + "\n" : (with_albedo ? AlbedoTable(result) : ResultTables(result)));
+  if (options.prints)
+    Print(options.json ? result.dump(2) + "\n" : (with_albedo ? AlbedoTable(result) : ResultTables(result)));
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
   return context.undetermined ? 1 : 0;
 }
