@@ -71,7 +71,9 @@ void Check(const Arguments& given, const Luminaire& luminaire) {
   if (given.shape && std::count(shapes.begin(), shapes.end(), *given.shape) == 0)
     throw Wrong("shape", ExpectedOneOf(shapes, *given.shape));
   const bool is_point = luminaire.shape == LuminaireShape::kPoint;
-  if (!is_point && !(luminaire.size_m.minCoeff() > 0))
+  const bool has_size =
+      luminaire.size_m[0] > 0 && (luminaire.shape != LuminaireShape::kRectangle || luminaire.size_m[1] > 0);
+  if (!is_point && !has_size)
     throw Wrong("size_m", "expected lengths in m > 0: two of a rectangle, one of a disc or sphere");
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/artifact.h"
 #include "apps/commands.h"
@@ -68,11 +70,11 @@ Result ReadResultOf(const std::filesystem::path& given) {
 }
 
 Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads,
-           const std::filesystem::path& luminaires) {
+           const std::optional<std::filesystem::path>& luminaires) {
   CommandOptions options;
   options.session = session.string();
   options.out = out.string();
-  options.earlier_luminaires = luminaires.string();
+  if (luminaires) options.earlier_luminaires = luminaires->string();
   options.threads = threads;
   options.prints = false;
   options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";
@@ -176,7 +178,7 @@ void BindResult(py::module_& module) {
       "read_result", &ReadResultOf, py::arg("out"),
       "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");
   module.def("fit", &Fit, py::arg("session"), py::arg("out"), py::kw_only(), py::arg("threads") = 0,
-             py::arg("luminaires") = std::filesystem::path(),
+             py::arg("luminaires") = py::none(),
              "As `luxfit run SESSION -o OUT`: registers the photos, observes, fits, checks; writes "
              "OUT/result.json and "
              "OUT/stages and returns the Result. session, out, luminaires: paths; luminaires: result.json of "
