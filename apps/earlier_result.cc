@@ -16,15 +16,17 @@ Eigen::Vector3d VectorFrom(const json& list) {
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
 
-void Replace(SessionLuminaire& luminaire, const json& fitted, const std::string& path) {
-  if (!fitted.at("flux_lm").is_number())
+void Replace(SessionLuminaire& luminaire, const json& fitted, FluxUnit unit, const std::string& path) {
+  const json& flux = unit == FluxUnit::kAny && fitted.contains("flux_relative") ? fitted["flux_relative"]
+                                                                                : fitted.at("flux_lm");
+  if (!flux.is_number())
     throw InputError({path, 0}, "luminaires",
                      "expected fluxes in lm, but that of " + Quoted(luminaire.id) +
                          " is relative; run the fit with a luxmeter reading that sets the scale");
   luminaire.line = std::max(luminaire.line, 1);  // it is described now
   luminaire.position_m = VectorFrom(fitted.at("position_m"));
   luminaire.aim = VectorFrom(fitted.at("aim"));
-  luminaire.flux_lm = fitted.at("flux_lm").get<double>();
+  luminaire.flux_lm = flux.get<double>();
   luminaire.shape = fitted.at("shape").get<std::string>();
   luminaire.size_m = fitted.at("size_m").get<std::vector<double>>();
   // A photometric file stays the session's own.
@@ -47,16 +49,8 @@ void Replace(SessionLuminaire& luminaire, const json& fitted, const std::string&
   if (fitted.contains("cosine_exponent")) luminaire.cosine_exponent = fitted["cosine_exponent"].get<double>();
 }
 
-json ReadResult(const std::string& path) {
-  json result = ReadJson(path);
-  if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
-    throw InputError({path, 0}, "format",
-                     "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
-                     "wrote");
-  return result;
-}
-
-void ReplaceLuminaires(Session& session, const json& result, bool is_held, const std::string& path) {
+void ReplaceLuminaires(Session& session, const json& result, FluxUnit unit, bool is_held,
+                       const std::string& path) {
   for (const json& fitted : result.at("luminaires")) {
     const std::string id = fitted.at("id").get<std::string>();
     const auto known = std::find_if(session.luminaires.begin(), session.luminaires.end(),
@@ -65,7 +59,7 @@ void ReplaceLuminaires(Session& session, const json& result, bool is_held, const
       throw InputError({path, 0}, "luminaires",
                        "expected luminaires of " + session.path + ", got " + Quoted(id) +
                            "; give the result of this session");
-    Replace(*known, fitted, path);
+    Replace(*known, fitted, unit, path);
     known->is_held = is_held;
   }
 }
@@ -76,10 +70,19 @@ std::runtime_error NotWhole(const std::string& path, const json::exception& e) {
 
 }  // namespace
 
+json ReadResult(const std::string& path) {
+  json result = ReadJson(path);
+  if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
+    throw InputError({path, 0}, "format",
+                     "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
+                     "wrote");
+  return result;
+}
+
 Session WithLuminairesOf(Session session, const std::string& path) {
   const json result = ReadResult(path);
   try {
-    ReplaceLuminaires(session, result, true, path);
+    ReplaceLuminaires(session, result, FluxUnit::kLumen, true, path);
   } catch (const json::exception& e) {
     throw NotWhole(path, e);
   }
@@ -87,10 +90,10 @@ Session WithLuminairesOf(Session session, const std::string& path) {
   return session;
 }
 
-Session WithResult(Session session, const std::string& path) {
+Session WithResult(Session session, const std::string& path, FluxUnit unit) {
   const json result = ReadResult(path);
   try {
-    ReplaceLuminaires(session, result, false, path);
+    ReplaceLuminaires(session, result, unit, false, path);
     for (const json& material : result.at("materials")) {
       if (!session.scene) break;
       const json &rgb = material.at("albedo_rgb"), &grey = material.at("albedo");

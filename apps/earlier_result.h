@@ -7,6 +7,7 @@
 #ifndef LUXFIT_APPS_EARLIER_RESULT_H_
 #define LUXFIT_APPS_EARLIER_RESULT_H_
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/session.h"
@@ -16,7 +17,12 @@ namespace luxfit {
 // The same with luminaires alone, which no fit then changes; reflectances stay the session's.
 Session WithLuminairesOf(Session session, const std::string& path);
 
-Session WithResult(Session session, const std::string& path);
+// Fluxes of a fit without an absolute scale are relative: refused, or taken as they are.
+enum class FluxUnit { kLumen, kAny };
+Session WithResult(Session session, const std::string& path, FluxUnit unit = FluxUnit::kLumen);
+
+// OUT/result.json. Throws where the file is something else.
+nlohmann::json ReadResult(const std::string& path);
 
 }  // namespace luxfit
 

@@ -66,6 +66,8 @@ json MaterialsJson(const Session& session, const Room& room, const SessionFit& f
                                       : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
     material["albedo_rgb"] = determined && rgb.allFinite() ? Vector(rgb) : json();
     material["sigma"] = determined ? json(sigma) : json();
+    // Also of those that nobody saw: light is reflected by them all the same.
+    material["albedo_in_model"] = fit.fit.state.albedo[static_cast<Eigen::Index>(m)];
     materials.push_back(material);
   }
   return materials;
@@ -243,11 +245,14 @@ json ResultJson(const Session& session, const Room& room, const RegisteredSessio
                 const SessionFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
+  result["session_file"] = session.path;
   result["status"] = context.undetermined ? "undetermined" : "done";
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
   result["luminaires"] = LuminairesJson(session, fit, files);
+  // Relative luminance per cd/m2: what makes the camera a luminance meter.
+  if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
   AddLuxmeter(session, fit, result);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);

@@ -7,6 +7,7 @@
 
 #include "apps/internal/choose_registration.h"
 #include "apps/internal/view_tags.h"
+#include "apps/registration_json.h"
 #include "apps/stage_calibrate.h"
 #include "apps/stages.h"
 #include "calib/luminance.h"
@@ -14,52 +15,10 @@
 namespace luxfit {
 namespace {
 
-void WriteArtifact(const RegisteredSession& registered, const RunContext& context) {
+void WriteArtifact(const Session& session, const RegisteredSession& registered, const RunContext& context) {
   nlohmann::json json = ProvenanceJson("luxfit-register-1", context.provenance);
-  json["converged"] = registered.registration.converged;
-  json["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
-  json["frame"] = registered.registration.frame;
-  json["tag_size_error"] = registered.registration.tag_size_error;
-  json["tag_size_error_sigma"] = registered.registration.tag_size_error_sigma;
-  json["focal_scale"] = registered.registration.focal_scale;
-  json["focal_scale_sigma"] = registered.registration.focal_scale_sigma;
-  json["points"] = registered.registration.points;
-  json["point_sigma_px"] = registered.registration.point_sigma_px;
+  json.update(RegistrationJson(session, registered));
   json["choices"] = ChoicesJson(context);
-  json["views"] = nlohmann::json::array();
-  for (const RegisteredView& view : registered.registration.views) {
-    std::vector<double> matrix(12);
-    Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(matrix.data()) =
-        view.cam_from_world.matrix().topRows<3>();
-    json["views"].push_back(
-        {{"view", view.view},
-         {"camera", view.camera},
-         {"cam_from_world", matrix},
-         {"position_sigma_m",
-          {view.position_sigma_m.x(), view.position_sigma_m.y(), view.position_sigma_m.z()}},
-         {"reprojection_rms_px", view.reprojection_rms_px},
-         {"method", MethodOf(view)},
-         {"tags_used", view.tags_used},
-         {"points_used", view.points_used},
-         {"corners_rejected", view.corners_rejected}});
-  }
-  json["placed_tags"] = nlohmann::json::array();
-  for (const SurveyedTag& tag : registered.registration.placed_tags) {
-    const auto list = [](const Eigen::Vector3d& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
-    json["placed_tags"].push_back({{"id", tag.id},
-                                   {"size_m", tag.size_m},
-                                   {"center_m", list(tag.center_in_world)},
-                                   {"normal", list(tag.normal_in_world)},
-                                   {"up", list(tag.up_in_world)}});
-  }
-  json["notes"] = nlohmann::json::array();
-  for (const RegistrationNote& note : registered.registration.notes) {
-    json["notes"].push_back({{"view", note.view},
-                             {"tag", note.tag_id},
-                             {"code", note.code},
-                             {"message", note.message},
-                             {"remedy", note.remedy}});
-  }
   WriteJson(context.out + "/stages/register.json", json);
 }
 
@@ -110,7 +69,7 @@ RegisteredSession RegisterSession(const Session& session, RunContext& context) {
                     registered.registration.message));
   }
   TakeFocalLengths(session, registered, context);
-  WriteArtifact(registered, context);
+  WriteArtifact(session, registered, context);
   return registered;
 }
 

@@ -69,13 +69,14 @@ Result ReadResultOf(const std::filesystem::path& given) {
   return result;
 }
 
-Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads,
+Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads, bool fresh,
            const std::optional<std::filesystem::path>& luminaires) {
   CommandOptions options;
   options.session = session.string();
   options.out = out.string();
   if (luminaires) options.earlier_luminaires = luminaires->string();
   options.threads = threads;
+  options.fresh = fresh;
   options.prints = false;
   options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";
   const py::gil_scoped_release release;
@@ -178,12 +179,14 @@ void BindResult(py::module_& module) {
       "read_result", &ReadResultOf, py::arg("out"),
       "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");
   module.def("fit", &Fit, py::arg("session"), py::arg("out"), py::kw_only(), py::arg("threads") = 0,
-             py::arg("luminaires") = py::none(),
+             py::arg("fresh") = false, py::arg("luminaires") = py::none(),
              "As `luxfit run SESSION -o OUT`: registers the photos, observes, fits, checks; writes "
              "OUT/result.json and "
              "OUT/stages and returns the Result. session, out, luminaires: paths; luminaires: result.json of "
              "an earlier "
-             "fit whose luminaires count as given. Progress goes to standard error.");
+             "fit whose luminaires count as given. Stages of an earlier run into OUT that nothing has "
+             "changed are taken "
+             "over, unless fresh. Progress goes to standard error.");
   module.attr("run") = module.attr("fit");
 }
 

@@ -14,7 +14,7 @@ codes() { tr '\0' '\n' | grep -oE '"[a-z]+(_[a-z]+)*"$' | tr -d '"'; }
   grep -Pzoh 'notes\.push_back\(\s*\{"[a-z_]+"' -r calib --include='*.cc' | codes
   sed -n '/^std::string ToString(MeshDefect/,/^}/p' forward/mesh_check.cc | grep -oE '"[a-z_]+"' | tr -d '"'
 } | sort -u >"$work/made"
-grep '^| `' docs/warnings.md | cut -d '|' -f 2 | grep -oE '`[a-z_]+`' | tr -d '`' | sort -u >"$work/documented"
+sed -n 's/^### \([a-z_]*\)$/\1/p' docs/warnings.md | sort -u >"$work/documented"
 [ "$(wc -l <"$work/made")" -gt 50 ] || { echo "only $(wc -l <"$work/made") codes found: has their form changed?" >&2; exit 1; }
 diff "$work/made" "$work/documented" | sed -n 's/^</not in docs\/warnings.md:/p; s/^>/documented, but nothing writes it:/p' >"$work/differences"
 cat "$work/differences" >&2
