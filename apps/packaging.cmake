@@ -7,8 +7,6 @@ set(documents ${CMAKE_INSTALL_DOCDIR})
 install(FILES README.md CONVENTIONS.md DESTINATION ${documents})
 install(DIRECTORY docs/ DESTINATION ${documents}/docs FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.csv")
 install(FILES apps/python/example.py DESTINATION ${documents}/examples)
-# The room that the tutorial begins with: `cp -r /usr/share/luxfit/office .`
-install(DIRECTORY fixtures/office DESTINATION ${CMAKE_INSTALL_DATADIR}/luxfit PATTERN "*.py" EXCLUDE)
 
 # Debian wants a copyright file and a packed changelog of its own form in every package; CHANGELOG.md goes beside them.
 set(maintainer "luxfit contributors <contributors@luxfit.example>")
