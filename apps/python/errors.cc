@@ -1,5 +1,6 @@
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/process.h"
 #include "apps/python/bindings.h"
@@ -21,7 +22,7 @@ py::handle& MissingProgramClass() {
 
 void Translate(std::exception_ptr thrown) {
   try {
-    if (thrown) std::rethrow_exception(thrown);
+    if (thrown) std::rethrow_exception(std::move(thrown));
   } catch (const MissingProgram& e) {
     PyErr_SetString(MissingProgramClass().ptr(), e.what());
   } catch (const py::builtin_exception& e) {

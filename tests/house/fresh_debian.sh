@@ -3,19 +3,21 @@
 # then an outside project built against the libraries. Prints how many packages came along and the seconds of each step.
 #   fresh_debian.sh FOLDER_WITH_DEBS | SOURCE [WORK_FOLDER]
 # SOURCE, a clone of the repository: the packages are built first, on another fresh Debian 12. Both are the steps of
-# apps/Dockerfile. Not a ctest: it needs root, the package debootstrap, a network and 4 GB (8 GB to build).
+# apps/Dockerfile. Not a ctest: it needs root, the package debootstrap, a network and 4 GB (8 GB to build). CCACHE_DIR, where
+# it is set, is lent to the build.
 set -eu
 given=$(realpath "$1")
 here=$(dirname "$(realpath "$0")")
 work=$(realpath -m "${2:-${TMPDIR:-/tmp}/fresh_debian}")
 mkdir -p "$work"
 root=
-trap '[ -z "$root" ] || umount "$root/proc"' EXIT
+leave() { [ -z "$root" ] || for mounted in "$root/ccache" "$root/proc"; do ! mountpoint -q "$mounted" || umount "$mounted"; done; }
+trap leave EXIT
 
 # fresh NAME: a minimal system of that name to work in from then on.
 fresh() {
   [ -d "$work/bookworm" ] || debootstrap --variant=minbase bookworm "$work/bookworm" http://deb.debian.org/debian
-  [ -z "$root" ] || umount "$root/proc"
+  leave
   root=
   rm -rf "${work:?}/$1"
   cp -a "$work/bookworm" "$work/$1"
@@ -39,14 +41,15 @@ count() { chroot "$root" dpkg-query -f . -W | wc -c; }
 debs=$given
 if [ -e "$given/CMakeLists.txt" ]; then
   fresh build
-  mkdir "$root/source"
-  git -C "$given" archive HEAD | tar -x -C "$root/source"
+  mkdir -p "$root$given" "$root/ccache"
+  git -C "$given" archive HEAD | tar -x -C "$root$given"
+  [ -z "${CCACHE_DIR:-}" ] || mount --bind "$CCACHE_DIR" "$root/ccache"
   last=$(date +%s)
-  inside 'cd /source && .ci/setup.sh'
+  inside "cd $given && .ci/setup.sh"
   step 'build: .ci/setup.sh'
-  inside 'cd /source && cmake --preset package && cmake --build build/package && cpack --preset deb'
+  inside "cd $given && export CCACHE_DIR=/ccache && cmake --preset package && cmake --build build/package && cpack --preset deb"
   step 'build: configured, compiled, packed'
-  debs=$root/source/build/package
+  debs=$root$given/build/package
 fi
 
 rm -rf "$work/debs"
