@@ -52,3 +52,14 @@ luxfit_test(apps simulate_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_simulate_test luxfit)
 luxfit_test(validation forward_reference_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(validation_forward_reference_test luxfit)
+
+# python_test(NAME LABEL): apps/NAME.py, by the Python that the module is for.
+function(python_test name label)
+  add_test(NAME apps/${name} COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/apps/${name}.py)
+  set_tests_properties(apps/${name} PROPERTIES LABELS ${label} TIMEOUT 300
+                       ENVIRONMENT "PYTHONPATH=$<TARGET_FILE_DIR:luxfit_python>;LUXFIT_FIXTURES=${PROJECT_SOURCE_DIR}/fixtures")
+endfunction()
+if(LUXFIT_PYTHON)
+  python_test(python_test fast)
+  python_test(python_example_test slow)
+endif()
