@@ -10,6 +10,7 @@
 #include "apps/commands.h"
 #include "apps/form_factors_command.h"
 #include "apps/process.h"
+#include "apps/room_commands.h"
 #include "apps/version.h"
 #include "forward/form_factors.h"
 #include "forward/threads.h"
@@ -184,6 +185,7 @@ int main(int argc, char** argv) {
   CLI::App* const form_factors_command = AddFormFactors(app, form_factors, options.threads);
   luxfit::BoardCommandOptions board;
   CLI::App* const board_command = AddBoard(app, board);
+  const auto room_commands = luxfit::AddRoomCommands(app, options.command_line, options.threads);
 
   try {
     app.parse(argc, argv);
@@ -194,6 +196,9 @@ int main(int argc, char** argv) {
   try {
     if (form_factors_command->parsed()) return luxfit::FormFactorsCommand(form_factors);
     if (board_command->parsed()) return luxfit::BoardCommand(board);
+    for (const auto& [sub, run] : room_commands) {
+      if (sub->parsed()) return run();
+    }
     for (const auto& [sub, command] : commands) {
       if (sub->parsed()) return command(options);
     }
