@@ -7,35 +7,16 @@
 #include <utility>
 
 #include "apps/check_report.h"
-#include "apps/count_luminaires.h"
 #include "apps/earlier_result.h"
 #include "apps/input_error.h"
-#include "apps/luminaire_files.h"
-#include "apps/plan_svg.h"
-#include "apps/stage_albedo.h"
+#include "apps/prepared_session.h"
+#include "apps/room_run.h"
 #include "apps/stage_calibrate.h"
 #include "apps/stage_stereo.h"
 #include "apps/stages.h"
 
 namespace luxfit {
 namespace {
-
-RunContext MakeContext(const CommandOptions& options, const Session& session) {
-  RunContext context;
-  context.out = std::filesystem::absolute(options.out).lexically_normal().string();
-  context.provenance = {options.command_line, session.input_files};
-  return context;
-}
-
-// Photos can be laid over the mesh only where the poses are in its frame.
-void ExpectSceneFrame(const Session& session, const RegisteredSession& registered) {
-  if (!session.scene || registered.registration.frame.rfind("tag ", 0) != 0) return;
-  throw std::runtime_error(
-      session.path +
-      ": registration.start: expected where three cameras or more roughly stood, since without a "
-      "tag map the poses are in the frame of " +
-      registered.registration.frame + ", got nothing; add start or tags.map");
-}
 
 void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
@@ -46,40 +27,6 @@ Session ReadRoomSession(const CommandOptions& options) {
     throw InputError({session.path, session.lights->line}, "lights",
                      "expected the session of a room, got one of an object; run luxfit albedo on it");
   return session;
-}
-
-// Everything up to the fit, and the albedo in finer detail where asked for.
-int FitRoom(const CommandOptions& options, bool with_albedo) {
-  Session session = ReadRoomSession(options);
-  if (!options.earlier_luminaires.empty())
-    session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
-  RunContext context = MakeContext(options, session);
-  nlohmann::json result;
-  std::string plan;
-  {
-    const StageTimer total(context, "total", "");
-    const Room room = LoadRoom(session, context);
-    session = LinearizeSession(std::move(session), context);
-    const RegisteredSession registered = RegisterSession(session, context);
-    ExpectSceneFrame(session, registered);
-    const SessionObservations observed = ObserveSession(session, registered, room, context);
-    session = WithCountedLuminaires(std::move(session), room, observed.observations, context);
-    const SessionFit fit = FitSession(session, room, observed, context);
-    const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
-    result = ResultJson(session, room, registered, fit, files, context);
-    if (with_albedo) {
-      const nlohmann::json albedo = AlbedoOfRoom(session, room, fit, result, context);
-      result = WithAlbedo(std::move(result), albedo, context);
-    }
-    plan = PlanSvg(session, room.scene, result);
-  }
-  result["timing_s"] = context.timing_s;
-  const std::string path = context.out + "/result.json";
-  if (!plan.empty()) WriteText(context.out + "/plan.svg", plan);
-  WriteJson(path, result);
-  Print(options.json ? result.dump(2) + "\n" : (with_albedo ? AlbedoTable(result) : ResultTables(result)));
-  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
-  return context.undetermined ? 1 : 0;
 }
 
 // How much the fit of a session stands; exit status 1 where there is no fit to begin with.
@@ -102,14 +49,16 @@ int ChartWholeFit(const CommandOptions& options, const Session& session) {
 
 }  // namespace
 
-int RunCommand(const CommandOptions& options) { return FitRoom(options, false); }
+int RunCommand(const CommandOptions& options) {
+  return RunRoom(ReadRoomSession(options), options, RoomRun::kFit);
+}
 
 int AlbedoCommand(const CommandOptions& options) {
   Session session = ReadSession(options.session);
   if (!session.lights) {
     if (session.photos.empty())
       throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
-    return FitRoom(options, true);
+    return RunRoom(std::move(session), options, RoomRun::kFitAndAlbedo);
   }
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
@@ -172,8 +121,9 @@ int RegisterCommand(const CommandOptions& options) {
   Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   LoadRoom(session, context);
-  session = LinearizeSession(std::move(session), context);
-  const RegisteredSession registered = RegisterSession(session, context);
+  const SessionInputs inputs = InputsOfStages(session, "");
+  session = LinearizeKept(std::move(session), inputs, context);
+  RegisterKept(session, inputs, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
     Print(result.dump(2) + "\n");

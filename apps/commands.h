@@ -19,6 +19,9 @@ struct CommandOptions {
   std::string command_line;  // as typed, for the artifacts
   bool json = false;         // print the result as JSON on standard output
   int threads = 0;           // 0: all cores
+  // Of run, fit and albedo.
+  bool dry_run = false;  // tell what would run and why
+  bool fresh = false;    // take nothing over from an earlier run
   // Of simulate and chart.
   double error_percent = 1;
   std::string subset;              // of check: a pattern of readings with a row of its own

@@ -7,6 +7,11 @@
 #include <utility>
 
 #include "apps/artifact.h"
+#include "apps/linearize.h"
+#include "apps/linearized_json.h"
+#include "apps/observations_json.h"
+#include "apps/registration_json.h"
+#include "apps/stage_cache.h"
 
 namespace luxfit {
 namespace {
@@ -48,15 +53,50 @@ std::vector<EstimatedLuminaire> LuminairesOf(const json& result, const Luminaire
   return found;
 }
 
+// Photos can be laid over the mesh only where the poses are in its frame.
+void ExpectSceneFrame(const Session& session, const RegisteredSession& registered) {
+  if (!session.scene || registered.registration.frame.rfind("tag ", 0) != 0) return;
+  throw std::runtime_error(
+      session.path +
+      ": registration.start: expected where three cameras or more roughly stood, since without a "
+      "tag map the poses are in the frame of " +
+      registered.registration.frame + ", got nothing; add start or tags.map");
+}
+
 }  // namespace
 
-PreparedSession PrepareSession(Session session, RunContext& context) {
+Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context) {
+  session = WithoutAmbientReadings(std::move(session), context);
+  if (session.photos.empty()) return session;
+  const json product = CachedStage("linearize", inputs.linearize, context,
+                                   [&] { return LinearizedJson(LinearizePhotos(session, context)); });
+  return WithLinearized(std::move(session), product);
+}
+
+RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context) {
+  if (linearized.photos.empty()) return {};
+  return RegistrationFromJson(CachedStage("register", inputs.registration, context, [&] {
+    return RegistrationJson(linearized, RegisterSession(ForRegistration(linearized), context));
+  }));
+}
+
+PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context) {
   Room room = LoadRoom(session, context);
-  session = LinearizeSession(std::move(session), context);
-  RegisteredSession registered = RegisterSession(session, context);
-  SessionObservations observed = ObserveSession(session, registered, room, context);
+  session = LinearizeKept(std::move(session), inputs, context);
+  RegisteredSession registered = RegisterKept(session, inputs, context);
+  ExpectSceneFrame(session, registered);
+  SessionObservations observed;
+  if (!registered.registration.views.empty()) {
+    observed = ObservationsFromJson(CachedStage("observe", inputs.observe, context, [&] {
+      return ObservationsJson(ObserveSession(ForObservation(session), registered, room, context));
+    }));
+  }
   return {std::move(session), std::move(room), std::move(registered), std::move(observed.observations),
           std::move(observed.seen)};
+}
+
+PreparedSession PrepareSession(const Session& session, RunContext& context) {
+  return PrepareSession(session, InputsOfStages(session, ""), context);
 }
 
 Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,

@@ -1,7 +1,10 @@
-// A session up to its observations, for those who fit it again and again: charts of the whole fit.
+// A session up to its observations: what a fit starts from, and those who fit again and again (charts).
 //
-// The photos are registered and observed once; what a refit changes afterwards is the room, the observations
-// or the readings. Throws as the stages do (apps/stages.h).
+//   linearize -> register -> observe, each kept in OUT/stages/ (apps/stage_cache.h) and run again only where
+//   something that it depends on has changed
+//
+// What a refit changes afterwards is the room, the observations or the readings. Throws as the stages do
+// (apps/stages.h), and where a session with a room has poses in another frame than the mesh's.
 #ifndef LUXFIT_APPS_PREPARED_SESSION_H_
 #define LUXFIT_APPS_PREPARED_SESSION_H_
 
@@ -9,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/stage_inputs.h"
 #include "apps/stages.h"
 #include "inverse/stability_score.h"
 
@@ -21,7 +25,13 @@ struct PreparedSession {
   std::vector<Observation> observations;  // of every view, not thinned
   std::vector<SeenPlace> seen;            // where luminaires show
 };
-PreparedSession PrepareSession(Session session, RunContext& context);
+// `inputs` are those of the session as it was read (InputsOfStages).
+PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context);
+PreparedSession PrepareSession(const Session& session, RunContext& context);
+
+// The first stages alone.
+Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context);
+RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context);
 
 // A fit of the session in that state, by all that `luxfit fit` does, without progress lines. Throws as
 // FitSession does.

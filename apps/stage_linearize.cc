@@ -88,9 +88,7 @@ LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, 
   return image;
 }
 
-Session LinearizeSession(Session session, RunContext& context) {
-  session = WithoutAmbientReadings(std::move(session), context);
-  if (session.photos.empty()) return session;
+Session LinearizePhotos(Session session, RunContext& context) {
   const size_t warnings_before = context.warnings.size();
   nlohmann::json artifact = ProvenanceJson("luxfit-linearize-1", context.provenance);
   session = WithBrackets(WithMetadata(std::move(session), context), context);
@@ -118,6 +116,11 @@ Session LinearizeSession(Session session, RunContext& context) {
   artifact["choices"] = ChoicesJson(context);
   WriteJson(context.out + "/stages/linearize.json", artifact);
   return session;
+}
+
+Session LinearizeSession(Session session, RunContext& context) {
+  session = WithoutAmbientReadings(std::move(session), context);
+  return session.photos.empty() ? session : LinearizePhotos(std::move(session), context);
 }
 
 }  // namespace luxfit

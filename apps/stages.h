@@ -49,8 +49,9 @@ struct RunContext {
   std::vector<Warning> warnings;
   std::vector<Choice> choices;
   std::map<std::string, double> timing_s;
-  bool undetermined = false;  // exit status 1
-  bool is_quiet = false;      // no progress lines
+  std::vector<std::string> reused_stages;  // not run: those of the last run stand
+  bool undetermined = false;               // exit status 1
+  bool is_quiet = false;                   // no progress lines
 };
 
 // Measures a stage from its making to its end, adds to context.timing_s, prints a progress line where one is
@@ -80,8 +81,9 @@ void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunC
 Room LoadRoom(const Session& session, RunContext& context);
 
 // Photos as the later stages use them: one for each view, state and camera with its bracket of exposures, the
-// cameras with their response and vignetting, readings without ambient light. Writes
-// OUT/stages/linearize.json.
+// cameras with their response and vignetting. Writes OUT/stages/linearize.json.
+Session LinearizePhotos(Session session, RunContext& context);
+// That, and readings without ambient light.
 Session LinearizeSession(Session session, RunContext& context);
 
 struct RegisteredSession {

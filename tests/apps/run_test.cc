@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include <string>
 
 #include "apps/fitted_room.h"
+#include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 
@@ -249,6 +251,35 @@ TEST_F(OfficeRun, IsReadAgainAsItWasFitted) {
     // The fit's last step freezes visibility where luminaires stood a step before.
     EXPECT_NEAR(lux, predicted_lux, 2e-3 * predicted_lux) << readings[i].id << "@" << readings[i].state;
   }
+}
+
+// What a fit reads from the folder is what it was there for; a run with nothing new says so.
+TEST_F(OfficeRun, StandsWhereNothingChanged) {
+  const auto start = std::chrono::steady_clock::now();
+  const support::ProgramRun again =
+      support::RunProgram(std::string("run ") + LUXFIT_FIXTURES + "/office/session.toml -o " + Out());
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.output, testing::HasSubstr("nothing has changed since the last run"));
+  EXPECT_THAT(again.output, testing::HasSubstr("session office: done"));
+  EXPECT_LT(took.count(), 1);
+  EXPECT_EQ(Read(Out() + "/result.json"), result_);
+}
+
+// Stages that are taken over give the very result that they gave when they ran.
+TEST_F(OfficeRun, GoesOnFromWhatStands) {
+  std::filesystem::copy(Out(), Out() + "2", std::filesystem::copy_options::recursive);
+  std::filesystem::remove(Out() + "2/result.json");
+  const std::string run = std::string("run ") + LUXFIT_FIXTURES + "/office/session.toml -o " + Out() + "2";
+  const support::ProgramRun plan = support::RunProgram(run + " --dry-run");
+  EXPECT_THAT(plan.output, testing::AllOf(testing::ContainsRegex("register +stands"),
+                                          testing::ContainsRegex("fit +runs +changed .*result.json")));
+  EXPECT_FALSE(std::filesystem::exists(Out() + "2/result.json")) << "a plan does nothing";
+  EXPECT_EQ(support::RunProgram(run).status, 0);
+  const json again = Read(Out() + "2/result.json");
+  EXPECT_EQ(again["reused_stages"], (json{"linearize", "register", "observe"}));
+  for (const char* key : {"views", "materials", "luminaires", "luxmeter", "choices", "warnings", "model"})
+    EXPECT_EQ(again[key], result_[key]) << key;
 }
 
 TEST_F(OfficeRun, SaysWhichFileTheFolderLacks) {

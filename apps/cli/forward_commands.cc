@@ -1,0 +1,142 @@
+// Commands of the forward model: nothing is fitted, or what is fitted is judged.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/cli/cli.h"
+#include "apps/commands.h"
+#include "apps/form_factors_command.h"
+#include "forward/form_factors.h"
+
+namespace luxfit {
+namespace {
+
+using Options = std::shared_ptr<CommandOptions>;
+
+void AddSessionAndOut(CLI::App& command, CommandOptions& options, Invocation& invocation) {
+  command.add_option("SESSION", options.session, "the session file (TOML)")->required();
+  command.add_option("-o,--out", options.out, "folder for the results; nothing is written outside it")
+      ->required();
+  command
+      .add_option("--error", options.error_percent,
+                  "asked of patches, rays and bounces, percent of illuminance")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  AddJson(command, options.json);
+  AddThreads(command, invocation);
+}
+
+void AddSimulate(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "simulate", "illuminance at the readings' places, everything given and nothing fitted");
+  const Options options = std::make_shared<CommandOptions>();
+  AddSessionAndOut(*command, *options, invocation);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return SimulateCommand(*options); };
+  });
+  AddExample(*command, "luxfit simulate design/session.toml -o out",
+             "session design: simulated\n"
+             "\n"
+             "reading      state               lx      direct    indirect  measured lx  error %\n"
+             "P0_0         A                 7.47        3.54        3.94            -        -\n"
+             "...");
+}
+
+// The whole fit instead of the forward model.
+void AddFitCharts(CLI::App& chart, CommandOptions& options) {
+  StabilityOptions& stability = options.stability_options;
+  CLI::Option* const degrade = chart.add_flag(
+      "--stability", options.stability,
+      "degrade the session (noise, exposure, views, ...), fit it again, and chart success and error");
+  CLI::Option* const fit =
+      chart.add_flag("--fit", options.whole_fit,
+                     "error of the whole fit against its time, over patches, views, states, ...");
+  fit->excludes(degrade);
+  chart.add_option("--trials", stability.trials, "of --stability, a level")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->needs(degrade);
+  chart.add_option("--seed", stability.seed, "of --stability's random numbers")
+      ->capture_default_str()
+      ->needs(degrade);
+  chart.add_option("--only", stability.only, "degradations of --stability, by name (default: all)")
+      ->delimiter(',')
+      ->needs(degrade);
+  const CLI::Option* const elements =
+      chart.add_option("--elements", stability.elements, "observed elements that each fit uses")
+          ->capture_default_str()
+          ->check(CLI::PositiveNumber);
+  const CLI::Option* const truth =
+      chart.add_option("--truth", stability.truth_path,
+                       "true luminaires as JSON (default: what the undegraded session gives)");
+  chart.parse_complete_callback([degrade, fit, elements, truth] {
+    if (degrade->count() + fit->count() > 0) return;
+    for (const CLI::Option* const option : {elements, truth}) {
+      if (option->count() > 0) throw CLI::RequiresError(option->get_name(), "--stability or --fit");
+    }
+  });
+}
+
+void AddChart(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("chart", "speed against accuracy: of the forward model, or of the whole fit");
+  const Options options = std::make_shared<CommandOptions>();
+  AddSessionAndOut(*command, *options, invocation);
+  command
+      ->add_option("--budget", options->budget_s, "seconds in all; points that would take longer are skipped")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  command->add_option("--result", options->earlier_result,
+                      "result.json of a fit: its luminaires and reflectances count as given");
+  AddFitCharts(*command, *options);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    options->threads = invocation.threads;
+    invocation.run = [options] { return ChartCommand(*options); };
+  });
+  AddExample(*command, "luxfit chart office/session.toml -o out --result out/result.json",
+             "session office: 21 points, 153 skipped; reference ± 0.69 %\n"
+             "\n"
+             "on the front:\n"
+             "method               rays patch m element m bounces solver                 time s   error %\n"
+             "hybrid                 16     0.8       0.2     all conjugate_gradient     0.1453     0.576\n"
+             "...");
+}
+
+void AddFormFactors(CLI::App& app, Invocation& invocation) {
+  CLI::App* const sub =
+      app.add_subcommand("formfactors", "form factors between the patches of a mesh, by any method");
+  const auto options = std::make_shared<FormFactorsCommandOptions>();
+  sub->add_option("MESH", options->mesh, "OBJ, PLY or glTF")->required();
+  sub->add_option("-o,--out", options->file, "file to write, .csv or .json")->required();
+  std::string methods;
+  for (const FormFactorMethod method : AllFormFactorMethods())
+    methods += (methods.empty() ? "" : " | ") + ToString(method);
+  sub->add_option("--method", options->method, methods)->capture_default_str();
+  sub->add_option("--rays", options->rays, "rays over the hemisphere of a patch")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--patch-size", options->patch_size_m, "longest side of a patch, m")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--unit", options->unit, "of the mesh: m | cm | mm | in | ft")->capture_default_str();
+  AddJson(*sub, options->json);
+  AddThreads(*sub, invocation);
+  sub->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return FormFactorsCommand(*options); };
+  });
+  AddExample(*sub, "luxfit formfactors office/room.obj -o factors.csv",
+             "540 patches, hybrid, 0.307 M rays, 0.129 s\n"
+             "closure error 0.0067 (1 - row sum, rms, before it is enforced), reciprocity error 0.03");
+}
+
+}  // namespace
+
+void AddForwardCommands(CLI::App& app, Invocation& invocation) {
+  AddSimulate(app, invocation);
+  AddFormFactors(app, invocation);
+  AddChart(app, invocation);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,70 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/cli/cli.h"
+#include "apps/cli/parse_error.h"
+#include "apps/cli/shell_commands.h"
+#include "apps/process.h"
+#include "apps/version.h"
+#include "forward/threads.h"
+
+namespace {
+
+// Exit statuses of docs/session-format.md.
+constexpr int kBadInput = 2, kMissingProgram = 3, kDefect = 70;
+
+std::string CommandLine(int argc, char** argv) {
+  std::string line;
+  for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + std::string(argv[i]);
+  return line;
+}
+
+int Run(const luxfit::Invocation& invocation) {
+  const luxfit::ThreadLimit limit(invocation.threads);
+  try {
+    return invocation.run();
+  } catch (const luxfit::MissingProgram& e) {
+    std::fprintf(stderr, "luxfit: %s\n", e.what());
+    return kMissingProgram;
+  } catch (const std::runtime_error& e) {
+    std::fprintf(stderr, "luxfit: %s\n", e.what());
+    return kBadInput;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "luxfit: a defect of the program, please report it with the session: %s\n",
+                 e.what());
+    return kDefect;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "luxfit: luminaires, reflectances and their uncertainty from photos of a room and luxmeter readings",
+      "luxfit"};
+  app.set_version_flag("--version", luxfit::kVersion);
+  app.require_subcommand(1);
+  luxfit::Invocation invocation;
+  invocation.command_line = CommandLine(argc, argv);
+  luxfit::AddStartCommands(app, invocation);
+  luxfit::AddSessionCommands(app, invocation);
+  luxfit::AddForwardCommands(app, invocation);
+  luxfit::AddResultCommands(app, invocation);
+  luxfit::AddRoomCommands(app, invocation);
+  luxfit::AddShellCommands(app, invocation);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    std::fprintf(stderr, "luxfit: %s\n",
+                 luxfit::ParseErrorText(app, e, std::vector<std::string>(argv + 1, argv + argc)).c_str());
+    return kBadInput;
+  }
+  return Run(invocation);
+}

@@ -1,0 +1,125 @@
+// Commands on a session: from photos to luminaires.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/cli/cli.h"
+#include "apps/commands.h"
+
+namespace luxfit {
+namespace {
+
+using Options = std::shared_ptr<CommandOptions>;
+using Command = int (*)(const CommandOptions&);
+
+struct Added {
+  CLI::App* command;
+  Options options;
+};
+
+Added AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string& name,
+                        const std::string& help, Command run) {
+  CLI::App* const command = app.add_subcommand(name, help);
+  const auto options = std::make_shared<CommandOptions>();
+  command->add_option("SESSION", options->session, "the session file (TOML)")->required();
+  command->add_option("-o,--out", options->out, "folder for the results; nothing is written outside it")
+      ->required();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback([&invocation, options, run] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options, run] { return run(*options); };
+  });
+  return {command, options};
+}
+
+void AddRunOptions(const Added& added) {
+  added.command->add_flag("--dry-run", added.options->dry_run,
+                          "tell which stages would run and why, and do nothing");
+  added.command->add_flag("--fresh", added.options->fresh, "take nothing over from an earlier run into OUT");
+}
+
+void AddLuminairesOption(const Added& added) {
+  AddRunOptions(added);
+  added.command->add_option(
+      "--luminaires", added.options->earlier_luminaires,
+      "result.json of an earlier fit: its luminaires count as given, such as those read "
+      "with covered walls");
+}
+
+void AddRun(CLI::App& app, Invocation& invocation) {
+  const Added run = AddSessionCommand(
+      app, invocation, "run", "everything: register the photos, observe, fit, check against the luxmeter",
+      RunCommand);
+  AddLuminairesOption(run);
+  AddExample(
+      *run.command, "luxfit run office/session.toml -o out",
+      "session office: done\n"
+      "8 views registered, reprojection RMS 0.031 px\n"
+      "\n"
+      "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
+      "A           1.501  2.002  2.790  ± 0.9 1.5 8.2             3592 ± 72         lambertian disc 0.65 m\n"
+      "...\n"
+      "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
+  const Added fit = AddSessionCommand(
+      app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", RunCommand);
+  AddLuminairesOption(fit);
+  AddExample(*fit.command, "luxfit fit chamber/session.toml -o out",
+             "session chamber: done\n"
+             "\n"
+             "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
+             "LED         0.560  0.596  0.085  ± 1.2 2.1 7.5              528 ± 97          table rectangle "
+             "0.86 x 0.75 m\n"
+             "...");
+}
+
+void AddCalibrate(CLI::App& app, Invocation& invocation) {
+  const Added calibrate = AddSessionCommand(
+      app, invocation, "calibrate",
+      "intrinsics of cameras and rigs, from images of a board or of the room's tags", CalibrateCommand);
+  AddExample(*calibrate.command, "luxfit calibrate rig/session.toml -o out",
+             "session stereo: done\n"
+             "13 images, OPENCV4: RMS per axis 0.120 px, held out 0.120 px, 0.1 % outliers\n"
+             "  left     f 534.03 534.16 px (± 0.43), c 341.60 234.28; direction uncertain by 0.12 px in the "
+             "middle\n"
+             "...");
+}
+
+void AddLinearize(CLI::App& app, Invocation& invocation) {
+  const Added linearize = AddSessionCommand(
+      app, invocation, "linearize", "photos to luminance: exposures, response, vignetting", LinearizeCommand);
+  AddExample(*linearize.command, "luxfit linearize office/session.toml -o out",
+             "session office: 49 views and states\ncamera cam0: response linear");
+}
+
+void AddRegister(CLI::App& app, Invocation& invocation) {
+  const Added command = AddSessionCommand(app, invocation, "register",
+                                          "a pose for every view, in the scene's frame", RegisterCommand);
+  AddExample(*command.command, "luxfit register office/session.toml -o out",
+             "v00      3 tags, reprojection RMS 0.029 px, camera centre ± 1.0 1.2 1.3 mm\n"
+             "v01      2 tags, reprojection RMS 0.009 px, camera centre ± 1.0 1.4 1.4 mm\n"
+             "...\n"
+             "warning: View v08 shows no surveyed tag that can be used; it is left out.");
+}
+
+void AddAlbedo(CLI::App& app, Invocation& invocation) {
+  const Added albedo = AddSessionCommand(
+      app, invocation, "albedo",
+      "albedo in detail: of a room after its fit, or of an object by photometric stereo", AlbedoCommand);
+  AddRunOptions(albedo);
+  AddExample(*albedo.command, "luxfit albedo office/session.toml -o out",
+             "material           albedo    sigma  from radiosity    sigma  detail     unlike the rest\n"
+             "wall               0.7040   0.0019          0.7040   0.0019  material   0 of 3998 elements\n"
+             "...");
+}
+
+}  // namespace
+
+void AddSessionCommands(CLI::App& app, Invocation& invocation) {
+  AddRun(app, invocation);
+  AddCalibrate(app, invocation);
+  AddLinearize(app, invocation);
+  AddRegister(app, invocation);
+  AddAlbedo(app, invocation);
+}
+
+}  // namespace luxfit

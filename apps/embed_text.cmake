@@ -1,0 +1,15 @@
+# Text files as string constants of a header: cmake -DOUTPUT=... -DNAMES=a;b -DFILES=a.md;b.md -P embed_text.cmake
+set(text "// Made by apps/embed_text.cmake.\n#ifndef LUXFIT_APPS_DOCS_TEXT_H_\n#define LUXFIT_APPS_DOCS_TEXT_H_\n\nnamespace luxfit {\n")
+list(LENGTH FILES count)
+math(EXPR last "${count} - 1")
+foreach(i RANGE ${last})
+  list(GET FILES ${i} file)
+  list(GET NAMES ${i} name)
+  file(READ "${file}" content)
+  # Lists and brackets of CMake's own do not get in the way of quoted text.
+  string(APPEND text "inline constexpr char ${name}[] = R\"luxfit(${content})luxfit\";\n")
+endforeach()
+string(APPEND text "}  // namespace luxfit\n\n#endif  // LUXFIT_APPS_DOCS_TEXT_H_\n")
+file(WRITE "${OUTPUT}.new" "${text}")
+file(COPY_FILE "${OUTPUT}.new" "${OUTPUT}" ONLY_IF_DIFFERENT)
+file(REMOVE "${OUTPUT}.new")

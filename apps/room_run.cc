@@ -1,0 +1,99 @@
+#include "apps/room_run.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/artifact.h"
+#include "apps/count_luminaires.h"
+#include "apps/earlier_result.h"
+#include "apps/luminaire_files.h"
+#include "apps/plan_svg.h"
+#include "apps/prepared_session.h"
+#include "apps/run_plan.h"
+#include "apps/stage_albedo.h"
+#include "apps/stage_cache.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+// The run's own files count as inputs of what it left: one that was changed or removed is made again.
+StageInputs WithOutputs(StageInputs inputs, const std::string& out) {
+  for (const char* name : {"result.json", "plan.svg"}) {
+    const std::string path = out + "/" + name;
+    inputs[name] = std::filesystem::exists(path) ? HashFile(path) : "";
+  }
+  return inputs;
+}
+
+int Show(const json& result, const CommandOptions& options, RoomRun what) {
+  const std::string text =
+      options.json ? result.dump(2) + "\n"
+                   : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
+  std::fputs(text.c_str(), stdout);
+  return result.at("status") == "done" ? 0 : 1;
+}
+
+struct RoomResult {
+  json result;
+  std::string plan_svg;
+};
+
+RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
+  const StageTimer total(context, "total", "");
+  PreparedSession prepared = PrepareSession(std::move(session), inputs, context);
+  session = WithCountedLuminaires(std::move(prepared.session), prepared.room, prepared.observations, context);
+  const SessionFit fit = FitSession(session, prepared.room, {prepared.observations, prepared.seen}, context);
+  const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
+  RoomResult made;
+  made.result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
+  if (what == RoomRun::kFitAndAlbedo) {
+    const json albedo = AlbedoOfRoom(session, prepared.room, fit, made.result, context);
+    made.result = WithAlbedo(std::move(made.result), albedo, context);
+  }
+  made.plan_svg = PlanSvg(session, prepared.room.scene, made.result);
+  return made;
+}
+
+}  // namespace
+
+RunContext MakeContext(const CommandOptions& options, const Session& session) {
+  RunContext context;
+  context.out = std::filesystem::absolute(options.out).lexically_normal().string();
+  context.provenance = {options.command_line, session.input_files};
+  return context;
+}
+
+int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
+  SessionInputs inputs = InputsOfStages(session, options.earlier_luminaires);
+  inputs.result["what is asked for"] = what == RoomRun::kFitAndAlbedo ? "albedo" : "fit";
+  RunContext context = MakeContext(options, session);
+  const std::string path = context.out + "/result.json";
+  const RunPlan plan = PlanOf(inputs, WithOutputs(inputs.result, context.out), context.out);
+  if (options.dry_run) {
+    std::fputs((options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan)).c_str(), stdout);
+    return 0;
+  }
+  if (plan.is_up_to_date && !options.fresh) {
+    std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",
+                 path.c_str());
+    return Show(ReadResult(path), options, what);
+  }
+  if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
+  if (!options.earlier_luminaires.empty())
+    session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
+  RoomResult made = FitRoom(std::move(session), inputs, what, context);
+  made.result["timing_s"] = context.timing_s;
+  made.result["reused_stages"] = context.reused_stages;
+  if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);
+  WriteJson(path, made.result);
+  KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
+  const int status = Show(made.result, options, what);
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
+  return status;
+}
+
+}  // namespace luxfit
