@@ -4,6 +4,7 @@
 
 #include "apps/cli/cli.h"
 #include "apps/export_command.h"
+#include "apps/luxmap_command.h"
 #include "apps/suggest.h"
 
 namespace luxfit {
@@ -37,8 +38,41 @@ void AddExport(CLI::App& app, Invocation& invocation) {
              "csv         8 files");
 }
 
+void AddLuxmap(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("luxmap", "new photos of a fitted room as maps of illuminance, without another fit");
+  const auto options = std::make_shared<LuxmapCommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("PHOTO", options->photos,
+                      "photos, or one table .csv: file,camera,view[,exposure_s,time,aperture,iso]")
+      ->required();
+  CLI::Option* const view =
+      command->add_option("--view", options->view, "the view of the run from which they were taken");
+  command
+      ->add_option_function<std::string>(
+          "--pose", [options](const std::string&) { options->pose_from_tags = true; },
+          "tags: where they were taken from is found by the room's tags")
+      ->check(CLI::IsMember({"tags"}))
+      ->excludes(view);
+  command->add_option("--camera", options->camera, "the camera's id (default: the only one)");
+  command->add_option("--exposure-s", options->exposure_s, "exposure time, s (default: the photo's metadata)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--state", options->state, "what should be on: warns of luminaires that are not so");
+  command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/luxmap)");
+  Complete(*command, invocation, options, LuxmapCommand);
+  AddExample(*command, "luxfit luxmap out evening.png --view v00 --exposure-s 0.234",
+             "evening.png : 74 % of the pixels know their illuminance\n"
+             "  luminaire A          at 0.30 ± 0.00\n"
+             "  ...\n"
+             "  place        seen lx             predicted lx\n"
+             "  L1           -                   125.36 ± 2.52");
+}
+
 }  // namespace
 
-void AddRoomCommands(CLI::App& app, Invocation& invocation) { AddExport(app, invocation); }
+void AddRoomCommands(CLI::App& app, Invocation& invocation) {
+  AddExport(app, invocation);
+  AddLuxmap(app, invocation);
+}
 
 }  // namespace luxfit
