@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
+#include "apps/commission_command.h"
 #include "apps/export_command.h"
 #include "apps/luxmap_command.h"
 #include "apps/suggest.h"
@@ -68,11 +69,29 @@ void AddLuxmap(CLI::App& app, Invocation& invocation) {
              "  L1           -                   125.36 ± 2.52");
 }
 
+void AddCommission(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "commission", "measured against designed, and the dimming levels that reach targets at the least power");
+  const auto options = std::make_shared<CommissionCommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("--design", options->design,
+                      "TOML: [[luminaire]] as in a session, [power_w], [[point]] with illuminance_lx");
+  command->add_option("--targets", options->targets, "TOML: [[area]] as for luxfit report");
+  command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/commission)");
+  Complete(*command, invocation, options, CommissionCommand);
+  AddExample(*command, "luxfit commission out --design design.toml",
+             "luminaire  fitted as  moved m  aim deg  flux %           light elsewhere %  verdict\n"
+             "A          A            0.003      0.0  -0.2 ± 3.9                     0.2  ok\n"
+             "B          B            0.004      0.0  -19.9 ± 3.1                    0.2  dimmed or weak: flux "
+             "by -19.9 ± 3.1 %");
+}
+
 }  // namespace
 
 void AddRoomCommands(CLI::App& app, Invocation& invocation) {
   AddExport(app, invocation);
   AddLuxmap(app, invocation);
+  AddCommission(app, invocation);
 }
 
 }  // namespace luxfit
