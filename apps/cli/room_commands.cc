@@ -4,6 +4,7 @@
 
 #include "apps/cli/cli.h"
 #include "apps/commission_command.h"
+#include "apps/dim_command.h"
 #include "apps/export_command.h"
 #include "apps/luxmap_command.h"
 #include "apps/suggest.h"
@@ -86,12 +87,37 @@ void AddCommission(CLI::App& app, Invocation& invocation) {
              "by -19.9 ± 3.1 %");
 }
 
+void AddDim(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("dim", "which luminaires can be dimmed unseen by the people present");
+  const auto options = std::make_shared<DimCommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("--person", options->persons,
+                      "x,y,z,dx,dy,dz (eye in m, direction of the gaze), a .toml of [[observer]] or a .csv; "
+                      "may be given again")
+      ->required();
+  command->add_option("--drop-percent", options->drop_percent, "of the light at each eye")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 100.0));
+  command->add_option("--state", options->state, "what is on now (default: the state with the most on)");
+  command->add_option("--design", options->design, "TOML with [power_w] (default: 100 lm/W)");
+  command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/dim)");
+  Complete(*command, invocation, options, DimCommand);
+  AddExample(*command, "luxfit dim out --person 1.0,1.2,1.2,-1,0,0", "luminaire    now  alone down to  together down to  power W\n"
+             "A           1.00           0.86              1.00     35.9\n"
+             "B           1.00           0.43              0.57     16.6\n"
+             "...\n"
+             "person 1: light at the eye 117.5 lx, drops by 10.0 ± 0.02 %\n"
+             "63.6 W of 84.5 W: 24.8 % saved");
+}
+
 }  // namespace
 
 void AddRoomCommands(CLI::App& app, Invocation& invocation) {
   AddExport(app, invocation);
   AddLuxmap(app, invocation);
   AddCommission(app, invocation);
+  AddDim(app, invocation);
 }
 
 }  // namespace luxfit
