@@ -12,6 +12,7 @@
 #include "apps/examine_session.h"
 #include "apps/process.h"
 #include "apps/session.h"
+#include "apps/terminal.h"
 #include "apps/version.h"
 
 namespace luxfit {
@@ -70,7 +71,7 @@ int DoctorCommand(const DoctorCommandOptions& options) {
       list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"mend", f.mend}});
     text = nlohmann::json{{"findings", list}}.dump(2) + "\n";
   }
-  std::fputs(text.c_str(), stdout);
+  PrintText(text);
   return is_bad ? 1 : 0;
 }
 

@@ -15,6 +15,7 @@
 #include "apps/session_draft.h"
 #include "apps/suggest.h"
 #include "apps/tag_map.h"
+#include "apps/terminal.h"
 #include "calib/camera_file.h"
 #include "calib/image.h"
 #include "calib/tags.h"
@@ -190,7 +191,7 @@ int InitCommand(const InitCommandOptions& options) {
   for (const std::string& item : to_do) text += "- " + item + "\n";
   if (options.json)
     text = nlohmann::json{{"session", (folder / "session.toml").string()}, {"to_do", to_do}}.dump(2) + "\n";
-  std::fputs(text.c_str(), stdout);
+  PrintText(text);
   return 0;
 }
 
