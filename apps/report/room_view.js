@@ -224,7 +224,7 @@ export class RoomView {
     } else if (from === 'top') {
       this.camera.position.copy(centre).add(new THREE.Vector3(0, -0.001, 0.8 * distance));
     } else {
-      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar((this.camera.aspect < 1.3 ? 0.82 : 0.74) * distance));
+      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar((this.camera.aspect < 1.3 ? 0.86 : 0.79) * distance));
     }
     this.controls.update();
     this.camera.updateMatrixWorld();
