@@ -2,7 +2,7 @@
 //
 // Parsing chooses what to run, it runs nothing. Groups of commands are one file each: cli/start_commands.cc
 // (before there is a session), cli/session_commands.cc (on a session), cli/forward_commands.cc (the forward
-// model), cli/result_commands.cc (on what a run left).
+// model), cli/result_commands.cc (on what a run left), cli/room_commands.cc (on the room that it fitted).
 #ifndef LUXFIT_APPS_CLI_CLI_H_
 #define LUXFIT_APPS_CLI_CLI_H_
 
@@ -25,6 +25,7 @@ void AddStartCommands(CLI::App& app, Invocation& invocation);
 void AddSessionCommands(CLI::App& app, Invocation& invocation);
 void AddForwardCommands(CLI::App& app, Invocation& invocation);
 void AddResultCommands(CLI::App& app, Invocation& invocation);
+void AddRoomCommands(CLI::App& app, Invocation& invocation);
 
 // Under the options of a command's help: what to type and what comes back.
 void AddExample(CLI::App& command, const std::string& typed, const std::string& output);

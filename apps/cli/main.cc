@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   luxfit::AddSessionCommands(app, invocation);
   luxfit::AddForwardCommands(app, invocation);
   luxfit::AddResultCommands(app, invocation);
+  luxfit::AddRoomCommands(app, invocation);
   luxfit::AddShellCommands(app, invocation);
   try {
     app.parse(argc, argv);
