@@ -14,11 +14,10 @@
 #include "apps/stage_calibrate.h"
 #include "apps/stage_stereo.h"
 #include "apps/stages.h"
+#include "apps/terminal.h"
 
 namespace luxfit {
 namespace {
-
-void Print(const std::string& text) { std::fputs(text.c_str(), stdout); }
 
 // The session of a command that asks for a room.
 Session ReadRoomSession(const CommandOptions& options) {
@@ -33,7 +32,7 @@ Session ReadRoomSession(const CommandOptions& options) {
 int ChartStability(const CommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
-  Print(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/stability.csv").c_str());
   return context.undetermined ? 1 : 0;
 }
@@ -42,7 +41,7 @@ int ChartWholeFit(const CommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = FitChartOfSession(
       session, {options.stability_options.elements, options.stability_options.truth_path}, context);
-  Print(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/fit.csv").c_str());
   return 0;
 }
@@ -69,7 +68,7 @@ int AlbedoCommand(const CommandOptions& options) {
   }
   result["timing_s"] = context.timing_s;
   WriteJson(context.out + "/result.json", result);
-  Print(options.json ? result.dump(2) + "\n" : StereoTable(result));
+  PrintText(options.json ? result.dump(2) + "\n" : StereoTable(result));
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"],
                (context.out + "/result.json").c_str());
   return context.undetermined ? 1 : 0;
@@ -79,7 +78,7 @@ int SimulateCommand(const CommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
-  Print(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/illuminance.csv").c_str());
   return 0;
 }
@@ -92,7 +91,7 @@ int ChartCommand(const CommandOptions& options) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact =
       ChartSession(session, {options.error_percent, options.budget_s, options.threads}, context);
-  Print(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/chart.svg").c_str());
   return 0;
 }
@@ -104,7 +103,8 @@ int LinearizeCommand(const CommandOptions& options) {
     throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
   session = LinearizeSession(std::move(session), context);
   const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
-  Print(options.json ? artifact.dump(2) + "\n" : LinearizeTable(session, artifact) + WarningText(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n"
+                         : LinearizeTable(session, artifact) + WarningText(artifact));
   return 0;
 }
 
@@ -112,7 +112,7 @@ int CalibrateCommand(const CommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = CalibrateSession(session, context);
-  Print(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
+  PrintText(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/stages/calibrate.json").c_str());
   return context.undetermined ? 1 : 0;
 }
@@ -126,7 +126,7 @@ int RegisterCommand(const CommandOptions& options) {
   RegisterKept(session, inputs, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
-    Print(result.dump(2) + "\n");
+    PrintText(result.dump(2) + "\n");
     return context.undetermined ? 1 : 0;
   }
   for (const nlohmann::json& view : result["views"]) {
@@ -140,7 +140,7 @@ int RegisterCommand(const CommandOptions& options) {
   warnings["warnings"] = nlohmann::json::array();
   for (const Warning& w : context.warnings)
     warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
-  Print(WarningText(warnings));
+  PrintText(WarningText(warnings));
   return context.undetermined ? 1 : 0;
 }
 
@@ -148,11 +148,12 @@ int CheckCommand(const CommandOptions& options) {
   const nlohmann::json result = ReadResult(options.out + "/result.json");
   const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
   if (options.json) {
-    Print(nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}
-              .dump(2) +
-          "\n");
+    PrintText(
+        nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}
+            .dump(2) +
+        "\n");
   } else {
-    Print(LuxmeterTable(result) + CheckText(check));
+    PrintText(LuxmeterTable(result) + CheckText(check));
   }
   return result["status"] == "done" ? 0 : 1;
 }

@@ -189,7 +189,8 @@ DegradedSessions::Case DegradedSessions::Degrade(const Degradation& degradation,
 
 void DegradedSessions::ObserveWithMovedTags(double sigma_m, std::mt19937_64& rng, Case& c) {
   const std::vector<Camera>& cameras = prepared_.registered.cameras;
-  if (!detections_) detections_ = DetectViews(prepared_.session, cameras, PhotosByView(prepared_.session));
+  if (!detections_)
+    detections_ = DetectViews(prepared_.session, cameras, PhotosByView(prepared_.session), c.context);
   c.session.tags.survey = WithMovedTags(c.session.tags.survey, sigma_m, rng);
   RegisteredSession registered;
   registered.cameras = cameras;

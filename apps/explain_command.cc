@@ -12,6 +12,7 @@
 #include "apps/docs_text.h"
 #include "apps/earlier_result.h"
 #include "apps/suggest.h"
+#include "apps/terminal.h"
 
 namespace luxfit {
 namespace {
@@ -143,7 +144,7 @@ int ExplainCommand(const ExplainCommandOptions& options) {
         Quoted(options.topic) + DidYouMean(options.topic, known) + " (`luxfit explain` lists them)");
   }
   if (options.json) text = nlohmann::json{{"topic", options.topic}, {"text", text}}.dump(2) + "\n";
-  std::fputs(text.c_str(), stdout);
+  PrintText(text);
   return 0;
 }
 

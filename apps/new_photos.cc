@@ -143,7 +143,7 @@ std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, S
     throw std::runtime_error("--pose tags: expected a session with tags, got one without; give --view");
   const std::vector<Camera>& cameras = fitted.registered.cameras;
   const Registration registration =
-      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session)));
+      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session), context));
   for (const RegistrationNote& note : registration.notes)
     context.warnings.push_back({note.code, note.message, note.remedy});
   std::map<std::string, Eigen::Isometry3d> poses;

@@ -14,6 +14,7 @@
 #include "apps/run_plan.h"
 #include "apps/stage_albedo.h"
 #include "apps/stage_cache.h"
+#include "apps/terminal.h"
 
 namespace luxfit {
 namespace {
@@ -33,7 +34,7 @@ int Show(const json& result, const CommandOptions& options, RoomRun what) {
   const std::string text =
       options.json ? result.dump(2) + "\n"
                    : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
-  std::fputs(text.c_str(), stdout);
+  PrintText(text);
   return result.at("status") == "done" ? 0 : 1;
 }
 
@@ -58,12 +59,25 @@ RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, R
   return made;
 }
 
+// What the stages of the last run into a folder took; nothing where there was none.
+std::map<std::string, double> LastTimes(const std::string& out) {
+  std::map<std::string, double> times_s;
+  try {
+    const json result = ReadResult(out + "/result.json");
+    for (const auto& [stage, time_s] : result.at("timing_s").items()) times_s[stage] = time_s.get<double>();
+  } catch (const std::exception&) {
+    times_s.clear();  // a first run, or a folder of something else
+  }
+  return times_s;
+}
+
 }  // namespace
 
 RunContext MakeContext(const CommandOptions& options, const Session& session) {
   RunContext context;
   context.out = std::filesystem::absolute(options.out).lexically_normal().string();
   context.provenance = {options.command_line, session.input_files};
+  context.expected_s = LastTimes(context.out);
   return context;
 }
 
@@ -74,7 +88,7 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   const std::string path = context.out + "/result.json";
   const RunPlan plan = PlanOf(inputs, WithOutputs(inputs.result, context.out), context.out);
   if (options.dry_run) {
-    std::fputs((options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan)).c_str(), stdout);
+    PrintText(options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan));
     return 0;
   }
   if (plan.is_up_to_date && !options.fresh) {

@@ -119,6 +119,7 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
   std::vector<std::optional<PhotoBlobs>> blobs(session.photos.size());
   tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
     const SessionPhoto& photo = session.photos[i];
+    Advance(context, session.photos.size());
     const auto view = std::find_if(views.begin(), views.end(),
                                    [&](const RegisteredView& v) { return v.view == photo.view; });
     if (view == views.end()) return;

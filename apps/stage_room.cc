@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages.h"
+#include "apps/terminal.h"
 #include "forward/mesh_check.h"
 #include "forward/mesh_file.h"
 #include "inverse/survey_check.h"
@@ -51,10 +52,22 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
     : context_(context), stage_(std::move(stage)), start_s_(NowS()) {
-  if (!line.empty() && !context.is_quiet) std::fprintf(stderr, "%-9s %s\n", stage_.c_str(), line.c_str());
+  if (line.empty() || context.is_quiet) return;
+  if (context.progress) context.progress->HandOver();
+  const auto last = context.expected_s.find(stage_);
+  progress_ = std::make_shared<ProgressLine>(fmt::format("{:<9} {}", stage_, line),
+                                             last == context.expected_s.end() ? 0 : last->second);
+  context.progress = progress_;
 }
 
-StageTimer::~StageTimer() { context_.timing_s[stage_] += NowS() - start_s_; }
+StageTimer::~StageTimer() {
+  context_.timing_s[stage_] += NowS() - start_s_;
+  if (progress_ && context_.progress == progress_) context_.progress.reset();
+}
+
+void Advance(const RunContext& context, size_t total) {
+  if (context.progress) context.progress->Advance(static_cast<int>(total));
+}
 
 LoadedMesh LoadMesh(const Session& session) {
   LoadedMesh mesh;

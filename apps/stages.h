@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@
 
 namespace luxfit {
 
+class ProgressLine;
+
 struct Warning {
   std::string code, message, remedy;
 };
@@ -49,12 +52,14 @@ struct RunContext {
   std::vector<Warning> warnings;
   std::vector<Choice> choices;
   std::map<std::string, double> timing_s;
-  std::vector<std::string> reused_stages;  // not run: those of the last run stand
-  bool undetermined = false;               // exit status 1
-  bool is_quiet = false;                   // no progress lines
+  std::map<std::string, double> expected_s;  // what stages took in the last run into that folder
+  std::shared_ptr<ProgressLine> progress;    // of the stage that runs, where lines are printed
+  std::vector<std::string> reused_stages;    // not run: those of the last run stand
+  bool undetermined = false;                 // exit status 1
+  bool is_quiet = false;                     // no progress lines
 };
 
-// Measures a stage from its making to its end, adds to context.timing_s, prints a progress line where one is
+// Measures a stage from its making to its end, adds to context.timing_s, shows a progress line where one is
 // given.
 class StageTimer {
  public:
@@ -67,7 +72,11 @@ class StageTimer {
   RunContext& context_;
   std::string stage_;
   double start_s_;
+  std::shared_ptr<ProgressLine> progress_;
 };
+
+// One more of `total` is done of the stage that runs; from any thread.
+void Advance(const RunContext& context, size_t total);
 
 // The mesh of a session that has a [scene], checked against the tag survey, and what is wrong with it.
 struct LoadedMesh {

@@ -10,6 +10,7 @@
 #include "apps/cli/parse_error.h"
 #include "apps/cli/shell_commands.h"
 #include "apps/process.h"
+#include "apps/terminal.h"
 #include "apps/version.h"
 #include "forward/threads.h"
 
@@ -29,14 +30,14 @@ int Run(const luxfit::Invocation& invocation) {
   try {
     return invocation.run();
   } catch (const luxfit::MissingProgram& e) {
-    std::fprintf(stderr, "luxfit: %s\n", e.what());
+    luxfit::PrintError(e.what());
     return kMissingProgram;
   } catch (const std::runtime_error& e) {
-    std::fprintf(stderr, "luxfit: %s\n", e.what());
+    luxfit::PrintError(e.what());
     return kBadInput;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "luxfit: a defect of the program, please report it with the session: %s\n",
-                 e.what());
+    luxfit::PrintError(std::string("a defect of the program, please report it with the session: ") +
+                       e.what());
     return kDefect;
   }
 }
@@ -62,8 +63,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "luxfit: %s\n",
-                 luxfit::ParseErrorText(app, e, std::vector<std::string>(argv + 1, argv + argc)).c_str());
+    luxfit::PrintError(luxfit::ParseErrorText(app, e, std::vector<std::string>(argv + 1, argv + argc)));
     return kBadInput;
   }
   return Run(invocation);

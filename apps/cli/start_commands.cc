@@ -4,7 +4,10 @@
 
 #include "apps/board_command.h"
 #include "apps/cli/cli.h"
+#include "apps/demo_command.h"
+#include "apps/doctor_command.h"
 #include "apps/explain_command.h"
+#include "apps/init_command.h"
 
 namespace luxfit {
 namespace {
@@ -65,9 +68,70 @@ void AddExplain(CLI::App& app, Invocation& invocation) {
       "Mend: name one luxmeter reading in `luxmeter.scale`, or ...");
 }
 
+void AddInit(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("init", "a session to start from, out of photos and a mesh; every guess is marked");
+  const auto options = std::make_shared<InitCommandOptions>();
+  command->add_option("--photos", options->photos, "folder of the photos")->required();
+  command->add_option("--mesh", options->mesh, "OBJ, PLY or glTF of the room")->required();
+  command->add_option("--tags", options->tags, "map of the tags (JSON)");
+  command
+      ->add_option("-o,--out", options->out, "folder to write session.toml, photos.csv and luxmeter.csv into")
+      ->capture_default_str();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return InitCommand(*options); }; });
+  AddExample(*command,
+             "luxfit init --photos office/photos --mesh office/room.obj --tags office/tags.json -o mine",
+             "mine/session.toml: 49 photos, 6 states, 7 materials, tags 0 1 2 3 4 5 6 7 8 9 10 11\n"
+             "check the lines that end in GUESS; then:\n"
+             "- photos.csv: exposure_s of 49 photos: they do not say it themselves\n"
+             "...");
+}
+
+void AddDoctor(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("doctor", "what this machine has, and what a session still lacks");
+  const auto options = std::make_shared<DoctorCommandOptions>();
+  command->add_option("SESSION", options->session, "the session file (TOML; default: the machine alone)");
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return DoctorCommand(*options); }; });
+  AddExample(*command, "luxfit doctor office/session.toml",
+             "good  luxfit 0.1.0, 2 cores\n"
+             "good  colmap is installed: views without tags can be placed by features\n"
+             "good  9 of 10 views show tags\n"
+             "note  no surveyed tag is seen in v08\n"
+             "      hang one there, 40 pixels a side and more, or let COLMAP place these views by features\n"
+             "...");
+}
+
+void AddDemo(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("demo", "run the office that comes with luxfit, photos to report");
+  const auto options = std::make_shared<CommandOptions>();
+  command->add_option("-o,--out", options->out, "folder for the results")->required();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return DemoCommand(*options); };
+  });
+  AddExample(*command, "luxfit demo -o demo",
+             "session office: done\n"
+             "8 views registered, reprojection RMS 0.031 px\n"
+             "...\n"
+             "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
+}
+
 }  // namespace
 
 void AddStartCommands(CLI::App& app, Invocation& invocation) {
+  AddDemo(app, invocation);
+  AddInit(app, invocation);
+  AddDoctor(app, invocation);
   AddBoard(app, invocation);
   AddExplain(app, invocation);
 }

@@ -25,7 +25,7 @@ class RegistrationJob {
   RegistrationJob(const Session& session, const std::vector<Camera>& cameras, const ViewPhotos& views,
                   RunContext& context)
       : session_(session), cameras_(cameras), views_(views), context_(context) {
-    detections_ = HasTags() ? DetectViews(session, cameras, views) : ViewsWithoutTags(views);
+    detections_ = HasTags() ? DetectViews(session, cameras, views, context) : ViewsWithoutTags(views);
     if (HasTags()) ExpectTags();
   }
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "apps/stages.h"
 #include "calib/luminance.h"
 #include "calib/tag_refine.h"
 
@@ -61,7 +60,7 @@ std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views) {
 }
 
 std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
-                                        const ViewPhotos& views) {
+                                        const ViewPhotos& views, const RunContext& context) {
   std::vector<ViewDetections> detections = ViewsWithoutTags(views);
   std::vector<std::pair<size_t, const SessionPhoto*>> jobs;
   size_t index = 0;
@@ -73,6 +72,7 @@ std::vector<ViewDetections> DetectViews(const Session& session, const std::vecto
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
     const SessionPhoto& photo = *jobs[i].second;
     found[i] = DetectInPhoto(session, photo, cameras[static_cast<size_t>(photo.camera)]);
+    Advance(context, jobs.size());
   });
   std::vector<std::vector<std::vector<TagDetection>>> of_view(detections.size());
   for (size_t i = 0; i < jobs.size(); ++i) of_view[jobs[i].first].push_back(found[i]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/session.h"
+#include "apps/stages.h"
 #include "calib/camera.h"
 #include "calib/registration.h"
 
@@ -18,7 +19,7 @@ ViewPhotos PhotosByView(const Session& session);
 
 // Detected in every photo of a view, refined, and combined; one entry a view, in that order.
 std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
-                                        const ViewPhotos& views);
+                                        const ViewPhotos& views, const RunContext& context);
 
 // The same entries without looking for tags.
 std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views);

@@ -59,10 +59,12 @@ class CliBadInputTest : public ::testing::Test {
       const std::string text = folder_.Read(name);
       EXPECT_FALSE(text.empty()) << name;
       const std::string extension = entry.path().extension().string();
-      EXPECT_TRUE(extension == ".json" || extension == ".csv" || extension == ".html")
+      EXPECT_TRUE(extension == ".json" || extension == ".csv" || extension == ".html" || extension == ".cbor")
           << name << ": a temporary file?";
       if (extension == ".json") {
         EXPECT_TRUE(nlohmann::json::accept(text)) << name;
+      } else if (extension == ".cbor") {
+        EXPECT_FALSE(nlohmann::json::from_cbor(text, true, false).is_discarded()) << name;
       } else {
         EXPECT_EQ(text.back(), '\n') << name;
       }
