@@ -46,6 +46,8 @@ luxfit_test(apps register_on_mesh_test LINK luxfit::calib opencv_core opencv_cal
 add_dependencies(apps_register_on_mesh_test luxfit)
 luxfit_test(apps run_test SLOW WHOLE LINK luxfit_apps truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_run_test luxfit)
+luxfit_test(apps room_commands_test SLOW WHOLE LINK luxfit::forward nlohmann_json::nlohmann_json)
+add_dependencies(apps_room_commands_test luxfit)
 luxfit_test(apps stability_test SLOW LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_stability_test luxfit)
 luxfit_test(apps simulate_test LINK nlohmann_json::nlohmann_json)
