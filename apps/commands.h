@@ -18,6 +18,7 @@ struct CommandOptions {
   std::string out;           // folder; nothing is written outside it
   std::string command_line;  // as typed, for the artifacts
   bool json = false;         // print the result as JSON on standard output
+  bool prints = true;        // run and fit: the result on standard output
   int threads = 0;           // 0: all cores
   // Of run, fit and albedo.
   bool dry_run = false;  // tell what would run and why

@@ -13,10 +13,10 @@
 namespace luxfit {
 
 struct CommissionCommandOptions {
-  std::string out;               // of the run
-  std::string design;            // TOML; empty: no comparison
-  std::string targets;           // TOML of areas (docs/report.md, "Targets"); empty: the design's points alone
-  std::string session, folder;   // folder empty: OUT/commission
+  std::string out;              // of the run
+  std::string design;           // TOML; empty: no comparison
+  std::string targets;          // TOML of areas (docs/report.md, "Targets"); empty: the design's points alone
+  std::string session, folder;  // folder empty: OUT/commission
   std::string command_line;
   bool json = false;
 };

@@ -133,8 +133,9 @@ FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_pat
   }
 }
 
-PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors) {
-  return LightOf(fitted.room, MakeReceivers(fitted.room, {}, sensors), fitted.luminaires, fitted.albedo);
+PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors, int rays_per_sensor) {
+  return LightOf(fitted.room, MakeReceivers(fitted.room, {}, sensors, rays_per_sensor), fitted.luminaires,
+                 fitted.albedo);
 }
 
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state) {

@@ -45,11 +45,12 @@ struct FittedRoom {
 // `session_path` in place of the one that result.json names; empty: that one.
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "");
 
-// At any places, sensors x luminaires, lx.
+// At any places, sensors x luminaires, lx; indirect light by so many rays a place.
 struct PlaceLight {
   Eigen::MatrixXd total_lx, direct_lx;
 };
-PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors);
+PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors,
+                   int rays_per_sensor = kSensorRays);
 
 // Dimming of the luminaires in a state of the session. Throws std::runtime_error naming the known states.
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state);

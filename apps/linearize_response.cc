@@ -81,6 +81,7 @@ CameraResponse EstimateForCamera(const Session& session, size_t index, RunContex
       "simplest whose error on exposures held out is the best's within its standard error (counts: " +
       scores + ")";
   context.choices.push_back(choice);
+  if (context.out.empty()) return *estimate.response;
   const std::string path = fmt::format("{}/response_{}.csv", context.out, camera.id);
   WriteText(path, ResponseCsv(*estimate.response));
   artifact["file"] = path;

@@ -60,8 +60,14 @@ std::vector<Row> RowsOf(const LuxmapCommandOptions& options) {
     return RowsOfTable(options.photos[0]);
   std::vector<Row> rows;
   for (const std::string& file : options.photos)
-    rows.push_back({AbsolutePath(FindFile({file, 0}, "", "", file)), options.camera, options.view, "",
-                    options.exposure_s, std::nullopt, std::nullopt, {file, 0}});
+    rows.push_back({AbsolutePath(FindFile({file, 0}, "", "", file)),
+                    options.camera,
+                    options.view,
+                    "",
+                    options.exposure_s,
+                    std::nullopt,
+                    std::nullopt,
+                    {file, 0}});
   return rows;
 }
 

@@ -34,7 +34,7 @@ int Show(const json& result, const CommandOptions& options, RoomRun what) {
   const std::string text =
       options.json ? result.dump(2) + "\n"
                    : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
-  PrintText(text);
+  if (options.prints) PrintText(text);
   return result.at("status") == "done" ? 0 : 1;
 }
 

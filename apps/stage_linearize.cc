@@ -114,7 +114,8 @@ Session LinearizePhotos(Session session, RunContext& context) {
     artifact["warnings"].push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
   }
   artifact["choices"] = ChoicesJson(context);
-  WriteJson(context.out + "/stages/linearize.json", artifact);
+  // Readers of an earlier run (the report) have no folder of their own.
+  if (!context.out.empty()) WriteJson(context.out + "/stages/linearize.json", artifact);
   return session;
 }
 

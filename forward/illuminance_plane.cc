@@ -21,13 +21,20 @@ double SpacingOfEn12464(double length_u, double length_v) {
 
 PlaneGrid GridOf(const IlluminancePlane& plane) {
   const double length_u = plane.edge_u.norm(), length_v = plane.edge_v.norm();
-  const Eigen::Vector3d cross = plane.edge_u.cross(plane.edge_v);
-  if (!(cross.norm() > 0) || !(plane.spacing_m >= 0))
+  if (!(plane.edge_u.cross(plane.edge_v).norm() > 0) || !(plane.spacing_m >= 0))
     throw std::invalid_argument("GridOf: expected a plane with an area and a spacing >= 0");
   const double spacing = plane.spacing_m > 0 ? plane.spacing_m : SpacingOfEn12464(length_u, length_v);
+  return GridOf(plane, std::max(1, static_cast<int>(std::lround(length_u / spacing))),
+                std::max(1, static_cast<int>(std::lround(length_v / spacing))));
+}
+
+PlaneGrid GridOf(const IlluminancePlane& plane, int count_u, int count_v) {
+  const Eigen::Vector3d cross = plane.edge_u.cross(plane.edge_v);
+  if (!(cross.norm() > 0) || count_u < 1 || count_v < 1)
+    throw std::invalid_argument("GridOf: expected a plane with an area and counts >= 1");
   PlaneGrid grid;
-  grid.count_u = std::max(1, static_cast<int>(std::lround(length_u / spacing)));
-  grid.count_v = std::max(1, static_cast<int>(std::lround(length_v / spacing)));
+  grid.count_u = count_u;
+  grid.count_v = count_v;
   grid.normal = cross.normalized();
   grid.points.resize(3, static_cast<Eigen::Index>(grid.count_u) * grid.count_v);
   for (Eigen::Index k = 0; k < grid.points.cols(); ++k) {

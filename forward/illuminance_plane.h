@@ -31,6 +31,8 @@ struct PlaneGrid {
   Eigen::Matrix3Xd points;  // u fastest
 };
 PlaneGrid GridOf(const IlluminancePlane& plane);
+// With so many points along its edges, whatever its spacing. Throws for counts below 1, too.
+PlaneGrid GridOf(const IlluminancePlane& plane, int count_u, int count_v);
 
 struct PlaneOptions {
   int ray_count = 1024;  // a point, for indirect light: about 0.5 %

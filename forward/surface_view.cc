@@ -69,9 +69,11 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
                                  const ViewOptions& options, const SensorRays& rays) {
   const Facet& surface = room.scene.facets[static_cast<size_t>(facet)];
   const Eigen::Vector3d p = surface.PointAt(u, v), normal = surface.Normal();
+  ShadowOptions shadows;
+  shadows.grid = options.shadow_grid;
   double direct_lx = 0;
   for (const Luminaire& luminaire : lit.luminaires)
-    direct_lx += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal);
+    direct_lx += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal, shadows);
   Eigen::RowVectorXd indirect_lx;
   if (options.gather_rays > 0) {
     SensorRays turned;

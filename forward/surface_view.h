@@ -37,6 +37,9 @@ LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, co
 
 struct ViewOptions {
   int gather_rays = 0;  // 0: indirect light is interpolated; else gathered by so many rays a point
+  // Cells a side of a luminaire that shadows are looked for at, refined where they begin: 1 is five times as
+  // fast as 4 and misses what hides less than a luminaire's corners.
+  int shadow_grid = 4;
 };
 
 // Illuminance (lx, one a channel) of a point of a facet's front.

@@ -30,13 +30,42 @@ std::vector<Facet> FloorFacets(const Scene& scene) {
   return floor;
 }
 
-// Along the floor's largest facet, turned by whole quarters to lie nearest to +x.
+std::vector<Eigen::Vector2d> CornersOf(const Facet& facet) {
+  std::vector<Eigen::Vector2d> corners = {facet.PointAt(0, 0).head<2>(), facet.PointAt(1, 0).head<2>()};
+  if (facet.kind == FacetKind::kParallelogram) corners.emplace_back(facet.PointAt(1, 1).head<2>());
+  corners.emplace_back(facet.PointAt(0, 1).head<2>());
+  return corners;
+}
+
+Eigen::Vector2d Across(const Eigen::Vector2d& u) { return {-u.y(), u.x()}; }
+
+// In coordinates along u and across it.
+Eigen::AlignedBox2d BoxAlong(const std::vector<Facet>& floor, const Eigen::Vector2d& u) {
+  Eigen::AlignedBox2d box;
+  for (const Facet& facet : floor) {
+    for (const Eigen::Vector2d& p : CornersOf(facet)) box.extend(Eigen::Vector2d(p.dot(u), p.dot(Across(u))));
+  }
+  return box;
+}
+
+// That of the least rectangle: it has a side along an edge. Turned by whole quarters to lie nearest to +x.
 Eigen::Vector2d DirectionOf(const std::vector<Facet>& floor) {
-  const auto largest = std::max_element(
-      floor.begin(), floor.end(), [](const Facet& a, const Facet& b) { return a.AreaM2() < b.AreaM2(); });
-  Eigen::Vector2d along = largest->edge_u.head<2>().normalized();
-  if (std::abs(along.y()) > std::abs(along.x())) along = Eigen::Vector2d(along.y(), -along.x());
-  return along.x() < 0 ? -along : along;
+  Eigen::Vector2d best = Eigen::Vector2d::UnitX();
+  double least = BoxAlong(floor, best).volume();
+  constexpr size_t kMaxFacets = 200;  // of a finely cut floor: each is as good as its neighbour
+  const size_t step = floor.size() / kMaxFacets + 1;
+  for (size_t f = 0; f < floor.size(); f += step) {
+    const std::vector<Eigen::Vector2d> corners = CornersOf(floor[f]);
+    for (size_t i = 0; i < corners.size(); ++i) {
+      Eigen::Vector2d u = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+      if (std::abs(u.y()) > std::abs(u.x())) u = Eigen::Vector2d(u.y(), -u.x());
+      const double area = BoxAlong(floor, u).volume();
+      if (area > 0.999 * least) continue;
+      least = area;
+      best = u.x() < 0 ? Eigen::Vector2d(-u) : u;
+    }
+  }
+  return best;
 }
 
 bool IsWithin(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& p) {
@@ -60,16 +89,8 @@ bool IsOverFloor(const Room& room, const Eigen::Vector3d& p) {
 std::optional<IlluminancePlane> FloorPlane(const Scene& scene, double height_m, double margin_m) {
   const std::vector<Facet> floor = FloorFacets(scene);
   if (floor.empty()) return std::nullopt;
-  const Eigen::Vector2d u = DirectionOf(floor), v(-u.y(), u.x());
-  Eigen::AlignedBox2d box;
-  for (const Facet& facet : floor) {
-    for (const auto& corner :
-         {Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)}) {
-      if (facet.kind == FacetKind::kTriangle && corner.sum() > 1) continue;
-      const Eigen::Vector2d p = facet.PointAt(corner[0], corner[1]).head<2>();
-      box.extend(Eigen::Vector2d(p.dot(u), p.dot(v)));
-    }
-  }
+  const Eigen::Vector2d u = DirectionOf(floor), v = Across(u);
+  const Eigen::AlignedBox2d box = BoxAlong(floor, u);
   const double band = std::min(kStandardBand, kBandShare * box.sizes().minCoeff());
   const double margin = margin_m < 0 ? band : margin_m;
   const Eigen::Vector2d size = box.sizes().array() - 2 * margin;

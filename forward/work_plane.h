@@ -1,7 +1,7 @@
 // Where in a room illuminance is asked for: a work plane over its floor, and which points of a grid count.
 //
 // The floor is what faces up within 5 cm of the lowest such facet. The plane is the least rectangle over it
-// that lies along the edges of its largest facet, at a height, less a margin. Points in a solid, points off
+// that lies along an edge of it, at a height, less a margin. Points in a solid, points off
 // the floor (a room that is no rectangle) and points outside a given outline do not count.
 //
 // Metres, world frame, z up. EN 12464-1 lets a band along the walls be left out: 0.5 m, or 15 % of the

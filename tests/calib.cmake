@@ -31,6 +31,7 @@ luxfit_test(calib calibration_coverage_test LINK luxfit::calib opencv_core openc
 luxfit_test(calib calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib projection_uncertainty_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib corners_file_test LINK luxfit::calib)
+luxfit_test(calib encoded_image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 
 # The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
 add_executable(memorial_radiance validation/memorial_radiance.cc)

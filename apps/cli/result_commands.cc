@@ -4,6 +4,7 @@
 
 #include "apps/cli/cli.h"
 #include "apps/commands.h"
+#include "apps/report_command.h"
 
 namespace luxfit {
 namespace {
@@ -27,8 +28,30 @@ void AddCheck(CLI::App& app, Invocation& invocation) {
              "no reading disagrees: |z| stays below 3.27, the limit for so many readings");
 }
 
+void AddReport(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand("report", "one self-contained HTML page of an earlier run");
+  const auto options = std::make_shared<ReportCommandOptions>();
+  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  command->add_option("--session", options->session,
+                      "the session file, where it is not where it was any more");
+  command->add_option("--targets", options->targets, "areas and observers with what is asked of them (TOML)");
+  command->add_option("--state", options->state, "the state shown first (the brightest)");
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback([&invocation, options] {
+    options->command_line = invocation.command_line;
+    invocation.run = [options] { return ReportCommand(*options); };
+  });
+  AddExample(*command, "luxfit report out",
+             "Work plane, state all: 40 points, mean 345.9 ± 14 lx, least 248 ± 9.8 lx, U0 0.7169 ± 0.0032\n"
+             "done      2.1 s, out/report.html, 1.7 MB");
+}
+
 }  // namespace
 
-void AddResultCommands(CLI::App& app, Invocation& invocation) { AddCheck(app, invocation); }
+void AddResultCommands(CLI::App& app, Invocation& invocation) {
+  AddCheck(app, invocation);
+  AddReport(app, invocation);
+}
 
 }  // namespace luxfit

@@ -92,10 +92,10 @@ TEST_F(RoomCommands, APhotoOfAStateThatNobodyFittedIsALuxmeter) {
 }
 
 TEST_F(RoomCommands, WhatIsNotOnAsItShouldBeIsNamed) {
-  const support::ProgramRun run = Command(
-      "luxmap", support::kOfficeFolder +
-                    "photos/v00_evening.png --pose tags --exposure-s 0.206 --state all -o " +
-                    folder_->Path("tags"));
+  const support::ProgramRun run =
+      Command("luxmap", support::kOfficeFolder +
+                            "photos/v00_evening.png --pose tags --exposure-s 0.206 --state all -o " +
+                            folder_->Path("tags"));
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("luminaire B is at 0.00"));
   EXPECT_THAT(run.output, Not(HasSubstr("luminaire D is at")));
@@ -173,10 +173,10 @@ TEST_F(RoomCommands, RadianceAgrees) {
     GTEST_SKIP() << "Radiance (oconv, rtrace) is not installed";
   ASSERT_EQ(Command("export", "--only radiance").status, 0);
   const std::string scene = folder_->Path("out/export/radiance");
-  const std::string command =
-      "cd " + scene +
-      " && oconv materials.rad room.rad state_C.rad > scene.oct && rtrace -h -I -ab 8 -ad 512 -as 128 -aa 0.15 "
-      "-ar 64 -dj 0 -ds 0.1 -w scene.oct < luxmeter.pts > lux.txt";
+  const std::string command = "cd " + scene +
+                              " && oconv materials.rad room.rad state_C.rad > scene.oct && rtrace -h -I -ab "
+                              "8 -ad 512 -as 128 -aa 0.15 "
+                              "-ar 64 -dj 0 -ds 0.1 -w scene.oct < luxmeter.pts > lux.txt";
   ASSERT_EQ(std::system(command.c_str()), 0);
   std::ifstream rendered(scene + "/lux.txt"), predicted(scene + "/luxmeter_points.csv");
   std::string header, line;

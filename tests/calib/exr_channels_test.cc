@@ -69,9 +69,9 @@ TEST(FalseColours, APixelHasTheColourOfItsValue) {
   for (int v = 0; v < 20; ++v) {
     for (int u = 0; u < 200; ++u) {
       const Eigen::Vector3i colour = v == 0 && u == 1 ? UnknownColour() : FalseColour(values(v, u) / 400.0);
-      EXPECT_EQ(image.at<cv::Vec3b>(v, u), cv::Vec3b(static_cast<unsigned char>(colour[2]),
-                                                     static_cast<unsigned char>(colour[1]),
-                                                     static_cast<unsigned char>(colour[0])));
+      EXPECT_EQ(image.at<cv::Vec3b>(v, u),
+                cv::Vec3b(static_cast<unsigned char>(colour[2]), static_cast<unsigned char>(colour[1]),
+                          static_cast<unsigned char>(colour[0])));
     }
   }
 }

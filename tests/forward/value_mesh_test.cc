@@ -39,7 +39,8 @@ class Values : public testing::Test {
 };
 
 TEST_F(Values, PlyIsReadAsTheSameSurface) {
-  const Eigen::Matrix3Xi rgb = Eigen::Matrix3Xi::Constant(3, static_cast<Eigen::Index>(mesh_.faces.size()), 7);
+  const Eigen::Matrix3Xi rgb =
+      Eigen::Matrix3Xi::Constant(3, static_cast<Eigen::Index>(mesh_.faces.size()), 7);
   const Scene read = ParseScene(PlyText(mesh_, rgb), MeshFormat::kPly, "a.ply");
   double given_m2 = 0, read_m2 = 0;
   for (const Facet& f : scene_.facets) given_m2 += f.AreaM2();

@@ -14,7 +14,8 @@ namespace {
 LightRequirement AtLeast(const Eigen::VectorXd& light, double least) { return {"E", light, least}; }
 
 // The least power over a grid of dimmings that meets everything; infinity where none does.
-double BruteForce(const Eigen::VectorXd& power, const std::vector<LightRequirement>& requirements, int steps) {
+double BruteForce(const Eigen::VectorXd& power, const std::vector<LightRequirement>& requirements,
+                  int steps) {
   double least = std::numeric_limits<double>::infinity();
   const int count = static_cast<int>(power.size());
   const int points = static_cast<int>(std::pow(steps + 1, count));
@@ -68,8 +69,8 @@ TEST(DimmingPlan, IsNoWorseThanAnyPointOfAGridAndNotFarBelowTheBest) {
 
 TEST(DimmingPlan, SaysWhereAndHowMuchIsLacking) {
   const DimmingPlan plan = PlanDimming(
-      Eigen::Vector2d(10, 10),
-      {AtLeast(Eigen::Vector2d(100, 50), 120), AtLeast(Eigen::Vector2d(10, 20), 50)}, FullRange(2));
+      Eigen::Vector2d(10, 10), {AtLeast(Eigen::Vector2d(100, 50), 120), AtLeast(Eigen::Vector2d(10, 20), 50)},
+      FullRange(2));
   EXPECT_FALSE(plan.is_reached);
   EXPECT_NEAR(plan.shortage[1], 20, 1e-6);
   EXPECT_NEAR(plan.shortage[0], 0, 1e-6);

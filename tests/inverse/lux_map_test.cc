@@ -179,7 +179,8 @@ TEST(UnseenDimming, InViewIsWithinTheFieldAndNotHidden) {
   luminaire.position = {2, 0, 1.4};
   EXPECT_FALSE(IsInView(rays, luminaire, seen));  // behind the screen
   luminaire.position = {2, 0, 1.0};
-  EXPECT_FALSE(IsInView(rays, luminaire, {"above", {3, 0, 2}, {-1, 0, -1}}));  // shines down, away from the eye
+  EXPECT_FALSE(
+      IsInView(rays, luminaire, {"above", {3, 0, 2}, {-1, 0, -1}}));  // shines down, away from the eye
 }
 
 }  // namespace

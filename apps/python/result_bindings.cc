@@ -1,0 +1,193 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/artifact.h"
+#include "apps/commands.h"
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "apps/suggest.h"
+#include "forward/threads.h"
+
+namespace luxfit {
+namespace {
+
+namespace py = pybind11;
+using nlohmann::json;
+
+// result.json and, of stages/fit.json, the parameters with their covariance.
+struct Result {
+  json whole;
+  std::vector<std::string> parameter_names;
+  Eigen::VectorXd parameters;
+  RowMajorXd covariance;
+
+  const json& List(const std::string& key) const {
+    static const json kNone = json::array();
+    const auto found = whole.find(key);
+    return found == whole.end() ? kNone : *found;
+  }
+};
+
+void AddParameters(const json& artifact, Result& result) {
+  const json& parameters = artifact.at("parameters");
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  result.parameters.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const json& parameter = parameters[static_cast<size_t>(i)];
+    result.parameter_names.push_back(parameter.at("name").get<std::string>());
+    result.parameters[i] = NumberOrNan(parameter, "value");
+  }
+  const json& rows = artifact.at("covariance");
+  if (rows.size() != parameters.size()) return;
+  result.covariance.resize(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const json& value = rows[static_cast<size_t>(i)].at(static_cast<size_t>(j));
+      result.covariance(i, j) =
+          value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+Result ReadResultOf(const std::filesystem::path& given) {
+  const std::filesystem::path out = std::filesystem::is_directory(given) ? given : given.parent_path();
+  const std::filesystem::path path = std::filesystem::is_directory(given) ? given / "result.json" : given;
+  Result result{ReadJson(path.string()), {}, {}, {}};
+  if (!result.whole.is_object() || result.whole.value("format", "") != "luxfit-result-1")
+    throw std::runtime_error(
+        path.string() +
+        ": format: expected \"luxfit-result-1\"; give the folder that `luxfit run` wrote into");
+  const std::filesystem::path fit = out / "stages" / "fit.json";
+  if (std::filesystem::exists(fit)) AddParameters(ReadJson(fit.string()), result);
+  return result;
+}
+
+Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads, bool fresh,
+           const std::optional<std::filesystem::path>& luminaires) {
+  CommandOptions options;
+  options.session = session.string();
+  options.out = out.string();
+  if (luminaires) options.earlier_luminaires = luminaires->string();
+  options.threads = threads;
+  options.fresh = fresh;
+  options.prints = false;
+  options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";
+  const py::gil_scoped_release release;
+  const ThreadLimit limit(threads);
+  RunCommand(options);
+  return ReadResultOf(out);
+}
+
+Eigen::VectorXd Column(const json& list, const std::string& key) {
+  Eigen::VectorXd column(static_cast<Eigen::Index>(list.size()));
+  for (size_t i = 0; i < list.size(); ++i) column[static_cast<Eigen::Index>(i)] = NumberOrNan(list[i], key);
+  return column;
+}
+
+std::vector<std::string> Names(const json& list, const std::string& key) {
+  std::vector<std::string> names;
+  names.reserve(list.size());
+  for (const json& entry : list) names.push_back(entry.value(key, ""));
+  return names;
+}
+
+RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& names) {
+  std::vector<Eigen::Index> at;
+  for (const std::string& name : names) {
+    const auto found = std::find(result.parameter_names.begin(), result.parameter_names.end(), name);
+    if (found == result.parameter_names.end())
+      throw std::runtime_error("covariance_of: " + ExpectedOneOf(result.parameter_names, name));
+    at.push_back(found - result.parameter_names.begin());
+  }
+  if (result.covariance.size() == 0) throw std::runtime_error("covariance_of: the fit has no covariance");
+  return result.covariance(at, at);
+}
+
+}  // namespace
+
+void BindResult(py::module_& module) {
+  const auto list = [](const char* key) {
+    return [key](const Result& r) { return PythonFrom(r.List(key)); };
+  };
+  const auto vectors = [](const char* of, const char* key) {
+    return [of, key](const Result& r) { return VectorRows(r.List(of), key); };
+  };
+  const auto column = [](const char* of, const char* key) {
+    return [of, key](const Result& r) { return Column(r.List(of), key); };
+  };
+  const auto names = [](const char* of, const char* key) {
+    return [of, key](const Result& r) { return Names(r.List(of), key); };
+  };
+  py::class_<Result>(
+      module, "Result",
+      "What a fit found. Lists of dicts have the keys of result.json (docs/session-format.md); arrays "
+      "are in the order of those lists, NaN where the data do not determine a number.")
+      .def_property_readonly(
+          "whole", [](const Result& r) { return PythonFrom(r.whole); }, "All of result.json.")
+      .def_property_readonly(
+          "status", [](const Result& r) { return r.whole.value("status", ""); },
+          "done, or undetermined (see warnings).")
+      .def_property_readonly("summary", list("summary"))
+      .def_property_readonly("luminaires", list("luminaires"))
+      .def_property_readonly("materials", list("materials"))
+      .def_property_readonly("views", list("views"))
+      .def_property_readonly("luxmeter", list("luxmeter"))
+      .def_property_readonly("choices", list("choices"))
+      .def_property_readonly("warnings", list("warnings"))
+      .def_property_readonly("luminaire_ids", names("luminaires", "id"))
+      .def_property_readonly("position_m", vectors("luminaires", "position_m"), "(K, 3), world frame.")
+      .def_property_readonly("position_sigma_m", vectors("luminaires", "position_sigma_m"), "(K, 3)")
+      .def_property_readonly("aim", vectors("luminaires", "aim"), "(K, 3), unit.")
+      .def_property_readonly("flux_lm", column("luminaires", "flux_lm"), "(K,)")
+      .def_property_readonly("flux_sigma_lm", column("luminaires", "flux_sigma_lm"), "(K,)")
+      .def_property_readonly("material_names", names("materials", "name"))
+      .def_property_readonly("albedo", column("materials", "albedo"), "(M,)")
+      .def_property_readonly("albedo_sigma", column("materials", "sigma"), "(M,)")
+      .def_property_readonly("camera_position_m", vectors("views", "position_m"), "(V, 3), world frame.")
+      .def_property_readonly("reading_ids", names("luxmeter", "id"))
+      .def_property_readonly("reading_states", names("luxmeter", "state"))
+      .def_property_readonly("reading_roles", names("luxmeter", "role"), "fit, scale or check.")
+      .def_property_readonly("measured_lx", column("luxmeter", "measured_lux"), "(n,)")
+      .def_property_readonly("predicted_lx", column("luxmeter", "predicted_lux"), "(n,)")
+      .def_property_readonly("prediction_sigma_lx", column("luxmeter", "prediction_sigma_lux"),
+                             "(n,): of the prediction, model error included.")
+      .def_readonly("parameter_names", &Result::parameter_names, "Of parameters and covariance.")
+      .def_readonly(
+          "parameters", &Result::parameters,
+          "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the name says "
+          "so.")
+      .def_readonly("covariance", &Result::covariance, "(p, p) of the parameters; empty where there is none.")
+      .def("covariance_of", &CovarianceOf, py::arg("names"), "Covariance of these parameters alone.")
+      .def(
+          "position_covariance_m2",
+          [](const Result& r, const std::string& id) {
+            return CovarianceOf(r, {"position x of " + id, "position y of " + id, "position z of " + id});
+          },
+          py::arg("id"), "(3, 3) of a luminaire's estimated position.")
+      .def("__repr__", [](const Result& r) {
+        return "<luxfit.Result of " + r.whole.value("session", "?") + ", " + r.whole.value("status", "?") +
+               ">";
+      });
+  module.def(
+      "read_result", &ReadResultOf, py::arg("out"),
+      "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");
+  module.def("fit", &Fit, py::arg("session"), py::arg("out"), py::kw_only(), py::arg("threads") = 0,
+             py::arg("fresh") = false, py::arg("luminaires") = py::none(),
+             "As `luxfit run SESSION -o OUT`: registers the photos, observes, fits, checks; writes "
+             "OUT/result.json and "
+             "OUT/stages and returns the Result. session, out, luminaires: paths; luminaires: result.json of "
+             "an earlier "
+             "fit whose luminaires count as given. Stages of an earlier run into OUT that nothing has "
+             "changed are taken "
+             "over, unless fresh. Progress goes to standard error.");
+  module.attr("run") = module.attr("fit");
+}
+
+}  // namespace luxfit

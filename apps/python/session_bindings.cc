@@ -1,0 +1,200 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <limits>
+
+#include "apps/earlier_result.h"
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "apps/session.h"
+
+namespace luxfit {
+namespace {
+
+namespace py = pybind11;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+template <typename T>
+py::object OrNone(const std::optional<T>& value) {
+  return value ? py::cast(*value) : py::object(py::none());
+}
+
+py::object OrNone(const std::string& text) {
+  return text.empty() ? py::object(py::none()) : py::object(py::str(text));
+}
+
+py::object SceneDict(const Session& session) {
+  if (!session.scene) return py::none();
+  py::dict dict;
+  dict["mesh"] = session.scene->mesh;
+  dict["unit"] = session.scene->unit;
+  dict["metres_per_unit"] = session.scene->metres_per_unit;
+  dict["albedo_rgb"] = session.scene->known_albedo_rgb;
+  return dict;
+}
+
+py::list TagList(const Session& session) {
+  py::list list;
+  for (const SurveyedTag& tag : session.tags.survey) {
+    py::dict dict;
+    dict["id"] = tag.id;
+    dict["size_m"] = tag.size_m;
+    dict["center_m"] = tag.center_in_world;
+    dict["normal"] = tag.normal_in_world;
+    dict["up"] = tag.up_in_world;
+    list.append(dict);
+  }
+  return list;
+}
+
+py::list CameraList(const Session& session) {
+  py::list list;
+  for (const SessionCamera& camera : session.cameras) {
+    py::dict dict;
+    dict["id"] = camera.id;
+    dict["intrinsics"] = OrNone(camera.intrinsics);
+    dict["response"] = camera.response_path.empty() ? camera.response : camera.response_path;
+    dict["vignetting"] = camera.vignetting_path.empty() ? camera.vignetting : camera.vignetting_path;
+    dict["black_level"] = camera.black_level_counts;
+    dict["cdm2_per_count_s"] = camera.cdm2_per_count_s > 0 ? camera.cdm2_per_count_s : kNan;
+    dict["luminance_weights"] = camera.luminance_weights;
+    list.append(dict);
+  }
+  return list;
+}
+
+py::dict PhotoColumns(const Session& session) {
+  py::list file, camera, view, state;
+  Eigen::VectorXd exposure_s(static_cast<Eigen::Index>(session.photos.size()));
+  for (size_t i = 0; i < session.photos.size(); ++i) {
+    const SessionPhoto& photo = session.photos[i];
+    file.append(photo.file);
+    camera.append(session.cameras[static_cast<size_t>(photo.camera)].id);
+    view.append(photo.view);
+    state.append(photo.state);
+    exposure_s[static_cast<Eigen::Index>(i)] = photo.exposure_s > 0 ? photo.exposure_s : kNan;
+  }
+  py::dict dict;
+  dict["file"] = file;
+  dict["camera"] = camera;
+  dict["view"] = view;
+  dict["state"] = state;
+  dict["exposure_s"] = exposure_s;
+  return dict;
+}
+
+py::list LuminaireList(const Session& session) {
+  py::list list;
+  for (const SessionLuminaire& luminaire : session.luminaires) {
+    py::dict dict;
+    dict["id"] = luminaire.id;
+    dict["photometry"] = luminaire.photometry_path.empty() ? luminaire.photometry : luminaire.photometry_path;
+    dict["cosine_exponent"] = OrNone(luminaire.cosine_exponent);
+    dict["shape"] = OrNone(luminaire.shape);
+    dict["size_m"] = luminaire.size_m;
+    dict["position_m"] = OrNone(luminaire.position_m);
+    dict["position_sigma_m"] = OrNone(luminaire.position_sigma_m);
+    dict["aim"] = OrNone(luminaire.aim);
+    dict["heading"] = OrNone(luminaire.heading);
+    dict["flux_lm"] = OrNone(luminaire.flux_lm);
+    dict["flux_sigma_lm"] = OrNone(luminaire.flux_sigma_lm);
+    list.append(dict);
+  }
+  return list;
+}
+
+std::string RoleName(ReadingRole role) {
+  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
+}
+
+py::dict ReadingColumns(const Session& session) {
+  const auto n = static_cast<Eigen::Index>(session.luxmeter.readings.size());
+  py::list id, state, role;
+  RowMajorXd position(n, 3), normal(n, 3);
+  Eigen::VectorXd lux(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const SessionReading& reading = session.luxmeter.readings[static_cast<size_t>(i)];
+    id.append(reading.id);
+    state.append(reading.state);
+    role.append(RoleName(reading.role));
+    position.row(i) = reading.position_m;
+    normal.row(i) = reading.normal;
+    lux[i] = reading.is_measured ? reading.illuminance_lx : kNan;
+  }
+  py::dict dict;
+  dict["id"] = id;
+  dict["state"] = state;
+  dict["role"] = role;
+  dict["position_m"] = position;
+  dict["normal"] = normal;
+  dict["illuminance_lx"] = lux;
+  return dict;
+}
+
+py::dict States(const Session& session) {
+  py::dict states;
+  for (const SessionState& state : session.states) states[py::str(state.id)] = py::cast(state.dimming);
+  return states;
+}
+
+RowMajorXd Dimming(const Session& session) {
+  RowMajorXd dimming = RowMajorXd::Zero(static_cast<Eigen::Index>(session.states.size()),
+                                        static_cast<Eigen::Index>(session.luminaires.size()));
+  for (size_t s = 0; s < session.states.size(); ++s) {
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = session.states[s].dimming.find(session.luminaires[k].id);
+      if (on != session.states[s].dimming.end())
+        dimming(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(k)) = on->second;
+    }
+  }
+  return dimming;
+}
+
+// A folder of results, or its result.json.
+Session WithResultOf(const Session& session, std::filesystem::path out) {
+  if (std::filesystem::is_directory(out)) out /= "result.json";
+  return WithResult(session, out.string());
+}
+
+}  // namespace
+
+void BindSession(py::module_& module) {
+  py::class_<Session>(module, "Session",
+                      "A session file and the tables it names, read and checked (read_session).")
+      .def_readonly("name", &Session::name)
+      .def_readonly("path", &Session::path)
+      .def_property_readonly(
+          "scene", &SceneDict,
+          "dict: mesh, unit, metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
+      .def_property_readonly("tags", &TagList, "list of dicts: id, size_m, center_m, normal, up (3,).")
+      .def_property_readonly(
+          "cameras", &CameraList,
+          "list of dicts: id, intrinsics, response, vignetting, black_level, cdm2_per_count_s.")
+      .def_property_readonly(
+          "photos", &PhotoColumns,
+          "dict of columns: file, camera, view, state (lists), exposure_s (n,), NaN where the "
+          "table leaves it to the file.")
+      .def_property_readonly("states", &States, "{state: {luminaire: dimming 0..1}}, those that are on.")
+      .def_property_readonly("dimming", &Dimming,
+                             "(states, luminaires), 0..1, in the order of states and luminaires.")
+      .def_property_readonly("luminaires", &LuminaireList,
+                             "list of dicts: what is given of each; None for what is not.")
+      .def_property_readonly(
+          "readings", &ReadingColumns,
+          "dict of columns: id, state, role (lists), position_m, normal (n, 3), illuminance_lx "
+          "(n,), NaN where nothing was measured.")
+      .def(
+          "with_result", &WithResultOf, py::arg("out"),
+          "The session with the luminaires and reflectances of a result (its folder or result.json), so that "
+          "simulate() can take it.")
+      .def("__repr__", [](const Session& s) { return "<luxfit.Session " + s.name + " " + s.path + ">"; });
+  module.def(
+      "read_session", [](const std::filesystem::path& path) { return ReadSession(path.string()); },
+      py::arg("path"),
+      "Reads a session file with all its tables. Raises InputError naming file, line and key.");
+}
+
+}  // namespace luxfit

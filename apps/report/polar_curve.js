@@ -1,0 +1,55 @@
+// Polar light distribution curves: luminous intensity over gamma, in the planes C0-C180 and C90-C270.
+
+import { niceStep } from './colour_scale.js';
+import { h, svg } from './dom.js';
+import { digits, isNumber } from './format.js';
+
+const kSize = 300, kRadius = 118, kCentre = [150, 150];
+
+// gamma = 0 points down; positive gamma to the right.
+const place = (gammaDeg, share) => {
+  const angle = (gammaDeg * Math.PI) / 180;
+  return [kCentre[0] + share * kRadius * Math.sin(angle), kCentre[1] + share * kRadius * Math.cos(angle)];
+};
+
+function curve(values, top, attributes) {
+  const step = 360 / (values.length - 1);
+  const points = values.map((v, i) => place(-180 + i * step, v / top).map((x) => x.toFixed(1)).join(' '));
+  return svg('path', { d: 'M' + points.join('L') + 'Z', fill: 'none', 'stroke-width': 2, ...attributes });
+}
+
+function web(top, step, unit) {
+  const rings = [];
+  for (let v = step; v <= top * 1.0001; v += step) {
+    const r = (v / top) * kRadius;
+    rings.push(svg('circle', { cx: kCentre[0], cy: kCentre[1], r, class: 'grid' }));
+    rings.push(svg('text', { x: kCentre[0] + 3, y: kCentre[1] - r - 2, class: 'small' }, digits(v, 2), v + step > top * 1.0001 ? ' ' + unit : ''));
+  }
+  const spokes = [];
+  for (let g = 0; g < 360; g += 30) {
+    const [x, y] = place(g, 1), [tx, ty] = place(g, 1.1), shown = g > 180 ? 360 - g : g;
+    spokes.push(svg('line', { x1: kCentre[0], y1: kCentre[1], x2: x, y2: y, class: 'grid' }));
+    spokes.push(svg('text', { x: tx, y: ty + 4, 'text-anchor': 'middle', class: 'small' }, shown + '\u00b0'));
+  }
+  return [rings, spokes];
+}
+
+export function polarCurve(luminaire, result, unit) {
+  const { curves, given } = luminaire;
+  const all = [...curves.c0, ...curves.c90, ...(given ? [...given.c0, ...given.c90] : [])];
+  const highest = Math.max(...all);
+  if (!(highest > 0)) return h('figure', { class: 'polar' }, h('figcaption', null, luminaire.id, ': no light'));
+  const step = niceStep(highest / 4), top = step * Math.ceil(highest / step);
+  const same = curves.c0.every((v, i) => Math.abs(v - curves.c90[i]) < 0.005 * highest);
+  const key = [h('span', { class: 'key fitted0' }, same ? 'fitted, all C' : 'fitted C0\u2013C180')];
+  if (!same) key.push(h('span', { class: 'key fitted90' }, 'fitted C90\u2013C270'));
+  if (given) key.push(h('span', { class: 'key given' }, `given: ${given.file}, ${digits(given.flux_lm)} lm`));
+  const half = curves.c0.findIndex((v, i) => i > (curves.c0.length - 1) / 2 && v < 0.5 * highest);
+  const beam = half > 0 ? Math.round(2 * (-180 + (half * 360) / (curves.c0.length - 1))) : null;
+  return h('figure', { class: 'polar' },
+    svg('svg', { viewBox: `0 0 ${kSize} ${kSize}`, class: 'chart', role: 'img', 'aria-label': 'Polar curve of ' + luminaire.id }, web(top, step, unit),
+      given ? [curve(given.c0, top, { class: 'given' }), curve(given.c90, top, { class: 'given' })] : null,
+      same ? null : curve(curves.c90, top, { class: 'fitted90' }), curve(curves.c0, top, { class: 'fitted0' })),
+    h('figcaption', null, h('b', null, luminaire.id), ' ', h('span', { class: 'interval' }, 'peak ', digits(highest, 3), ' ', unit,
+      isNumber(beam) ? `, half of it at ${Math.round(beam / 2)}\u00b0 in C0` : ''), h('div', { class: 'keys' }, key)));
+}

@@ -1,0 +1,118 @@
+// `luxfit report` on a small room, run as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/program.h"
+#include "tests/support/small_room.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+class ReportTest : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TempFolder;
+    support::FitSmallRoom(*folder_);
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static support::ProgramRun Report(const std::string& options = "") {
+    return support::RunProgram("report '" + folder_->Path("out") + "' " + options);
+  }
+  static json DataOf(const std::string& page) {
+    const std::string open = "id=\"report-data\">";
+    const size_t from = page.find(open) + open.size();
+    return json::parse(page.substr(from, page.find("</script>", from) - from));
+  }
+
+  static TempFolder* folder_;
+};
+TempFolder* ReportTest::folder_ = nullptr;
+
+TEST_F(ReportTest, IsOneFileThatHoldsTheResult) {
+  const support::ProgramRun run = Report();
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("Work plane, state both"));
+  const std::string page = folder_->Read("out/report.html");
+  EXPECT_LT(page.size(), 10'000'000U);
+  const json data = DataOf(page);
+  EXPECT_EQ(data["result"]["luminaires"].size(), 2U);
+  EXPECT_EQ(data["session"], support::kHostileName);
+  EXPECT_EQ(data["luminaires"][0]["id"], support::kHostileName);
+  EXPECT_EQ(page.find("<b>"), std::string::npos);
+  EXPECT_EQ(data["room"]["cells"]["count"], data["room"]["elements"]);
+  EXPECT_EQ(data["places"]["planes"][0]["statistics"].size(), 2U);  // one a state
+}
+
+// Light adds: the state that has the first luminaire alone at half is what the columns say.
+TEST_F(ReportTest, StatisticsAreThoseOfTheReadings) {
+  const support::ProgramRun run = Report("--json");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json summary =
+      json::parse(run.output.substr(run.output.find('{'), run.output.rfind('}') + 1 - run.output.find('{')));
+  EXPECT_EQ(summary["state"], "both");
+  const json& both = summary["areas"][0]["statistics"][0];
+  const json result = json::parse(folder_->Read("out/result.json"));
+  double least = 1e9, largest = 0;
+  for (const json& reading : result["luxmeter"]) {
+    if (reading["state"] != "both") continue;
+    least = std::min(least, reading["predicted_lux"].get<double>());
+    largest = std::max(largest, reading["predicted_lux"].get<double>());
+  }
+  // The readings lie within the plane, 5 cm above it.
+  EXPECT_GT(both["average_lx"].get<double>(), 0.8 * least);
+  EXPECT_LT(both["average_lx"].get<double>(), largest);
+  EXPECT_GT(both["average_sigma_lx"].get<double>(), 0);
+  EXPECT_TRUE(summary["observers"][0]["ugr"][0].is_number()) << summary["observers"];
+}
+
+TEST_F(ReportTest, AreasAreThoseOfTheTargets) {
+  folder_->Write("targets.toml",
+                 "[[area]]\nid = \"left\"\ntask = \"filing\"\npolygon_m = [[0.5, 0.5], [2, 0.5], [2, 2.5], "
+                 "[0.5, 2.5]]\n");
+  const support::ProgramRun run = Report("--state half --targets '" + folder_->Path("targets.toml") + "'");
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("left, state half"));
+  const json data = DataOf(folder_->Read("out/report.html"));
+  EXPECT_EQ(data["places"]["planes"][0]["average_lx"], 300);
+  EXPECT_EQ(data["state"], "half");
+  EXPECT_TRUE(data["places"]["observers"].empty());
+}
+
+TEST_F(ReportTest, BadInputEndsWithStatus2AndWhatToDo) {
+  support::ProgramRun run = support::RunProgram("report '" + folder_->Path("nothing") + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("nothing/result.json"));
+  run = Report("--state hlaf");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("did you mean \"half\"?"));
+  folder_->Write("bad.toml", "[[area]]\nid = \"a\"\nuniformity = 6\n");
+  run = Report("--targets '" + folder_->Path("bad.toml") + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("bad.toml:3: area[0].uniformity"));
+}
+
+TEST_F(ReportTest, NothingIsWrittenOutsideOut) {
+  const auto count = [&] {
+    const std::filesystem::recursive_directory_iterator files(folder_->Path("")), end;
+    return std::distance(files, end);
+  };
+  ASSERT_EQ(Report().status, 0);
+  const auto before = count();
+  ASSERT_EQ(Report().status, 0);
+  EXPECT_EQ(count(), before);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,42 @@
+#!/bin/sh
+# Makes the Debian packages of a build, looks into them and runs the program, unpacked, on the example room.
+#   deb.sh SOURCE BUILD
+# fresh_debian.sh installs them on a system where nothing else is.
+set -eu
+source=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "$1" >&2; exit 1; }
+cpack -G DEB --config "$2/CPackConfig.cmake" -B "$work" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+program=$(ls "$work"/luxfit_*.deb) dev=$(ls "$work"/libluxfit-dev_*.deb)
+
+dpkg-deb -c "$program" | awk '{print $6}' >"$work/files"
+dpkg-deb -c "$dev" | awk '{print $6}' >"$work/dev_files"
+for file in usr/bin/luxfit usr/share/doc/luxfit/copyright usr/share/doc/luxfit/changelog.gz usr/share/doc/luxfit/CHANGELOG.md.gz \
+  usr/share/doc/luxfit/docs/session-format.md usr/share/doc/luxfit/docs/tutorial.md usr/share/doc/luxfit/examples/example.py \
+  usr/share/luxfit/office/session.toml; do
+  grep -qx "./$file" "$work/files" || fail "luxfit: no $file"
+done
+if grep -q '^LUXFIT_PYTHON:BOOL=ON' "$2/CMakeCache.txt" && [ -e "$2/apps/python" ]; then
+  grep -q '^./usr/lib/python3/dist-packages/luxfit\.' "$work/files" || fail "luxfit: no Python module"
+fi
+grep -qE '\.(h|a|cmake)$' "$work/files" && fail "luxfit: holds what belongs to libluxfit-dev"
+for name in calib forward inverse; do
+  grep -q "/libluxfit_$name\.a$" "$work/dev_files" || fail "libluxfit-dev: no library luxfit_$name"
+  grep -q "/include/luxfit/$name/.*\.h$" "$work/dev_files" || fail "libluxfit-dev: no headers of $name"
+done
+grep -q '/luxfitConfig.cmake$' "$work/dev_files" || fail "libluxfit-dev: no CMake configuration"
+grep -qE '/(bin|luxfit_apps)' "$work/dev_files" && fail "libluxfit-dev: holds what belongs to luxfit"
+dpkg-deb -f "$program" Recommends | grep -qw colmap || fail "luxfit: does not recommend colmap"
+dpkg-deb -f "$program" Depends | grep -q 'libopencv-core.*libstdc++6' || fail "luxfit: dependencies are not those of its libraries"
+if command -v lintian >/dev/null; then
+  lintian --fail-on error "$program" "$dev" 2>"$work/lintian" || { cat "$work/lintian" >&2; fail "lintian found errors"; }
+fi
+
+dpkg-deb -x "$program" "$work/root"
+luxfit=$work/root/usr/bin/luxfit
+[ "$($luxfit --version)" = "$(dpkg-deb -f "$program" Version)" ] || fail "program and package differ in version"
+"$luxfit" run "$work/root/usr/share/luxfit/office/session.toml" -o "$work/out"
+percent=$("$luxfit" check "$work/out" --json | sed -n 's/.*"mean_abs_error_percent": *\([0-9.]*\),.*/\1/p' | tail -n 1)
+echo "mean error of the luxmeter readings: $percent %"
+awk -v percent="$percent" 'BEGIN { exit !(percent > 0 && percent < 2) }' || fail "expected less than 2 %"
