@@ -2,7 +2,7 @@
 // reach the targets at the least power.
 //
 // Writes commission.json, luminaires.csv (differences with 95 % intervals, verdicts) and, with targets,
-// levels.csv and targets.csv. Files and the design's keys: docs/commission.md.
+// levels.csv and targets.csv. Files and the design's keys: docs/commands.md.
 //
 // Returns the exit status: 1 where the targets cannot be reached. Throws std::runtime_error for bad input.
 #ifndef LUXFIT_APPS_COMMISSION_COMMAND_H_

@@ -63,11 +63,11 @@ void AddLuxmap(CLI::App& app, Invocation& invocation) {
   command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/luxmap)");
   Complete(*command, invocation, options, LuxmapCommand);
   AddExample(*command, "luxfit luxmap out evening.png --view v00 --exposure-s 0.234",
-             "evening.png : 74 % of the pixels know their illuminance\n"
+             "evening.png : 90 % of the pixels know their illuminance\n"
              "  luminaire A          at 0.30 ± 0.00\n"
              "  ...\n"
              "  place        seen lx             predicted lx\n"
-             "  L1           -                   125.36 ± 2.52");
+             "  L1           -                   125.59 ± 2.56");
 }
 
 void AddCommission(CLI::App& app, Invocation& invocation) {
@@ -84,9 +84,9 @@ void AddCommission(CLI::App& app, Invocation& invocation) {
   AddExample(
       *command, "luxfit commission out --design design.toml",
       "luminaire  fitted as  moved m  aim deg  flux %           light elsewhere %  verdict\n"
-      "A          A            0.003      0.0  -0.2 ± 3.9                     0.2  ok\n"
-      "B          B            0.004      0.0  -19.9 ± 3.1                    0.2  dimmed or weak: flux "
-      "by -19.9 ± 3.1 %");
+      "A          A            0.002      0.0  -0.2 ± 3.9                     0.0  ok\n"
+      "B          B            0.004      0.0  -19.4 ± 3.2                    0.0  dimmed or weak: flux "
+      "by -19.4 ± 3.2 %");
 }
 
 void AddDim(CLI::App& app, Invocation& invocation) {
