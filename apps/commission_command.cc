@@ -174,7 +174,8 @@ int CommissionCommand(const CommissionCommandOptions& options) {
   if (!options.design.empty()) design = ReadDesign(options.design, fitted.session);
   if (!options.targets.empty()) areas = ReadTargets(options.targets).areas;
   for (const std::string& file : {options.design, options.targets}) {
-    if (!file.empty()) provenance.inputs.push_back(std::filesystem::absolute(file).lexically_normal().string());
+    if (!file.empty())
+      provenance.inputs.push_back(std::filesystem::absolute(file).lexically_normal().string());
   }
   const std::string folder =
       std::filesystem::absolute(options.folder.empty() ? fitted.out + "/commission" : options.folder)
@@ -193,14 +194,17 @@ int CommissionCommand(const CommissionCommandOptions& options) {
     result["levels"] = LevelPlanJson(fitted, targets, design.power_w);
     is_reached = result["levels"]["reached"].get<bool>();
     text += LevelPlanText(result["levels"]);
-    WriteText(folder + "/levels.csv", CsvOf(result["levels"]["luminaires"],
-                                            {{"id", "/id"}, {"dimming", "/dimming"}, {"power_w", "/power_w"},
-                                             {"power_full_w", "/power_full_w"}}));
-    WriteText(folder + "/targets.csv",
-              CsvOf(result["levels"]["targets"],
-                    {{"target", "/name"}, {"needed_lx", "/needed_lx"}, {"reached_lx", "/reached_lx"},
-                     {"assured95_lx", "/assured95_lx"}, {"full_on_lx", "/full_on_lx"},
-                     {"lacks_lx", "/lacks_lx"}}));
+    WriteText(folder + "/levels.csv",
+              CsvOf(result["levels"]["luminaires"], {{"id", "/id"},
+                                                     {"dimming", "/dimming"},
+                                                     {"power_w", "/power_w"},
+                                                     {"power_full_w", "/power_full_w"}}));
+    WriteText(folder + "/targets.csv", CsvOf(result["levels"]["targets"], {{"target", "/name"},
+                                                                           {"needed_lx", "/needed_lx"},
+                                                                           {"reached_lx", "/reached_lx"},
+                                                                           {"assured95_lx", "/assured95_lx"},
+                                                                           {"full_on_lx", "/full_on_lx"},
+                                                                           {"lacks_lx", "/lacks_lx"}}));
   }
   WriteJson(folder + "/commission.json", result);
   std::fputs(options.json ? (result.dump(2) + "\n").c_str() : text.c_str(), stdout);

@@ -2,7 +2,7 @@
 // reach the targets at the least power.
 //
 // Writes commission.json, luminaires.csv (differences with 95 % intervals, verdicts) and, with targets,
-// levels.csv and targets.csv. Files and the design's keys: docs/commission.md.
+// levels.csv and targets.csv. Files and the design's keys: docs/commands.md.
 //
 // Returns the exit status: 1 where the targets cannot be reached. Throws std::runtime_error for bad input.
 #ifndef LUXFIT_APPS_COMMISSION_COMMAND_H_
@@ -13,10 +13,10 @@
 namespace luxfit {
 
 struct CommissionCommandOptions {
-  std::string out;               // of the run
-  std::string design;            // TOML; empty: no comparison
-  std::string targets;           // TOML of areas (docs/report.md, "Targets"); empty: the design's points alone
-  std::string session, folder;   // folder empty: OUT/commission
+  std::string out;              // of the run
+  std::string design;           // TOML; empty: no comparison
+  std::string targets;          // TOML of areas (docs/report.md, "Targets"); empty: the design's points alone
+  std::string session, folder;  // folder empty: OUT/commission
   std::string command_line;
   bool json = false;
 };

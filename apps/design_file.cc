@@ -29,8 +29,7 @@ DesignPoint ReadPoint(const TomlCursor& table, const Session& session) {
   table.ExpectKeys({"id", "position_m", "normal", "illuminance_lx"});
   DesignPoint point;
   point.id = table.Require("id", "a name").Text("a name");
-  point.illuminance_lx =
-      table.Require("illuminance_lx", "the light it needs, in lx").NumberAbove(0, "lx");
+  point.illuminance_lx = table.Require("illuminance_lx", "the light it needs, in lx").NumberAbove(0, "lx");
   point.sensor = PlaceOf(table, point.id, session);
   return point;
 }

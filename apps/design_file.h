@@ -5,7 +5,7 @@
 //   [[point]]       id, illuminance_lx; position_m and normal, or the id of a place of the luxmeter
 //
 // Throws std::runtime_error("FILE:LINE: key: expected X, got Y; mend").
-// Source: docs/commission.md.
+// Source: docs/commands.md.
 #ifndef LUXFIT_APPS_DESIGN_FILE_H_
 #define LUXFIT_APPS_DESIGN_FILE_H_
 

@@ -42,8 +42,9 @@ Gaze GazeOfText(const std::string& text, size_t number) {
     values.push_back(value);
   }
   if (values.size() != 6 || std::count(text.begin(), text.end(), ',') != 5)
-    throw std::runtime_error("--person: expected a file, or x,y,z,dx,dy,dz (eye in m, direction of the gaze), got " +
-                             Quoted(text) + "; write six numbers such as 3,2,1.2,-1,0,0");
+    throw std::runtime_error(
+        "--person: expected a file, or x,y,z,dx,dy,dz (eye in m, direction of the gaze), got " +
+        Quoted(text) + "; write six numbers such as 3,2,1.2,-1,0,0");
   return GazeOf("person " + std::to_string(number), {values[0], values[1], values[2]},
                 {values[3], values[4], values[5]}, "--person");
 }
@@ -128,14 +129,16 @@ json SharesJson(const FittedRoom& fitted, const std::vector<Gaze>& gazes, const 
 }
 
 std::string Table(const json& result) {
-  std::string text = fmt::format("state {}: drop at each eye up to {:g} %\n\nperson       luminaire  at the eye "
-                                 "lx   direct  indirect  share %  in view\n",
-                                 result["state"].get<std::string>(), result["drop_percent"].get<double>());
+  std::string text = fmt::format(
+      "state {}: drop at each eye up to {:g} %\n\nperson       luminaire  at the eye "
+      "lx   direct  indirect  share %  in view\n",
+      result["state"].get<std::string>(), result["drop_percent"].get<double>());
   for (const json& s : result["shares"])
-    text += fmt::format("{:<12} {:<10} {:>13.2f} {:>8.2f} {:>9.2f} {:>8.1f}  {}\n", s["person"].get<std::string>(),
-                        s["luminaire"].get<std::string>(), s["eye_lx"].get<double>(),
-                        s["direct_lx"].get<double>(), s["indirect_lx"].get<double>(),
-                        100 * s["share"].get<double>(), s["in_view"].get<bool>() ? "yes" : "no");
+    text +=
+        fmt::format("{:<12} {:<10} {:>13.2f} {:>8.2f} {:>9.2f} {:>8.1f}  {}\n",
+                    s["person"].get<std::string>(), s["luminaire"].get<std::string>(),
+                    s["eye_lx"].get<double>(), s["direct_lx"].get<double>(), s["indirect_lx"].get<double>(),
+                    100 * s["share"].get<double>(), s["in_view"].get<bool>() ? "yes" : "no");
   text += "\nluminaire    now  alone down to  together down to  power W\n";
   for (const json& l : result["luminaires"])
     text += fmt::format("{:<10} {:>5.2f} {:>14.2f} {:>17.2f} {:>8.1f}\n", l["id"].get<std::string>(),
@@ -194,10 +197,11 @@ int DimCommand(const DimCommandOptions& options) {
   for (size_t p = 0; p < gazes.size(); ++p) {
     const double eye_lx = eyes.light_lx.row(static_cast<Eigen::Index>(p)).dot(now);
     is_lit = is_lit && eye_lx > 0;
-    result["persons"].push_back({{"id", gazes[p].id},
-                                 {"eye_lx", eye_lx},
-                                 {"drop", unseen.drop[p]},
-                                 {"drop_sigma", std::isfinite(unseen.drop_sigma[p]) ? json(unseen.drop_sigma[p]) : json()}});
+    result["persons"].push_back(
+        {{"id", gazes[p].id},
+         {"eye_lx", eye_lx},
+         {"drop", unseen.drop[p]},
+         {"drop_sigma", std::isfinite(unseen.drop_sigma[p]) ? json(unseen.drop_sigma[p]) : json()}});
   }
   result["power_w"] = unseen.power_w;
   result["power_before_w"] = unseen.power_before_w;
@@ -206,10 +210,10 @@ int DimCommand(const DimCommandOptions& options) {
           .lexically_normal()
           .string();
   WriteText(folder + "/luminaires.csv", CsvOf(result["luminaires"], {{"id", "/id"},
-                                                                      {"now", "/now"},
-                                                                      {"alone", "/alone"},
-                                                                      {"together", "/together"},
-                                                                      {"power_w", "/power_w"}}));
+                                                                     {"now", "/now"},
+                                                                     {"alone", "/alone"},
+                                                                     {"together", "/together"},
+                                                                     {"power_w", "/power_w"}}));
   WriteText(folder + "/persons.csv", CsvOf(result["shares"], {{"person", "/person"},
                                                               {"luminaire", "/luminaire"},
                                                               {"eye_lx", "/eye_lx"},

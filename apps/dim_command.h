@@ -1,6 +1,6 @@
 // luxfit dim OUT --person ...: which luminaires can be dimmed unseen by the people present.
 //
-// Writes dim.json, luminaires.csv and persons.csv; columns: docs/dim.md.
+// Writes dim.json, luminaires.csv and persons.csv; columns: docs/commands.md.
 //
 // Returns the exit status: 0; 1 where no luminaire's light is known to reach an eye. Throws
 // std::runtime_error for bad input.

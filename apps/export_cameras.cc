@@ -62,11 +62,19 @@ ExportedFiles ExportCameras(const FittedRoom& fitted, const std::string& folder)
   for (size_t c = 0; c < stems.size(); ++c) {
     const Camera& camera = fitted.registered.cameras[c];
     const std::string path = folder + "/" + stems[c];
-    WriteWhatHolds(path + ".yaml", [&] { return OpenCvCameraYaml(camera); }, exported);
     WriteWhatHolds(
-        path + ".cameramodel", [&] { return MrcalCameraModel({stems[c], camera, std::nullopt}); }, exported);
+        path + ".yaml", [&] { return OpenCvCameraYaml(camera); }, exported);
     WriteWhatHolds(
-        path + "_camchain.yaml", [&] { return KalibrCamchainYaml({{"cam0", camera, std::nullopt}}); },
+        path + ".cameramodel",
+        [&] {
+          return MrcalCameraModel({stems[c], camera, std::nullopt});
+        },
+        exported);
+    WriteWhatHolds(
+        path + "_camchain.yaml",
+        [&] {
+          return KalibrCamchainYaml({{"cam0", camera, std::nullopt}});
+        },
         exported);
   }
   std::vector<std::string> views;
@@ -77,12 +85,18 @@ ExportedFiles ExportCameras(const FittedRoom& fitted, const std::string& folder)
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
     WriteWhatHolds(
         folder + "/views/" + view_stems[v] + ".cameramodel",
-        [&] { return MrcalCameraModel({view.view, camera, view.cam_from_world}); }, exported);
+        [&] {
+          return MrcalCameraModel({view.view, camera, view.cam_from_world});
+        },
+        exported);
   }
   const ColmapModel model = ModelOf(fitted);
-  WriteWhatHolds(folder + "/colmap/cameras.txt", [&] { return ColmapCamerasText(model.cameras); }, exported);
-  WriteWhatHolds(folder + "/colmap/images.txt", [&] { return ColmapImagesText(model); }, exported);
-  WriteWhatHolds(folder + "/colmap/points3D.txt", [&] { return ColmapPointsText(model); }, exported);
+  WriteWhatHolds(
+      folder + "/colmap/cameras.txt", [&] { return ColmapCamerasText(model.cameras); }, exported);
+  WriteWhatHolds(
+      folder + "/colmap/images.txt", [&] { return ColmapImagesText(model); }, exported);
+  WriteWhatHolds(
+      folder + "/colmap/points3D.txt", [&] { return ColmapPointsText(model); }, exported);
   return exported;
 }
 

@@ -22,13 +22,17 @@ using Export = std::function<ExportedFiles(const FittedRoom&, const std::string&
 
 // `of` without the context that only maps of photos need.
 Export Plain(ExportedFiles (*of)(const FittedRoom&, const std::string&)) {
-  return [of](const FittedRoom& fitted, const std::string& folder, RunContext&) { return of(fitted, folder); };
+  return
+      [of](const FittedRoom& fitted, const std::string& folder, RunContext&) { return of(fitted, folder); };
 }
 
 std::vector<std::pair<std::string, Export>> Exports() {
-  return {{"luminaires", Plain(ExportLuminaires)}, {"patches", Plain(ExportPatches)},
-          {"radiance", Plain(ExportRadiance)},     {"luxmaps", ExportLuxMaps},
-          {"csv", Plain(ExportTables)},            {"cameras", Plain(ExportCameras)}};
+  return {{"luminaires", Plain(ExportLuminaires)},
+          {"patches", Plain(ExportPatches)},
+          {"radiance", Plain(ExportRadiance)},
+          {"luxmaps", ExportLuxMaps},
+          {"csv", Plain(ExportTables)},
+          {"cameras", Plain(ExportCameras)}};
 }
 
 void ExpectKnown(const std::vector<std::string>& only) {
@@ -54,10 +58,10 @@ std::vector<std::string> ExportNames() {
 int ExportCommand(const ExportCommandOptions& options) {
   ExpectKnown(options.only);
   const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
-  const std::string folder = std::filesystem::absolute(options.folder.empty() ? fitted.out + "/export"
-                                                                              : options.folder)
-                                 .lexically_normal()
-                                 .string();
+  const std::string folder =
+      std::filesystem::absolute(options.folder.empty() ? fitted.out + "/export" : options.folder)
+          .lexically_normal()
+          .string();
   RunContext context;
   context.out = folder;
   context.is_quiet = true;

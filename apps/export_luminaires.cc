@@ -13,7 +13,8 @@ namespace {
 std::string BytesOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file)
-    throw InputError({path, 0}, "", "expected the file that the run wrote, found none; run `luxfit run` again");
+    throw InputError({path, 0}, "",
+                     "expected the file that the run wrote, found none; run `luxfit run` again");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -23,8 +24,9 @@ ExportedFiles ExportLuminaires(const FittedRoom& fitted, const std::string& fold
   ExportedFiles exported;
   for (const nlohmann::json& luminaire : fitted.result->at("luminaires")) {
     if (!luminaire.contains("files")) {
-      exported.notes.push_back("luminaire " + luminaire.at("id").get<std::string>() +
-                               " has no photometric files: the data do not determine its flux and distribution");
+      exported.notes.push_back(
+          "luminaire " + luminaire.at("id").get<std::string>() +
+          " has no photometric files: the data do not determine its flux and distribution");
       exported.is_whole = false;
       continue;
     }

@@ -60,9 +60,9 @@ ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder,
     const LuminanceImage image =
         Corrected(ReadLuminance(session, photo, camera), corrections, session, photo);
     const PixelMap& map = seen[static_cast<size_t>(view - views.begin())].dense;
-    written[i] = WriteLuxMap(MapIlluminance(map, image, fitted.room.patches, scale),
-                             folder + "/" + named.stems[i],
-                             std::filesystem::path(photo.file).filename().string());
+    written[i] =
+        WriteLuxMap(MapIlluminance(map, image, fitted.room.patches, scale), folder + "/" + named.stems[i],
+                    std::filesystem::path(photo.file).filename().string());
   });
   for (size_t i = 0; i < written.size(); ++i) {
     exported.files.insert(exported.files.end(), written[i].begin(), written[i].end());

@@ -116,8 +116,7 @@ ExportedFiles ExportRadiance(const FittedRoom& fitted, const std::string& folder
     return exported;
   }
   if (!fitted.is_absolute)
-    exported.notes.push_back(
-        "the fit has no absolute scale: fluxes in the Radiance scene are relative ones");
+    exported.notes.push_back("the fit has no absolute scale: fluxes in the Radiance scene are relative ones");
   const auto write = [&](const std::string& name, const std::string& text) {
     WriteText(folder + "/" + name, text);
     exported.files.push_back(folder + "/" + name);

@@ -51,13 +51,12 @@ std::vector<CsvColumn> ViewColumns() {
       rotation.push_back({"scene_from_camera_r" + std::to_string(r + 1) + std::to_string(c + 1),
                           "/R_scene_from_camera/" + std::to_string(r) + "/" + std::to_string(c)});
   }
-  return Joined({{{"view", "/view"}, {"camera", "/camera"}},
-                 VectorColumns("", "_m", "/position_m"),
-                 VectorColumns("sigma_", "_m", "/position_sigma_m"),
-                 rotation,
-                 {{"method", "/method"},
-                  {"tags", "/tags"},
-                  {"reprojection_rms_px", "/reprojection_rms_px"}}});
+  return Joined(
+      {{{"view", "/view"}, {"camera", "/camera"}},
+       VectorColumns("", "_m", "/position_m"),
+       VectorColumns("sigma_", "_m", "/position_sigma_m"),
+       rotation,
+       {{"method", "/method"}, {"tags", "/tags"}, {"reprojection_rms_px", "/reprojection_rms_px"}}});
 }
 
 // The readings of the result with their places, which only the session knows.
@@ -98,8 +97,8 @@ json Timing(const json& result) {
 
 std::string PatchCsv(const FittedRoom& fitted) {
   const std::string unit = fitted.is_absolute ? "lx" : "relative";
-  std::vector<std::string> fields{"patch", "material", "x_m", "y_m", "z_m", "nx", "ny", "nz", "area_m2",
-                                  "albedo"};
+  std::vector<std::string> fields{"patch", "material", "x_m", "y_m",     "z_m",
+                                  "nx",    "ny",       "nz",  "area_m2", "albedo"};
   std::vector<Eigen::VectorXd> columns;
   for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
     const Eigen::Index column = static_cast<Eigen::Index>(k);
@@ -143,12 +142,11 @@ ExportedFiles ExportTables(const FittedRoom& fitted, const std::string& folder) 
                                                         {"source", "/source"}}));
   write("views.csv", CsvOf(result.at("views"), ViewColumns()));
   write("luxmeter.csv", CsvOf(Readings(fitted), ReadingColumns()));
-  write("choices.csv", CsvOf(result.at("choices"), {{"what", "/what"},
-                                                    {"chosen", "/chosen"},
-                                                    {"among", "/among"},
-                                                    {"because", "/because"}}));
-  write("warnings.csv", CsvOf(result.at("warnings"),
-                              {{"code", "/code"}, {"message", "/message"}, {"remedy", "/remedy"}}));
+  write("choices.csv",
+        CsvOf(result.at("choices"),
+              {{"what", "/what"}, {"chosen", "/chosen"}, {"among", "/among"}, {"because", "/because"}}));
+  write("warnings.csv",
+        CsvOf(result.at("warnings"), {{"code", "/code"}, {"message", "/message"}, {"remedy", "/remedy"}}));
   write("timing.csv", CsvOf(Timing(result), {{"stage", "/stage"}, {"time_s", "/time_s"}}));
   write("patches.csv", PatchCsv(fitted));
   return exported;

@@ -49,9 +49,9 @@ FitUncertainty ReadFitUncertainty(const FittedRoom& fitted) {
     if (!fit.at("covariance").empty()) uncertainty.covariance = MatrixFromJson(fit.at("covariance"));
     return uncertainty;
   } catch (const json::exception& e) {
-    throw InputError({path, 0}, "",
-                     std::string("expected the fit of a run of this version; run `luxfit run` again; ") +
-                         e.what());
+    throw InputError(
+        {path, 0}, "",
+        std::string("expected the fit of a run of this version; run `luxfit run` again; ") + e.what());
   }
 }
 

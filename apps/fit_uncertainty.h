@@ -1,4 +1,5 @@
-// How well an earlier fit knows what it found: the covariance of OUT/stages/fit.json by the parameters' names.
+// How well an earlier fit knows what it found: the covariance of OUT/stages/fit.json by the parameters'
+// names.
 //
 // Parameters are as fitted: positions m, fluxes, exponents and scales as logarithms (so their sigma is
 // relative), albedo as it is. What the fit held has no parameter and no uncertainty; what the data did not

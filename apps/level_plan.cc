@@ -94,14 +94,11 @@ json LevelPlanJson(const FittedRoom& fitted, const RoomTargets& targets,
   const Eigen::VectorXd power_w = PowerOf(fitted, given_w);
   const std::vector<LightRequirement> assured = Assured(targets, LightSigma(fitted));
   const DimmingPlan plan = PlanDimming(power_w, assured, FullRange(power_w.size()));
-  json result = {{"reached", plan.is_reached},
-                 {"power_w", plan.power_w},
-                 {"power_full_w", power_w.sum()},
-                 {"power_is_assumed", given_w.size() < fitted.luminaires.size()},
-                 {"luminaires", json::array()},
-                 {"targets", json::array()},
-                 {"areas", json::array()},
-                 {"remedies", json::array()}};
+  json result = {
+      {"reached", plan.is_reached},    {"power_w", plan.power_w},
+      {"power_full_w", power_w.sum()}, {"power_is_assumed", given_w.size() < fitted.luminaires.size()},
+      {"luminaires", json::array()},   {"targets", json::array()},
+      {"areas", json::array()},        {"remedies", json::array()}};
   for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
     const Eigen::Index i = static_cast<Eigen::Index>(k);
     result["luminaires"].push_back({{"id", fitted.luminaires[k].id},
@@ -116,8 +113,7 @@ json LevelPlanJson(const FittedRoom& fitted, const RoomTargets& targets,
       result["targets"].push_back(TargetJson(target, assured[i], plan, plan.shortage[i]));
     if (plan.shortage[i] > 0) result["remedies"].push_back(RemedyOf(fitted, assured[i], plan.shortage[i]));
   }
-  for (const RoomTargets::Area& area : targets.areas)
-    result["areas"].push_back(AreaJson(area, plan.dimming));
+  for (const RoomTargets::Area& area : targets.areas) result["areas"].push_back(AreaJson(area, plan.dimming));
   return result;
 }
 
@@ -127,9 +123,10 @@ std::string LevelPlanText(const json& plan) {
     text += fmt::format("{:<10} {:>7.3f}  {:>7.1f}\n", l["id"].get<std::string>(), l["dimming"].get<double>(),
                         l["power_w"].get<double>());
   const double full = plan["power_full_w"].get<double>();
-  text += fmt::format("{:.1f} W of {:.1f} W: {:.0f} % saved{}\n", plan["power_w"].get<double>(), full,
-                      full > 0 ? 100 * (1 - plan["power_w"].get<double>() / full) : 0,
-                      plan["power_is_assumed"].get<bool>() ? " (power by flux, 100 lm/W, where not given)" : "");
+  text +=
+      fmt::format("{:.1f} W of {:.1f} W: {:.0f} % saved{}\n", plan["power_w"].get<double>(), full,
+                  full > 0 ? 100 * (1 - plan["power_w"].get<double>() / full) : 0,
+                  plan["power_is_assumed"].get<bool>() ? " (power by flux, 100 lm/W, where not given)" : "");
   text += "\ntarget                         needed lx  reached lx  sure to 95 %  lacks lx\n";
   for (const json& t : plan["targets"])
     text += fmt::format("{:<30} {:>9.1f}  {:>10.1f}  {:>12.1f}  {:>8.1f}\n", t["name"].get<std::string>(),

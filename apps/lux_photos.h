@@ -20,8 +20,8 @@ struct PhotoView {
 PhotoView ViewOf(const FittedRoom& fitted, int camera, const PixelDirections& directions,
                  const Eigen::Isometry3d& cam_from_world);
 
-// STEM.exr: illuminance_lx, sigma_lx, gap (docs/exports.md). STEM.png: false colours with their scale. Returns
-// the paths.
+// STEM.exr: illuminance_lx, sigma_lx, gap (docs/exports.md). STEM.png: false colours with their scale.
+// Returns the paths.
 std::vector<std::string> WriteLuxMap(const LuxMap& lux, const std::string& path_stem,
                                      const std::string& what);
 

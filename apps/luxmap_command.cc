@@ -100,8 +100,8 @@ json PlacesJson(const Watched& watched, const CurrentDimming& current,
   json list = json::array();
   std::vector<PlaceIlluminance> predicted;
   if (current.is_determined)
-    predicted = LightByDimming(watched.place_lx, current, watched.flux_covariance,
-                               watched.relative_model_sigma);
+    predicted =
+        LightByDimming(watched.place_lx, current, watched.flux_covariance, watched.relative_model_sigma);
   for (size_t i = 0; i < watched.places.size(); ++i) {
     const Place& place = watched.places[i];
     json entry = {{"id", place.id},
@@ -176,15 +176,15 @@ json PhotoJson(const Watched& watched, const NewPhotos& read, const NewPhoto& ph
   const FittedRoom& fitted = watched.fitted;
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(photo.photo.camera)];
   const std::string name = std::filesystem::path(photo.photo.file).filename().string();
-  const LuminanceImage image = Corrected(ReadLuminance(read.session, photo.photo, camera), corrections,
-                                         read.session, photo.photo);
-  const PhotoView view =
-      ViewOf(fitted, photo.photo.camera, UnprojectAllPixels(camera), photo.cam_from_world);
+  const LuminanceImage image =
+      Corrected(ReadLuminance(read.session, photo.photo, camera), corrections, read.session, photo.photo);
+  const PhotoView view = ViewOf(fitted, photo.photo.camera, UnprojectAllPixels(camera), photo.cam_from_world);
   const LuxMap lux = MapIlluminance(view.dense, image, fitted.room.patches, watched.scale);
   if (lux.saturated_share > kMostlySaturated)
-    throw std::runtime_error(fmt::format(
-        "{}: expected a photo that shows surfaces, but {:.0f} % of their pixels are saturated; expose shorter",
-        photo.photo.file, 100 * lux.saturated_share));
+    throw std::runtime_error(
+        fmt::format("{}: expected a photo that shows surfaces, but {:.0f} % of their pixels are saturated; "
+                    "expose shorter",
+                    photo.photo.file, 100 * lux.saturated_share));
   const std::vector<ElementIlluminance> elements =
       ElementsOf(ObservePhoto(view.strict, image, 0, 0), fitted.room.patches, watched.scale);
   const CurrentDimming current = EstimateDimming(fitted.element_lx, elements);

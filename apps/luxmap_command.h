@@ -1,8 +1,8 @@
 // luxfit luxmap OUT PHOTO...: new photos of a fitted room as maps of illuminance, without another fit.
 //
-// Writes per photo maps/STEM.exr and .png (apps/lux_photos.h) and maps/STEM_elements.csv, and over all of them
-// photos.csv (dimming of each luminaire, light not explained) and places.csv (the luxmeter's places: seen, or
-// predicted by the dimming); luxmap.json holds both. Columns: docs/luxmap.md.
+// Writes per photo maps/STEM.exr and .png (apps/lux_photos.h) and maps/STEM_elements.csv, and over all of
+// them photos.csv (dimming of each luminaire, light not explained) and places.csv (the luxmeter's places:
+// seen, or predicted by the dimming); luxmap.json holds both. Columns: docs/commands.md.
 //
 // Returns the exit status: 1 where a photo's dimming, or its pose, is not determined. Throws
 // std::runtime_error for bad input: a fit without the camera's scale, a photo of another size, not linear, or

@@ -60,8 +60,14 @@ std::vector<Row> RowsOf(const LuxmapCommandOptions& options) {
     return RowsOfTable(options.photos[0]);
   std::vector<Row> rows;
   for (const std::string& file : options.photos)
-    rows.push_back({AbsolutePath(FindFile({file, 0}, "", "", file)), options.camera, options.view, "",
-                    options.exposure_s, std::nullopt, std::nullopt, {file, 0}});
+    rows.push_back({AbsolutePath(FindFile({file, 0}, "", "", file)),
+                    options.camera,
+                    options.view,
+                    "",
+                    options.exposure_s,
+                    std::nullopt,
+                    std::nullopt,
+                    {file, 0}});
   return rows;
 }
 
@@ -143,7 +149,7 @@ std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, S
     throw std::runtime_error("--pose tags: expected a session with tags, got one without; give --view");
   const std::vector<Camera>& cameras = fitted.registered.cameras;
   const Registration registration =
-      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session)));
+      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session), context));
   for (const RegistrationNote& note : registration.notes)
     context.warnings.push_back({note.code, note.message, note.remedy});
   std::map<std::string, Eigen::Isometry3d> poses;

@@ -25,9 +25,9 @@ PhotoCorrections ReadPhotoCorrections(const std::string& out) {
     }
     return corrections;
   } catch (const nlohmann::json::exception& e) {
-    throw InputError({path, 0}, "",
-                     std::string("expected what a run of this version observed; run `luxfit run` again; ") +
-                         e.what());
+    throw InputError(
+        {path, 0}, "",
+        std::string("expected what a run of this version observed; run `luxfit run` again; ") + e.what());
   }
 }
 
@@ -48,7 +48,8 @@ LuminanceImage Corrected(LuminanceImage image, const PhotoCorrections& correctio
       const Eigen::Vector2d pixel(static_cast<double>(u), static_cast<double>(v));
       const double r2 = (pixel - frame.center_px).squaredNorm() / (frame.radius_px * frame.radius_px);
       double log_factor =
-          camera.exponent * std::log(y * photo.bracket.front().relative_exposure_s) - log_gain, power = 1;
+                 camera.exponent * std::log(y * photo.bracket.front().relative_exposure_s) - log_gain,
+             power = 1;
       for (const double a : camera.vignetting) log_factor -= a * (power *= r2);
       const float factor = static_cast<float>(std::exp(log_factor));
       plane(v, u) *= factor;

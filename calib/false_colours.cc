@@ -64,8 +64,8 @@ Eigen::Vector3i FalseColour(double t) {
   const double share = at - static_cast<double>(low);
   Eigen::Vector3i colour;
   for (size_t i = 0; i < 3; ++i)
-    colour[static_cast<Eigen::Index>(i)] = static_cast<int>(
-        std::lround((1 - share) * kAnchors[low].at(i) + share * kAnchors[low + 1].at(i)));
+    colour[static_cast<Eigen::Index>(i)] =
+        static_cast<int>(std::lround((1 - share) * kAnchors[low].at(i) + share * kAnchors[low + 1].at(i)));
   return colour;
 }
 

@@ -121,8 +121,8 @@ class LuminaireText {
     const double radius = is_point ? kPointRadiusM : luminaire_.size_m[0] / 2;
     const std::string light = AddModifier(1, kPi * radius * radius, "");
     const Eigen::Vector3d& p = luminaire_.position;
-    text_ << light << " sphere " << stem_ << "_surface\n0\n0\n4 " << p.x() << ' ' << p.y() << ' ' << p.z() << ' '
-          << radius << '\n';
+    text_ << light << " sphere " << stem_ << "_surface\n0\n0\n4 " << p.x() << ' ' << p.y() << ' ' << p.z()
+          << ' ' << radius << '\n';
   }
 
   void AddCells() {
@@ -162,7 +162,8 @@ class LuminaireText {
     }
     const Eigen::Vector3d u = size_m[0] / 2 * axes_.along;
     const Eigen::Vector3d v = size_m[1] / 2 * normal.cross(axes_.along).normalized();
-    AddPolygon(light, stem_ + suffix, {centre - u - v, centre + u - v, centre + u + v, centre - u + v}, text_);
+    AddPolygon(light, stem_ + suffix, {centre - u - v, centre + u - v, centre + u + v, centre - u + v},
+               text_);
   }
 
   const Luminaire& luminaire_;

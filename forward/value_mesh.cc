@@ -25,7 +25,8 @@ void ExpectWhole(const ValueMesh& mesh) {
     const bool has_space =
         std::any_of(value.name.begin(), value.name.end(), [](unsigned char c) { return std::isspace(c); });
     if (value.name.empty() || has_space)
-      throw std::invalid_argument("ValueMesh: expected names without white space, got \"" + value.name + "\"");
+      throw std::invalid_argument("ValueMesh: expected names without white space, got \"" + value.name +
+                                  "\"");
     if (value.values.size() != faces || !value.values.allFinite())
       throw std::invalid_argument("ValueMesh: expected one finite value a face of " + value.name);
   }

@@ -63,9 +63,8 @@ void Judge(const Luminaire& designed, const MeasuredLuminaire& measured, const C
            CommissionedLuminaire& verdict) {
   const Eigen::Vector3d displacement = measured.luminaire.position - designed.position;
   const double ratio = measured.luminaire.flux_lm / designed.flux_lm;
-  verdict.moved_m = {displacement.norm(),
-                     kTwoSided95 * SigmaAlong(displacement, measured.position_sigma_m), options.position_m,
-                     true};
+  verdict.moved_m = {displacement.norm(), kTwoSided95 * SigmaAlong(displacement, measured.position_sigma_m),
+                     options.position_m, true};
   verdict.aim_rad = {AngleBetween(designed.aim, measured.luminaire.aim), kTwoSided95 * measured.aim_sigma_rad,
                      options.angle_rad, true};
   verdict.heading_rad = HeadingOf(designed, measured, options.angle_rad);

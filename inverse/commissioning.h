@@ -35,7 +35,16 @@ struct MeasuredLuminaire {
   double distribution_sigma = 0;      // of the share that goes elsewhere
 };
 
-enum class CommissioningFault { kOff, kMoved, kAimTurned, kHeadingTurned, kWeak, kStrong, kPhotometry, kSwapped };
+enum class CommissioningFault {
+  kOff,
+  kMoved,
+  kAimTurned,
+  kHeadingTurned,
+  kWeak,
+  kStrong,
+  kPhotometry,
+  kSwapped
+};
 std::string ToString(CommissioningFault fault);
 
 struct ToleranceInterval {
@@ -54,12 +63,12 @@ struct CommissionedLuminaire {
 };
 
 struct CommissioningOptions {
-  double match_m = 1.0;            // farther is another luminaire
-  double position_m = 0.05;        // as drawings and ceilings go
-  double angle_rad = 0.0524;       // 3 degrees
-  double relative_flux = 0.05;     // beside the fit's own interval
-  double distribution_share = 0.1; // maker's tables and lobes differ by as much
-  double off_share = 0.02;         // of the designed flux: below it is off
+  double match_m = 1.0;             // farther is another luminaire
+  double position_m = 0.05;         // as drawings and ceilings go
+  double angle_rad = 0.0524;        // 3 degrees
+  double relative_flux = 0.05;      // beside the fit's own interval
+  double distribution_share = 0.1;  // maker's tables and lobes differ by as much
+  double off_share = 0.02;          // of the designed flux: below it is off
 };
 
 struct Commissioning {

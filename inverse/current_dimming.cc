@@ -30,8 +30,7 @@ WeightedRows RowsOf(const Eigen::MatrixXd& element_lx, const std::vector<Element
       throw std::invalid_argument("EstimateDimming: expected elements of the room");
     if (!(e.random_sigma_lx >= 0))
       throw std::invalid_argument("EstimateDimming: expected sigmas that are not negative");
-    const double sigma =
-        std::hypot(e.random_sigma_lx, kLeastRelativeSigma * e.illuminance_lx, kLeastSigmaLx);
+    const double sigma = std::hypot(e.random_sigma_lx, kLeastRelativeSigma * e.illuminance_lx, kLeastSigmaLx);
     weighted.sigma[i] = sigma;
     weighted.light.row(i) = element_lx.row(e.element) / sigma;
     weighted.measured[i] = e.illuminance_lx / sigma;
@@ -62,7 +61,8 @@ CurrentDimming EstimateDimming(const Eigen::MatrixXd& element_lx,
   if (rows.measured.size() <= luminaires) return current;
   const Eigen::MatrixXd gram = rows.light.transpose() * rows.light;
   const Eigen::LDLT<Eigen::MatrixXd> factored(gram);
-  if (factored.info() != Eigen::Success || !(factored.vectorD().minCoeff() > 1e-9 * gram.diagonal().maxCoeff()))
+  if (factored.info() != Eigen::Success ||
+      !(factored.vectorD().minCoeff() > 1e-9 * gram.diagonal().maxCoeff()))
     return current;
   current.is_determined = true;
   current.dimming = SolveNonNegative(gram, rows.light.transpose() * rows.measured);
@@ -70,8 +70,8 @@ CurrentDimming EstimateDimming(const Eigen::MatrixXd& element_lx,
   constexpr double kSigmaOfMad = 1.4826;
   current.residual_scale = kSigmaOfMad * MedianOf(residual.cwiseAbs());
   const double variance = std::max(1.0, current.residual_scale * current.residual_scale);
-  current.covariance = kElementsPerIndependent * variance *
-                       factored.solve(Eigen::MatrixXd::Identity(luminaires, luminaires));
+  current.covariance =
+      kElementsPerIndependent * variance * factored.solve(Eigen::MatrixXd::Identity(luminaires, luminaires));
   const Eigen::VectorXd residual_lx = residual.cwiseProduct(rows.sigma);
   current.mean_unexplained_lx = residual_lx.mean();
   const double sum_lx = rows.measured.cwiseProduct(rows.sigma).cwiseAbs().sum();

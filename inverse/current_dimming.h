@@ -2,8 +2,8 @@
 //
 //   E_e = sum_k d_k E_ek + r_e,   min sum_e ((E_e - sum_k d_k E_ek) / sigma_e)^2 over d >= 0
 //
-// E_e: illuminance measured at element e by the camera, E_ek: that of luminaire k fully on, as fitted. d needs
-// no absolute scale, since E_e and E_ek share it; exposure does enter. What the luminaires leave (r) is
+// E_e: illuminance measured at element e by the camera, E_ek: that of luminaire k fully on, as fitted. d
+// needs no absolute scale, since E_e and E_ek share it; exposure does enter. What the luminaires leave (r) is
 // light of other sources: daylight, lamps that the fit does not know. A luminaire whose light nearly equals
 // that of others in what is seen has a large sigma, and so has any where all light is far from the model:
 // sigmas are enlarged by the residuals.
@@ -21,12 +21,12 @@
 namespace luxfit {
 
 struct CurrentDimming {
-  bool is_determined = false;  // else fewer elements than luminaires were seen
-  Eigen::VectorXd dimming;     // by luminaire, 0: off
-  Eigen::MatrixXd covariance;  // of those above 0; those at 0 have the sigma they would have if free
-  double mean_unexplained_lx = 0;    // mean of r over the elements seen
-  double unexplained_share = 0;      // sum of |r| over sum of E
-  double residual_scale = 1;         // robust sigma of r / sigma_e: 1 where model and noise explain all
+  bool is_determined = false;      // else fewer elements than luminaires were seen
+  Eigen::VectorXd dimming;         // by luminaire, 0: off
+  Eigen::MatrixXd covariance;      // of those above 0; those at 0 have the sigma they would have if free
+  double mean_unexplained_lx = 0;  // mean of r over the elements seen
+  double unexplained_share = 0;    // sum of |r| over sum of E
+  double residual_scale = 1;       // robust sigma of r / sigma_e: 1 where model and noise explain all
   int elements = 0;
 };
 

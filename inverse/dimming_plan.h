@@ -2,10 +2,10 @@
 //
 //   min p . d   over   lower <= d <= upper,   least_i <= a_i . d <= most_i
 //
-// d: dimming by luminaire, p: power of each fully on (W), a_i: what one luminaire fully on gives requirement i.
-// Light is linear in dimming, so means over areas, uniformity (E_j - U0 mean(E) >= 0) and single points all
-// are requirements. What must be reached is reached at the least power, which least squares on the targets
-// would not do: it would pay for light that is asked for nowhere.
+// d: dimming by luminaire, p: power of each fully on (W), a_i: what one luminaire fully on gives requirement
+// i. Light is linear in dimming, so means over areas, uniformity (E_j - U0 mean(E) >= 0) and single points
+// all are requirements. What must be reached is reached at the least power, which least squares on the
+// targets would not do: it would pay for light that is asked for nowhere.
 //
 // Where not all requirements can be met, those levels are given that leave the least in all lacking (sum of
 // shortages, each over its bound) and `shortage` says where and how much.
@@ -36,7 +36,7 @@ struct DimmingBounds {
 DimmingBounds FullRange(Eigen::Index luminaires);  // 0 to 1
 
 struct DimmingPlan {
-  bool is_reached = false;       // every requirement is met
+  bool is_reached = false;  // every requirement is met
   Eigen::VectorXd dimming;
   double power_w = 0;
   std::vector<double> achieved;  // of each requirement

@@ -11,8 +11,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 void ExpectScale(const SurfaceScale& scale) {
-  if (!(scale.camera_scale > 0))
-    throw std::invalid_argument("LuxMap: expected a camera scale above 0");
+  if (!(scale.camera_scale > 0)) throw std::invalid_argument("LuxMap: expected a camera scale above 0");
   if (scale.albedo.size() != scale.relative_sigma.size())
     throw std::invalid_argument("LuxMap: expected a sigma for each reflectance");
 }

@@ -1,4 +1,5 @@
-// A photo as a luxmeter at every pixel: from the luminance of a diffuse surface to the light that falls on it.
+// A photo as a luxmeter at every pixel: from the luminance of a diffuse surface to the light that falls on
+// it.
 //
 //   E = pi Y / (c rho)
 //   (sigma_E / E)^2 = var(ln c rho) + (sigma_Y / Y)^2 + model^2

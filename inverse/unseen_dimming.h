@@ -1,9 +1,8 @@
 // Which luminaires can be dimmed without the people present noticing.
 //
-//   E_p(d) = sum_k d_k E_pk           illuminance at the eye of person p, on the plane perpendicular to the gaze
-//   E_p(d) >= (1 - drop) E_p(d0)      for every person
-//   d_k >= (1 - drop) d0_k            of luminaires whose own body somebody has in view
-//   min sum_k p_k d_k,   0 <= d <= d0
+//   E_p(d) = sum_k d_k E_pk           illuminance at the eye of person p, on the plane perpendicular to the
+//   gaze E_p(d) >= (1 - drop) E_p(d0)      for every person d_k >= (1 - drop) d0_k            of luminaires
+//   whose own body somebody has in view min sum_k p_k d_k,   0 <= d <= d0
 //
 // What reaches the eye is what adapts it: a drop of it below the threshold of slow changes passes unnoticed,
 // wherever in the room the light went. A luminaire that is looked at gives itself away before that. Slow
@@ -37,15 +36,15 @@ bool IsInView(const RayScene& rays, const Luminaire& luminaire, const Gaze& gaze
               double half_angle_rad = kFieldHalfAngleRad);
 
 struct UnseenDimming {
-  Eigen::VectorXd dimming;          // least power of all together
-  Eigen::VectorXd alone;            // how far down each can go by itself
-  std::vector<double> drop;         // of each person by `dimming`, 0..1
-  std::vector<double> drop_sigma;   // from the fluxes' uncertainty; the scale that all share cancels
+  Eigen::VectorXd dimming;         // least power of all together
+  Eigen::VectorXd alone;           // how far down each can go by itself
+  std::vector<double> drop;        // of each person by `dimming`, 0..1
+  std::vector<double> drop_sigma;  // from the fluxes' uncertainty; the scale that all share cancels
   double power_w = 0, power_before_w = 0;
 };
 
 struct EyeLight {
-  Eigen::MatrixXd light_lx;       // persons x luminaires, fully on
+  Eigen::MatrixXd light_lx;                                    // persons x luminaires, fully on
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> in_view;  // likewise
 };
 

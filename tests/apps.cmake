@@ -55,6 +55,8 @@ target_compile_definitions(apps_report_browser_test PRIVATE LUXFIT_CHROMIUM="${C
 add_dependencies(apps_report_browser_test luxfit)
 luxfit_test(apps run_test SLOW WHOLE LINK luxfit_apps truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_run_test luxfit)
+luxfit_test(apps room_commands_test SLOW WHOLE LINK luxfit::forward nlohmann_json::nlohmann_json)
+add_dependencies(apps_room_commands_test luxfit)
 luxfit_test(apps stability_test SLOW LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_stability_test luxfit)
 luxfit_test(apps simulate_test LINK nlohmann_json::nlohmann_json)

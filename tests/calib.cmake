@@ -1,4 +1,5 @@
 luxfit_test(calib image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
+luxfit_test(calib exr_channels_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib raw_photo_test LINK luxfit::calib)
 luxfit_test(calib luminance_test LINK luxfit::calib)
 luxfit_test(calib bracket_test LINK luxfit::calib)

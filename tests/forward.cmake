@@ -43,6 +43,7 @@ luxfit_test(forward illuminance_test LINK luxfit::forward)
 luxfit_test(forward colour_illuminance_test LINK luxfit::forward)
 luxfit_test(forward choose_accuracy_test LINK luxfit::forward)
 luxfit_test(forward placement_test LINK luxfit::forward)
+luxfit_test(forward value_mesh_test LINK luxfit::forward)
 
 luxfit_test(validation cie171_test LINK luxfit::forward)
 luxfit_test(validation integrating_sphere_test LINK luxfit::forward)
