@@ -49,6 +49,10 @@ int ChartWholeFit(const CommandOptions& options, const Session& session) {
 }  // namespace
 
 int RunCommand(const CommandOptions& options) {
+  return RunRoom(ReadRoomSession(options), options, RoomRun::kAll);
+}
+
+int FitCommand(const CommandOptions& options) {
   return RunRoom(ReadRoomSession(options), options, RoomRun::kFit);
 }
 

@@ -35,7 +35,9 @@ struct CommandOptions {
   bool whole_fit = false;  // error against time of the whole fit; elements and truth as in stability_options
 };
 
+// Everything, with OUT/report.html; and up to OUT/result.json.
 int RunCommand(const CommandOptions& options);
+int FitCommand(const CommandOptions& options);
 // Forward only: writes OUT/illuminance.csv and OUT/stages/simulate.json.
 int SimulateCommand(const CommandOptions& options);
 // Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json. Or

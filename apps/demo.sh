@@ -1,14 +1,13 @@
 #!/bin/sh
-# The main job on the office of fixtures/: photos in, luminaires checked against the luxmeter out, beside the truth.
+# The main job on the office of fixtures/: photos in, luminaires checked against the luxmeter and the truth, a report out.
 #   apps/demo.sh [OUT_FOLDER]              default: out/office
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 out=$(realpath -m "${1:-$root/out/office}")
 cd "$root"
 .ci/setup.sh
-cmake --preset release >/dev/null
-cmake --build build/release --target luxfit compare_with_truth
-build/release/apps/luxfit run fixtures/office/session.toml -o "$out"
-build/release/tests/compare_with_truth "$out/result.json" fixtures/office/truth.json
+cmake --preset package >/dev/null
+cmake --build build/package --target luxfit
+build/package/apps/luxfit demo -o "$out"
 echo
-echo "results: $out/result.json (stages in $out/stages)"
+echo "report: $out/report.html"

@@ -5,7 +5,8 @@
 set(documents ${CMAKE_INSTALL_DOCDIR})
 
 install(FILES README.md CONVENTIONS.md DESTINATION ${documents})
-install(DIRECTORY docs/ DESTINATION ${documents}/docs FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.csv")
+install(DIRECTORY docs/ DESTINATION ${documents}/docs FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png"
+        PATTERN "*.csv")
 install(FILES apps/python/example.py DESTINATION ${documents}/examples)
 
 # Debian wants a copyright file and a packed changelog of its own form in every package; CHANGELOG.md goes beside them.

@@ -8,9 +8,11 @@
 #include "apps/artifact.h"
 #include "apps/count_luminaires.h"
 #include "apps/earlier_result.h"
+#include "apps/fitted_room.h"
 #include "apps/luminaire_files.h"
 #include "apps/plan_svg.h"
 #include "apps/prepared_session.h"
+#include "apps/report.h"
 #include "apps/run_plan.h"
 #include "apps/stage_albedo.h"
 #include "apps/stage_cache.h"
@@ -71,6 +73,20 @@ std::map<std::string, double> LastTimes(const std::string& out) {
   return times_s;
 }
 
+// The page on what was found; a fit without luminaires has none, and its warnings say why. Seconds that it
+// took.
+double MakeReport(const RunContext& context, const json& result) {
+  if (result.at("luminaires").empty()) return 0;
+  RunContext own;
+  own.expected_s = context.expected_s;
+  {
+    const StageTimer timer(own, "report", context.out + "/report.html");
+    const FittedRoom fitted = ReadFittedRoom(context.out);
+    WriteReport(fitted, ReportData(fitted, {"", "", context.provenance.command_line}));
+  }
+  return own.timing_s.at("report");
+}
+
 }  // namespace
 
 RunContext MakeContext(const CommandOptions& options, const Session& session) {
@@ -94,7 +110,10 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   if (plan.is_up_to_date && !options.fresh) {
     std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",
                  path.c_str());
-    return Show(ReadResult(path), options, what);
+    const json result = ReadResult(path);
+    if (what == RoomRun::kAll && !std::filesystem::exists(context.out + "/report.html"))
+      MakeReport(context, result);
+    return Show(result, options, what);
   }
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
   if (!options.earlier_luminaires.empty())
@@ -104,9 +123,11 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);
   WriteJson(path, made.result);
+  const double report_s = what == RoomRun::kAll ? MakeReport(context, made.result) : 0;
   KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
   const int status = Show(made.result, options, what);
-  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"], path.c_str());
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"] + report_s,
+               what == RoomRun::kAll && report_s > 0 ? (context.out + "/report.html").c_str() : path.c_str());
   return status;
 }
 

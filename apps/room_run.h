@@ -11,7 +11,8 @@
 
 namespace luxfit {
 
-enum class RoomRun { kFit, kFitAndAlbedo };
+// kAll is kFit with the report.
+enum class RoomRun { kAll, kFit, kFitAndAlbedo };
 int RunRoom(Session session, const CommandOptions& options, RoomRun what);
 
 // Where to write, and what the artifacts say of their making.

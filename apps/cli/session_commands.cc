@@ -48,8 +48,8 @@ void AddLuminairesOption(const Added& added) {
 
 void AddRun(CLI::App& app, Invocation& invocation) {
   const Added run = AddSessionCommand(
-      app, invocation, "run", "everything: register the photos, observe, fit, check against the luxmeter",
-      RunCommand);
+      app, invocation, "run",
+      "everything: register the photos, observe, fit, check against the luxmeter, report", RunCommand);
   AddLuminairesOption(run);
   AddExample(
       *run.command, "luxfit run office/session.toml -o out",
@@ -61,7 +61,7 @@ void AddRun(CLI::App& app, Invocation& invocation) {
       "...\n"
       "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
   const Added fit = AddSessionCommand(
-      app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", RunCommand);
+      app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);
   AddExample(*fit.command, "luxfit fit chamber/session.toml -o out",
              "session chamber: done\n"

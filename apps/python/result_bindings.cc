@@ -35,7 +35,7 @@ struct Result {
   }
 };
 
-void AddParameters(const json& artifact, Result& result) {
+void ReadParameters(const json& artifact, Result& result) {
   const json& parameters = artifact.at("parameters");
   const auto n = static_cast<Eigen::Index>(parameters.size());
   result.parameters.resize(n);
@@ -65,7 +65,7 @@ Result ReadResultOf(const std::filesystem::path& given) {
         path.string() +
         ": format: expected \"luxfit-result-1\"; give the folder that `luxfit run` wrote into");
   const std::filesystem::path fit = out / "stages" / "fit.json";
-  if (std::filesystem::exists(fit)) AddParameters(ReadJson(fit.string()), result);
+  if (std::filesystem::exists(fit)) ReadParameters(ReadJson(fit.string()), result);
   return result;
 }
 
@@ -110,59 +110,57 @@ RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& na
   return result.covariance(at, at);
 }
 
-}  // namespace
+using ResultClass = py::class_<Result>;
 
-void BindResult(py::module_& module) {
-  const auto list = [](const char* key) {
-    return [key](const Result& r) { return PythonFrom(r.List(key)); };
+// Lists of dicts, in the keys of result.json.
+void AddLists(ResultClass& result) {
+  for (const char* key : {"summary", "luminaires", "materials", "views", "luxmeter", "choices", "warnings"})
+    result.def_property_readonly(key, [key](const Result& r) { return PythonFrom(r.List(key)); });
+  result.def_property_readonly(
+      "whole", [](const Result& r) { return PythonFrom(r.whole); }, "All of result.json.");
+  result.def_property_readonly(
+      "status", [](const Result& r) { return r.whole.value("status", ""); },
+      "done, or undetermined (see warnings).");
+}
+
+// One row an entry of those lists.
+void AddColumns(ResultClass& result) {
+  const auto names = [&](const char* name, const char* of, const char* key, const char* help) {
+    result.def_property_readonly(
+        name, [of, key](const Result& r) { return Names(r.List(of), key); }, help);
   };
-  const auto vectors = [](const char* of, const char* key) {
-    return [of, key](const Result& r) { return VectorRows(r.List(of), key); };
+  const auto numbers = [&](const char* name, const char* of, const char* key, const char* help) {
+    result.def_property_readonly(
+        name, [of, key](const Result& r) { return Column(r.List(of), key); }, help);
   };
-  const auto column = [](const char* of, const char* key) {
-    return [of, key](const Result& r) { return Column(r.List(of), key); };
+  const auto vectors = [&](const char* name, const char* of, const char* key, const char* help) {
+    result.def_property_readonly(
+        name, [of, key](const Result& r) { return VectorRows(r.List(of), key); }, help);
   };
-  const auto names = [](const char* of, const char* key) {
-    return [of, key](const Result& r) { return Names(r.List(of), key); };
-  };
-  py::class_<Result>(
-      module, "Result",
-      "What a fit found. Lists of dicts have the keys of result.json (docs/session-format.md); arrays "
-      "are in the order of those lists, NaN where the data do not determine a number.")
-      .def_property_readonly(
-          "whole", [](const Result& r) { return PythonFrom(r.whole); }, "All of result.json.")
-      .def_property_readonly(
-          "status", [](const Result& r) { return r.whole.value("status", ""); },
-          "done, or undetermined (see warnings).")
-      .def_property_readonly("summary", list("summary"))
-      .def_property_readonly("luminaires", list("luminaires"))
-      .def_property_readonly("materials", list("materials"))
-      .def_property_readonly("views", list("views"))
-      .def_property_readonly("luxmeter", list("luxmeter"))
-      .def_property_readonly("choices", list("choices"))
-      .def_property_readonly("warnings", list("warnings"))
-      .def_property_readonly("luminaire_ids", names("luminaires", "id"))
-      .def_property_readonly("position_m", vectors("luminaires", "position_m"), "(K, 3), world frame.")
-      .def_property_readonly("position_sigma_m", vectors("luminaires", "position_sigma_m"), "(K, 3)")
-      .def_property_readonly("aim", vectors("luminaires", "aim"), "(K, 3), unit.")
-      .def_property_readonly("flux_lm", column("luminaires", "flux_lm"), "(K,)")
-      .def_property_readonly("flux_sigma_lm", column("luminaires", "flux_sigma_lm"), "(K,)")
-      .def_property_readonly("material_names", names("materials", "name"))
-      .def_property_readonly("albedo", column("materials", "albedo"), "(M,)")
-      .def_property_readonly("albedo_sigma", column("materials", "sigma"), "(M,)")
-      .def_property_readonly("camera_position_m", vectors("views", "position_m"), "(V, 3), world frame.")
-      .def_property_readonly("reading_ids", names("luxmeter", "id"))
-      .def_property_readonly("reading_states", names("luxmeter", "state"))
-      .def_property_readonly("reading_roles", names("luxmeter", "role"), "fit, scale or check.")
-      .def_property_readonly("measured_lx", column("luxmeter", "measured_lux"), "(n,)")
-      .def_property_readonly("predicted_lx", column("luxmeter", "predicted_lux"), "(n,)")
-      .def_property_readonly("prediction_sigma_lx", column("luxmeter", "prediction_sigma_lux"),
-                             "(n,): of the prediction, model error included.")
-      .def_readonly("parameter_names", &Result::parameter_names, "Of parameters and covariance.")
-      .def_readonly(
-          "parameters", &Result::parameters,
-          "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the name says "
-          "so.")
+  names("luminaire_ids", "luminaires", "id", "list of K");
+  vectors("position_m", "luminaires", "position_m", "(K, 3), world frame.");
+  vectors("position_sigma_m", "luminaires", "position_sigma_m", "(K, 3)");
+  vectors("aim", "luminaires", "aim", "(K, 3), unit.");
+  numbers("flux_lm", "luminaires", "flux_lm", "(K,)");
+  numbers("flux_sigma_lm", "luminaires", "flux_sigma_lm", "(K,)");
+  names("material_names", "materials", "name", "list of M");
+  numbers("albedo", "materials", "albedo", "(M,)");
+  numbers("albedo_sigma", "materials", "sigma", "(M,)");
+  vectors("camera_position_m", "views", "position_m", "(V, 3), world frame.");
+  names("reading_ids", "luxmeter", "id", "list of n");
+  names("reading_states", "luxmeter", "state", "list of n");
+  names("reading_roles", "luxmeter", "role", "fit, scale or check.");
+  numbers("measured_lx", "luxmeter", "measured_lux", "(n,)");
+  numbers("predicted_lx", "luxmeter", "predicted_lux", "(n,)");
+  numbers("prediction_sigma_lx", "luxmeter", "prediction_sigma_lux",
+          "(n,): of the prediction, model error included.");
+}
+
+void AddParameters(ResultClass& result) {
+  result.def_readonly("parameter_names", &Result::parameter_names, "Of parameters and covariance.")
+      .def_readonly("parameters", &Result::parameters,
+                    "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the "
+                    "name says so.")
       .def_readonly("covariance", &Result::covariance, "(p, p) of the parameters; empty where there is none.")
       .def("covariance_of", &CovarianceOf, py::arg("names"), "Covariance of these parameters alone.")
       .def(
@@ -170,11 +168,22 @@ void BindResult(py::module_& module) {
           [](const Result& r, const std::string& id) {
             return CovarianceOf(r, {"position x of " + id, "position y of " + id, "position z of " + id});
           },
-          py::arg("id"), "(3, 3) of a luminaire's estimated position.")
-      .def("__repr__", [](const Result& r) {
-        return "<luxfit.Result of " + r.whole.value("session", "?") + ", " + r.whole.value("status", "?") +
-               ">";
-      });
+          py::arg("id"), "(3, 3) of a luminaire's estimated position.");
+}
+
+}  // namespace
+
+void BindResult(py::module_& module) {
+  ResultClass result(
+      module, "Result",
+      "What a fit found. Lists of dicts have the keys of result.json (docs/session-format.md); arrays are in "
+      "the order of those lists, NaN where the data do not determine a number.");
+  AddLists(result);
+  AddColumns(result);
+  AddParameters(result);
+  result.def("__repr__", [](const Result& r) {
+    return "<luxfit.Result of " + r.whole.value("session", "?") + ", " + r.whole.value("status", "?") + ">";
+  });
   module.def(
       "read_result", &ReadResultOf, py::arg("out"),
       "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");

@@ -1,5 +1,5 @@
-// A camera without distortion sees (1, 0, 2) m at cx + fx / 2, and its pixel looks back along that ray; a file that is not
-// there is refused.
+// A camera without distortion sees (1, 0, 2) m at cx + fx / 2, and its pixel looks back along that ray; a
+// file that is not there is refused.
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -23,5 +23,6 @@ int main() {
     refuses = true;
   }
   std::printf("calib: %.1f %.1f px\n", pixel.x(), pixel.y());
-  return pixel.isApprox(Eigen::Vector2d(570, 240)) && std::abs(ray.x() / ray.z() - 0.5) < 1e-9 && refuses ? 0 : 1;
+  return pixel.isApprox(Eigen::Vector2d(570, 240)) && std::abs(ray.x() / ray.z() - 0.5) < 1e-9 && refuses ? 0
+                                                                                                          : 1;
 }

@@ -10,5 +10,6 @@ int main() {
   const luxfit::Room room = luxfit::MakeRoom(luxfit::Scene{});
   const luxfit::LuminaireFit fit = luxfit::FitLuminaires(room, {}, {});
   std::printf("inverse: %.2f %%, %s\n", summary.mean_abs_error_percent, fit.message.c_str());
-  return std::abs(summary.mean_abs_error_percent - 1) < 1e-9 && fit.status == luxfit::FitStatus::kNoData ? 0 : 1;
+  return std::abs(summary.mean_abs_error_percent - 1) < 1e-9 && fit.status == luxfit::FitStatus::kNoData ? 0
+                                                                                                         : 1;
 }
