@@ -88,7 +88,7 @@ TEST(FalseColours, LightnessRisesWithTheValue) {
 
 TEST(FalseColours, ScaleEndsAtARoundNumberAboveTheValues) {
   EXPECT_EQ(ScaleOf(ImagePlane::Constant(3, 3, 183), "").upper, 200);
-  EXPECT_EQ(ScaleOf(ImagePlane::Constant(3, 3, 0.7F), "").upper, 0.7);
+  EXPECT_NEAR(ScaleOf(ImagePlane::Constant(3, 3, 0.7F), "").upper, 0.7, 1e-12);  // 7 x 0.1
   EXPECT_EQ(ScaleOf(ImagePlane::Constant(3, 3, std::numeric_limits<float>::quiet_NaN()), "").upper, 1);
 }
 

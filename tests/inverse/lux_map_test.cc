@@ -79,7 +79,7 @@ TEST(LuxMap, RefusesACameraWithoutScale) {
 
 class Dimmed : public testing::Test {
  protected:
-  Dimmed() : light_(400, 3), rng_(TestRng()) {
+  Dimmed() : light_(400, 3), rng_(support::TestRng()) {
     std::uniform_real_distribution<double> uniform(0, 100);
     for (double& e : light_.reshaped()) e = uniform(rng_);
   }
