@@ -69,7 +69,9 @@ void WriteJson(const std::string& path, const nlohmann::json& json) { WriteText(
 
 nlohmann::json ReadJson(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": expected a readable file, found none");
+  std::error_code error;
+  if (!file || std::filesystem::is_directory(path, error))
+    throw std::runtime_error(path + ": expected a readable file, found none");
   try {
     return nlohmann::json::parse(file);
   } catch (const nlohmann::json::parse_error& e) {

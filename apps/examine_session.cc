@@ -139,7 +139,7 @@ void ExaminePhotos(const Session& session, Findings& findings) {
   }
   for (const auto& [problem, files] : files_of_problem)
     findings.push_back({Health::kBad, ListNames(files, kNamedFiles) + ": " + problem.first, problem.second});
-  findings.push_back({Health::kGood,
+  findings.push_back({problems == 0 ? Health::kGood : Health::kNote,
                       fmt::format("{} of {} photos can be used, {} views", looks.size() - problems,
                                   looks.size(), views.size()),
                       ""});

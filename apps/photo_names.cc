@@ -26,6 +26,16 @@ bool IsNothing(const std::string& state) {
   return words.count(Lower(state)) > 0;
 }
 
+// A, B2, lamp1, desk_spot: names of things rather than of occasions.
+bool IsLuminaireName(const std::string& state) {
+  const std::string lower = Lower(state);
+  const bool has_digit = lower.find_first_of("0123456789") != std::string::npos;
+  const std::vector<std::string> words = {"lamp", "light", "lum", "spot", "panel", "downlight", "tube"};
+  return lower.size() <= 3 || has_digit ||
+         std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return lower.find(word) != std::string::npos; });
+}
+
 struct Split {
   std::string first, last;
 };
@@ -94,19 +104,21 @@ PhotoNames GuessViewsAndStates(const std::vector<std::string>& files) {
 }
 
 std::vector<GuessedState> GuessStates(const PhotoNames& names) {
-  std::set<std::string> ids;
+  std::set<std::string> ids, luminaires, occasions;
   for (const NamedPhoto& photo : names.photos) ids.insert(photo.state);
-  std::vector<std::string> luminaires;
   for (const std::string& id : ids) {
-    if (!IsEverything(id) && !IsNothing(id)) luminaires.push_back(id);
+    if (!IsEverything(id) && !IsNothing(id)) (IsLuminaireName(id) ? luminaires : occasions).insert(id);
   }
+  if (luminaires.empty()) luminaires.swap(occasions);
   std::vector<GuessedState> states;
   states.reserve(ids.size());
   for (const std::string& id : ids) {
-    if (IsEverything(id)) {
-      states.push_back({id, luminaires});
+    if (luminaires.count(id) > 0) {
+      states.push_back({id, {id}});
+    } else if (IsNothing(id)) {
+      states.push_back({id, {}});
     } else {
-      states.push_back({id, IsNothing(id) ? std::vector<std::string>{} : std::vector<std::string>{id}});
+      states.push_back({id, {luminaires.begin(), luminaires.end()}});
     }
   }
   return states;

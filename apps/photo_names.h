@@ -28,8 +28,9 @@ struct PhotoNames {
 // Paths relative to the folder of the photos.
 PhotoNames GuessViewsAndStates(const std::vector<std::string>& files);
 
-// What may be on in each state, by its name: nothing (off, dark, ambient, none), everything (all, on, full),
-// else one luminaire of that name.
+// What may be on in each state, by its name: nothing (off, dark, ambient, none), the one luminaire of that
+// name (A, B2, lamp1), else everything (all, on, full, and occasions such as evening, whose dimming nobody
+// can guess). Where no name looks like a luminaire's, every other one is taken for one.
 struct GuessedState {
   std::string id;
   std::vector<std::string> luminaires;

@@ -50,5 +50,14 @@ TEST(PhotoNamesTest, StatesByTheirNames) {
   EXPECT_THAT(states[3].luminaires, IsEmpty());
 }
 
+TEST(PhotoNamesTest, OccasionsAreNoLuminaires) {
+  const PhotoNames names = GuessViewsAndStates({"v0_A.png", "v0_lamp2.png", "v0_evening.png", "v1_A.png"});
+  const std::vector<GuessedState> states = GuessStates(names);
+  ASSERT_EQ(states.size(), 3U);
+  EXPECT_EQ(states[1].id, "evening");
+  EXPECT_THAT(states[1].luminaires, ElementsAre("A", "lamp2"));
+  EXPECT_THAT(states[2].luminaires, ElementsAre("lamp2"));
+}
+
 }  // namespace
 }  // namespace luxfit
