@@ -18,16 +18,12 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 Patches TwoMaterials() {
+  const Eigen::Vector3d o = Eigen::Vector3d::Zero(), x = Eigen::Vector3d::UnitX(),
+                        y = Eigen::Vector3d::UnitY(), z = Eigen::Vector3d::UnitZ();
   Patches patches;
   for (int i = 0; i < 2; ++i) {
-    Patch patch;
-    patch.material = i;
-    patch.first_element = i;
-    patch.element_count = 1;
-    patches.patches.push_back(patch);
-    Element element;
-    element.patch = i;
-    patches.elements.push_back(element);
+    patches.patches.push_back({o, o, x, y, 1, true, 0, i, i, 1});
+    patches.elements.push_back({o, z, o, x, y, 1, true, i});
   }
   return patches;
 }
