@@ -164,6 +164,7 @@ int DimCommand(const DimCommandOptions& options) {
   const std::string state = StateOf(fitted, options.state);
   const Eigen::VectorXd now = DimmingOf(fitted, state);
   std::vector<Sensor> sensors;
+  sensors.reserve(gazes.size());
   for (const Gaze& gaze : gazes) sensors.push_back({gaze.eye_m, gaze.direction});
   const PlaceLight light = LightAt(fitted, sensors);
   EyeLight eyes{light.total_lx, {}};

@@ -50,7 +50,7 @@ std::vector<KeyLine> KeyLines() {
       continue;
     }
     const std::string key = line.substr(0, line.find(' '));
-    if (IsWord(key)) keys.push_back({section.empty() ? key : section + "." + key, line});
+    if (IsWord(key)) keys.push_back({section.empty() ? key : fmt::format("{}.{}", section, key), line});
   }
   return keys;
 }

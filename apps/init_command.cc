@@ -54,6 +54,7 @@ void GuessUnit(const Eigen::Vector3d& size, const std::vector<SurveyedTag>& surv
                SessionDraft& draft) {
   const std::vector<std::pair<std::string, double>> units = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
   std::vector<Eigen::Vector3d> centers;
+  centers.reserve(survey.size());
   for (const SurveyedTag& tag : survey) centers.push_back(tag.center_in_world);
   const SurveyCheck check = CheckSurvey(scene, centers, 1);
   for (const auto& [unit, metres] : units) {

@@ -43,6 +43,7 @@ RoomTargets TargetsOf(const FittedRoom& fitted, const std::vector<DesignPoint>& 
                       const std::vector<TargetArea>& areas) {
   RoomTargets targets;
   std::vector<Sensor> sensors;
+  sensors.reserve(points.size());
   for (const DesignPoint& point : points) sensors.push_back(point.sensor);
   const Eigen::MatrixXd at_points = sensors.empty() ? Eigen::MatrixXd() : LightAt(fitted, sensors).total_lx;
   for (size_t i = 0; i < points.size(); ++i) {

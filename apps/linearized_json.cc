@@ -28,7 +28,7 @@ json ResponseJson(const CameraResponse& response) {
 CameraResponse ResponseFromJson(const json& in) {
   std::array<Eigen::VectorXd, 3> exposure, sigma;
   for (size_t c = 0; c < 3; ++c) exposure[c] = VectorFromJson(in.at("channels").at(c).at("exposure"));
-  const CameraResponse response(VectorFromJson(in.at("counts")), exposure);
+  CameraResponse response(VectorFromJson(in.at("counts")), exposure);
   if (!in.at("channels").at(0).contains("relative_sigma")) return response;
   for (size_t c = 0; c < 3; ++c) sigma[c] = VectorFromJson(in.at("channels").at(c).at("relative_sigma"));
   return response.WithRelativeSigma(sigma);

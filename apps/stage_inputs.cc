@@ -61,7 +61,7 @@ class Parts {
           fmt::format("{} {} {} {} {} {}", photo.camera, photo.view, photo.state, photo.exposure_s,
                       photo.f_number.value_or(-1), photo.iso.value_or(-1));
       std::string& hash = inputs[NameOf(photo)];
-      hash = HashText(hash + row + HashPath(photo.file));
+      hash = HashText(fmt::format("{}{}{}", hash, row, HashPath(photo.file)));
     }
     return inputs;
   }

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <stdexcept>
-#include <system_error>
 #include <vector>
+
+#include "calib/internal/write_image.h"
 
 namespace luxfit {
 namespace {
@@ -44,8 +42,9 @@ void DrawScale(cv::Mat& page, int top, const ColourScale& scale) {
   }
   for (int i = 0; i < kTicks; ++i) {
     const double share = static_cast<double>(i) / (kTicks - 1);
-    std::string text = fmt::format("{:g}", scale.lower + share * (scale.upper - scale.lower));
-    if (i + 1 == kTicks) text = scale.label + " " + text;
+    const double value = scale.lower + share * (scale.upper - scale.lower);
+    const std::string text =
+        i + 1 == kTicks ? fmt::format("{} {:g}", scale.label, value) : fmt::format("{:g}", value);
     int baseline = 0;
     const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 0.4, 1, &baseline);
     const int centre = left + static_cast<int>(share * (right - 1 - left));
@@ -97,20 +96,7 @@ void WriteFalseColourPng(const std::string& path, const ImagePlane& values, cons
       page.at<cv::Vec3b>(v, u) = Bgr(FalseColour(ShareOf(static_cast<double>(values(v, u)), scale)));
   }
   DrawScale(page, rows, scale);
-  const std::string temporary = path + ".part.png";
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  bool written = false;
-  try {
-    written = cv::imwrite(temporary, page);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (written) std::filesystem::rename(temporary, path, error);
-  if (!written || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(path + ": expected a writable place; check the folder and the free space");
-  }
+  WriteImageFile(path, page);
 }
 
 }  // namespace luxfit

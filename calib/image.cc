@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
-#include <system_error>
 
 #include "calib/internal/radiance_header.h"
 #include "calib/internal/raw_photo.h"
 #include "calib/internal/tiff_compression.h"
+#include "calib/internal/write_image.h"
 
 namespace luxfit {
 namespace {
@@ -134,20 +133,7 @@ void WriteExr(const std::string& path, const std::array<ImagePlane, 3>& rgb) {
     for (int u = 0; u < image.cols; ++u)
       image.at<cv::Vec3f>(v, u) = {rgb[2](v, u), rgb[1](v, u), rgb[0](v, u)};
   }
-  const std::string temporary = path + ".part.exr";
-  std::error_code error;
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-  bool written = false;
-  try {
-    written = cv::imwrite(temporary, image);
-  } catch (const cv::Exception&) {
-    written = false;
-  }
-  if (written) std::filesystem::rename(temporary, path, error);
-  if (!written || error) {
-    std::filesystem::remove(temporary, error);
-    throw std::runtime_error(path + ": expected a writable place; check the folder and the free space");
-  }
+  WriteImageFile(path, image);
 }
 
 }  // namespace luxfit

@@ -121,15 +121,11 @@ std::vector<GridPointKind> ClassifyPoints(const Room& room, const PlaneGrid& gri
   kinds.reserve(static_cast<size_t>(grid.points.cols()));
   for (Eigen::Index k = 0; k < grid.points.cols(); ++k) {
     const Eigen::Vector3d p = grid.points.col(k);
-    GridPointKind kind = GridPointKind::kCounts;
-    if ((!outline_m.empty() && !IsWithin(outline_m, p.head<2>()))) {
-      kind = GridPointKind::kOutside;
-    } else if (IsInsideSolid(room.scene, room.rays, p, grid.normal)) {
-      kind = GridPointKind::kInSolid;
-    } else if (over_floor && !IsOverFloor(room, p)) {
-      kind = GridPointKind::kOutside;
-    }
-    kinds.push_back(kind);
+    const bool is_solid = IsInsideSolid(room.scene, room.rays, p, grid.normal);
+    const bool is_outlined = outline_m.empty() || IsWithin(outline_m, p.head<2>());
+    const bool is_outside = !is_outlined || (!is_solid && over_floor && !IsOverFloor(room, p));
+    kinds.push_back(is_outside ? GridPointKind::kOutside
+                               : (is_solid ? GridPointKind::kInSolid : GridPointKind::kCounts));
   }
   return kinds;
 }

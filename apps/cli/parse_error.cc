@@ -35,7 +35,7 @@ const CLI::App* CommandOf(const CLI::App& app, const std::vector<std::string>& a
 std::string UnknownFlag(const CLI::App& command, const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument.rfind("--", 0) != 0 || argument == "--") continue;
-    const std::string flag = argument.substr(0, argument.find('='));
+    std::string flag = argument.substr(0, argument.find('='));
     if (!command.get_option_no_throw(flag)) return flag;
   }
   return "";

@@ -93,7 +93,7 @@ Luminaire MakeLuminaire(const Eigen::Vector3d& position_m, const Arguments& give
   session.heading = UnitVector("heading", heading);
   if (given.flux_lm) session.flux_lm = Flux(*given.flux_lm);
   if (given.photometry == "table") Check(given, Luminaire{});
-  const Luminaire luminaire = ReadGivenLuminaire(session).luminaire;
+  Luminaire luminaire = ReadGivenLuminaire(session).luminaire;
   Check(given, luminaire);
   return luminaire;
 }
