@@ -34,8 +34,8 @@ void AddSimulate(CLI::App& app, Invocation& invocation) {
     options->command_line = invocation.command_line;
     invocation.run = [options] { return SimulateCommand(*options); };
   });
-  AddExample(*command, "luxfit simulate design/session.toml -o out",
-             "session design: simulated\n"
+  AddExample(*command, "luxfit simulate spots/session.toml -o out",
+             "session spots: simulated\n"
              "\n"
              "reading      state               lx      direct    indirect  measured lx  error %\n"
              "P0_0         A                 7.47        3.54        3.94            -        -\n"
@@ -94,12 +94,12 @@ void AddChart(CLI::App& app, Invocation& invocation) {
     options->threads = invocation.threads;
     invocation.run = [options] { return ChartCommand(*options); };
   });
-  AddExample(*command, "luxfit chart office/session.toml -o out --result out/result.json",
-             "session office: 21 points, 153 skipped; reference ± 0.69 %\n"
+  AddExample(*command, "luxfit chart spots/session.toml -o out --budget 4",
+             "session spots: 21 points, 153 skipped; reference ± 0.69 %\n"
              "\n"
              "on the front:\n"
              "method               rays patch m element m bounces solver                 time s   error %\n"
-             "hybrid                 16     0.8       0.2     all conjugate_gradient     0.1453     0.576\n"
+             "malley_stratified      32     0.8       0.2       8 neumann                0.0571     0.595\n"
              "...");
 }
 

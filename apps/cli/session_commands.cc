@@ -64,7 +64,7 @@ void AddRun(CLI::App& app, Invocation& invocation) {
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);
   AddExample(*fit.command, "luxfit fit chamber/session.toml -o out",
-             "session chamber: done\n"
+             "session chamber BlackFelt: done\n"
              "\n"
              "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
              "LED         0.560  0.596  0.085  ± 1.2 2.1 7.5              528 ± 97          table rectangle "
