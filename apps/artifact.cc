@@ -40,13 +40,13 @@ std::string HashFile(const std::string& path) {
 std::string HashText(const std::string& text) { return Hexadecimal(XXH3_128bits(text.data(), text.size())); }
 
 nlohmann::json ProvenanceJson(const std::string& format, const Provenance& provenance) {
-  nlohmann::json json;
-  json["format"] = format;
-  json["luxfit_version"] = kVersion;
-  json["command"] = provenance.command_line;
-  json["inputs"] = nlohmann::json::object();
-  for (const std::string& input : provenance.inputs) json["inputs"][input] = HashFile(input);
-  return json;
+  nlohmann::json opening;
+  opening["format"] = format;
+  opening["luxfit_version"] = kVersion;
+  opening["command"] = provenance.command_line;
+  opening["inputs"] = nlohmann::json::object();
+  for (const std::string& input : provenance.inputs) opening["inputs"][input] = HashFile(input);
+  return opening;
 }
 
 void WriteText(const std::string& path, const std::string& text) {

@@ -20,8 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string FileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
-
 // JSON has no infinity and no NaN: what is not known is null.
 json Number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "apps/calibration_sets.h"
+#include "apps/file_stem.h"
 #include "calib/board.h"
 #include "calib/corners_file.h"
 #include "calib/image.h"
@@ -26,8 +27,6 @@ struct CameraImages {
   std::vector<BoardDetection> found;
   Eigen::Array2i size_px{0, 0};
 };
-
-std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
 
 bool IsOfTags(const SessionCamera& camera) { return !camera.board; }
 

@@ -1,21 +1,17 @@
 #include "apps/chart_points.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "apps/seconds.h"
 #include "forward/light_tracer.h"
 #include "forward/overlaps.h"
 
 namespace luxfit {
 namespace {
-
-double NowS() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // The least of up to five runs, as long as they take half a second together.
 template <typename Run>

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr double kDegrees = 180 / M_PI;
 
 double NumberOf(const json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();

@@ -178,7 +178,7 @@ int DimCommand(const DimCommandOptions& options) {
   if (!options.design.empty()) given_w = ReadDesign(options.design, fitted.session).power_w;
   const Eigen::VectorXd power_w = PowerOf(fitted, given_w);
   const UnseenDimming unseen = DimUnseen(eyes, now, power_w, options.drop_percent / 100,
-                                         FluxCovariance(fitted, ReadFitUncertainty(fitted)));
+                                         FluxCovariance(fitted, ReadFitUncertainty(fitted.out)));
   json result = ProvenanceJson("luxfit-dim-1", {options.command_line, {fitted.out + "/result.json"}});
   result["state"] = state;
   result["drop_percent"] = options.drop_percent;

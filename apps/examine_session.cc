@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/file_stem.h"
 #include "apps/stages.h"
 #include "apps/suggest.h"
 #include "calib/camera_file.h"
@@ -23,8 +24,6 @@ namespace {
 constexpr int kNamedFiles = 3;
 
 using Findings = std::vector<DoctorFinding>;
-
-std::string FileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 void ExamineMesh(const Session& session, Findings& findings) {
   if (!session.scene) {

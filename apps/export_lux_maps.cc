@@ -39,7 +39,7 @@ ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder,
         "reading with the role scale gives");
     return exported;
   }
-  const SurfaceScale scale = ScaleOfSurfaces(fitted, ReadFitUncertainty(fitted));
+  const SurfaceScale scale = ScaleOfSurfaces(fitted, ReadFitUncertainty(fitted.out));
   const PhotoCorrections corrections = ReadPhotoCorrections(fitted.out);
   const Session session = LinearizeSession(fitted.session, context);
   std::vector<PixelDirections> directions;

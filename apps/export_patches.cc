@@ -10,8 +10,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Light of the elements by state and by luminaire, with names that files can hold.
 std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd& albedo) {
   const std::string lx = fitted.is_absolute ? "lx_" : "relative_";
@@ -21,7 +19,7 @@ std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd
     values.push_back({"illuminance_" + lx + of, total});
     values.push_back({"direct_" + lx + of, direct});
     values.push_back({"indirect_" + lx + of, total - direct});
-    values.push_back({cd + of, albedo.cwiseProduct(total) / kPi});
+    values.push_back({cd + of, albedo.cwiseProduct(total) / M_PI});
   };
   std::vector<std::string> states, ids;
   for (const SessionState& state : fitted.session.states) states.push_back(state.id);

@@ -1,6 +1,7 @@
 #include "apps/file_stem.h"
 
 #include <cctype>
+#include <filesystem>
 #include <set>
 
 namespace luxfit {
@@ -12,6 +13,8 @@ std::string Lower(std::string text) {
 }
 
 }  // namespace
+
+std::string FileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 std::string FileStem(const std::string& id) {
   std::string stem = id;

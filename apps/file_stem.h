@@ -7,6 +7,9 @@
 
 namespace luxfit {
 
+// A path's last part.
+std::string FileName(const std::string& path);
+
 std::string FileStem(const std::string& id);
 
 // One for each, no two alike even where case does not count: the later of two gets _2, _3, ...

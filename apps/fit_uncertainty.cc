@@ -38,12 +38,17 @@ double FitUncertainty::Sigma(const std::string& parameter) const {
   return std::sqrt(Covariance(parameter, parameter));
 }
 
-FitUncertainty ReadFitUncertainty(const FittedRoom& fitted) {
-  const std::string path = fitted.out + "/stages/fit.json";
+FitUncertainty ReadFitUncertainty(const std::string& out) {
+  const std::string path = out + "/stages/fit.json";
   try {
     const json fit = ReadJson(path);
     FitUncertainty uncertainty;
-    for (const json& parameter : fit.at("parameters")) uncertainty.parameters.push_back(parameter.at("name"));
+    json values = json::array();
+    for (const json& parameter : fit.at("parameters")) {
+      uncertainty.parameters.push_back(parameter.at("name"));
+      values.push_back(parameter.at("value"));
+    }
+    uncertainty.values = VectorFromJson(values);
     uncertainty.undetermined = fit.at("undetermined").get<std::vector<std::string>>();
     uncertainty.relative_model_sigma = fit.value("relative_model_error", 0.0);
     if (!fit.at("covariance").empty()) uncertainty.covariance = MatrixFromJson(fit.at("covariance"));
@@ -74,6 +79,15 @@ SurfaceScale ScaleOfSurfaces(const FittedRoom& fitted, const FitUncertainty& unc
     scale.relative_sigma[m] = std::sqrt(std::max(variance, 0.0));
   }
   return scale;
+}
+
+Eigen::Matrix3d PositionCovariance(const FitUncertainty& uncertainty, const std::string& luminaire) {
+  Eigen::Matrix3d covariance;
+  const auto name = [&](int axis) { return std::string("position ") + "xyz"[axis] + " of " + luminaire; };
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) covariance(i, j) = uncertainty.Covariance(name(i), name(j));
+  }
+  return covariance;
 }
 
 Eigen::MatrixXd FluxCovariance(const FittedRoom& fitted, const FitUncertainty& uncertainty) {

@@ -20,6 +20,7 @@ namespace luxfit {
 
 struct FitUncertainty {
   std::vector<std::string> parameters;
+  Eigen::VectorXd values;
   std::vector<std::string> undetermined;
   Eigen::MatrixXd covariance;  // empty: the fit did not get that far
   double relative_model_sigma = 0;
@@ -28,11 +29,15 @@ struct FitUncertainty {
   double Covariance(const std::string& a, const std::string& b) const;  // 0 where either was held
   double Sigma(const std::string& parameter) const;
 };
-FitUncertainty ReadFitUncertainty(const FittedRoom& fitted);
+// Of the run that wrote into this folder.
+FitUncertainty ReadFitUncertainty(const std::string& out);
 
 // Camera scale times reflectance, with what is known of each: reflectances that the data did not determine,
 // or that nobody saw, are unknown.
 SurfaceScale ScaleOfSurfaces(const FittedRoom& fitted, const FitUncertainty& uncertainty);
+
+// Of a luminaire's position, m2; zero for what the fit held, NaN for what the data did not determine.
+Eigen::Matrix3d PositionCovariance(const FitUncertainty& uncertainty, const std::string& luminaire);
 
 // Covariance of ln flux, luminaires x luminaires.
 Eigen::MatrixXd FluxCovariance(const FittedRoom& fitted, const FitUncertainty& uncertainty);

@@ -96,14 +96,11 @@ Session FittedSession(const json& result, const std::string& given, const std::s
   return session;
 }
 
-FittedRoom Assemble(const std::string& out, const json& result, const std::string& session_path) {
+FittedRoom Assemble(const std::string& out, const json& result, Session session, RegisteredSession registered,
+                    Room room) {
   RunContext context;
   context.is_quiet = true;
-  Session session = FittedSession(result, session_path, out + "/result.json");
-  RegisteredSession registered;
-  if (!result.at("views").empty()) registered = RegistrationFromJson(ReadJson(out + "/stages/register.json"));
   std::vector<Luminaire> luminaires = GivenLuminaires(session, "report", context);
-  Room room = LoadRoom(session, context);
   Eigen::VectorXd albedo = AlbedoOf(result, room.scene);
   PlaceLight light = LightOfElements(room, luminaires, albedo);
   return {out,
@@ -119,18 +116,39 @@ FittedRoom Assemble(const std::string& out, const json& result, const std::strin
           std::move(light.direct_lx)};
 }
 
+template <typename Make>
+FittedRoom WithResultOf(const std::string& out, const Make& make) {
+  const json result = ReadResult(out + "/result.json");
+  try {
+    return make(result);
+  } catch (const json::exception& e) {
+    throw InputError(
+        {out + "/result.json", 0}, "",
+        std::string("expected a whole result of this version; run `luxfit run` again; ") + e.what());
+  }
+}
+
 }  // namespace
 
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path) {
   const std::string folder = std::filesystem::absolute(out).lexically_normal().string();
-  const json result = ReadResult(folder + "/result.json");
-  try {
-    return Assemble(folder, result, session_path);
-  } catch (const json::exception& e) {
-    throw InputError(
-        {folder + "/result.json", 0}, "",
-        std::string("expected a whole result of this version; run `luxfit run` again; ") + e.what());
-  }
+  return WithResultOf(folder, [&](const json& result) {
+    Session session = FittedSession(result, session_path, folder + "/result.json");
+    RegisteredSession registered;
+    if (!result.at("views").empty())
+      registered = RegistrationFromJson(ReadJson(folder + "/stages/register.json"));
+    RunContext context;
+    context.is_quiet = true;
+    Room room = LoadRoom(session, context);
+    return Assemble(folder, result, std::move(session), std::move(registered), std::move(room));
+  });
+}
+
+FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room) {
+  return WithResultOf(out, [&](const json& result) {
+    return Assemble(out, result, FittedSession(result, "", out + "/result.json"), std::move(registered),
+                    std::move(room));
+  });
 }
 
 PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors, int rays_per_sensor) {

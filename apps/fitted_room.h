@@ -45,6 +45,9 @@ struct FittedRoom {
 // `session_path` in place of the one that result.json names; empty: that one.
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "");
 
+// Of a run that holds its room still and has written its result into `out`, an absolute path.
+FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);
+
 // At any places, sensors x luminaires, lx; indirect light by so many rays a place.
 struct PlaceLight {
   Eigen::MatrixXd total_lx, direct_lx;

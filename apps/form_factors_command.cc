@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/artifact.h"
 #include "apps/internal/session_scene.h"
+#include "apps/seconds.h"
 #include "apps/suggest.h"
 #include "forward/form_factors.h"
 #include "forward/mesh_check.h"
@@ -33,10 +33,6 @@ double MetresPer(const std::string& unit) {
   std::vector<std::string> names;
   for (const auto& [name, metres] : MetresPerUnit()) names.push_back(name);
   throw std::runtime_error("--unit: " + ExpectedOneOf(names, unit));
-}
-
-double NowS() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 void Warn(const std::vector<MeshFinding>& findings) {

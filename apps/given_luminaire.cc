@@ -29,7 +29,7 @@ LuminaireShape ShapeFrom(const std::string& shape) {
 
 // A table to be estimated starts as Lambertian, every 7.5 degrees.
 std::shared_ptr<const IntensityTable> GivenTable(const SessionLuminaire& given) {
-  constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+  constexpr double kRadPerDeg = M_PI / 180;
   std::vector<double> gamma_rad, intensity = given.cd_per_klm;
   for (const double gamma_deg : given.gamma_deg) gamma_rad.push_back(kRadPerDeg * gamma_deg);
   for (int j = 0; given.gamma_deg.empty() && j <= 12; ++j) {

@@ -8,9 +8,11 @@ namespace luxfit {
 
 using nlohmann::json;
 
+json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(); }
+
 json VectorJson(const Eigen::VectorXd& vector) {
   json list = json::array();
-  for (const double value : vector) list.push_back(std::isfinite(value) ? json(value) : json());
+  for (const double value : vector) list.push_back(NumberOrNull(value));
   return list;
 }
 

@@ -10,6 +10,7 @@
 
 namespace luxfit {
 
+nlohmann::json NumberOrNull(double value);
 nlohmann::json VectorJson(const Eigen::VectorXd& vector);
 nlohmann::json MatrixJson(const Eigen::MatrixXd& matrix);
 Eigen::VectorXd VectorFromJson(const nlohmann::json& json);

@@ -17,7 +17,7 @@ constexpr double kAssumedLmPerW = 100;
 
 // Relative sigma of the light of each luminaire.
 Eigen::VectorXd LightSigma(const FittedRoom& fitted) {
-  const FitUncertainty uncertainty = ReadFitUncertainty(fitted);
+  const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
   const Eigen::VectorXd variance = FluxCovariance(fitted, uncertainty).diagonal();
   const double model = uncertainty.relative_model_sigma;
   // What the data did not determine could be nothing: it is not counted on.

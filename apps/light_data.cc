@@ -16,13 +16,6 @@ constexpr double kUnknownMeterSigma = 0.02;
 // Of a single reading of a meter whose class is given: placing it, and its display.
 constexpr double kReadingSigma = 0.01;
 
-int StateIndex(const Session& session, const std::string& id) {
-  for (size_t s = 0; s < session.states.size(); ++s) {
-    if (session.states[s].id == id) return static_cast<int>(s);
-  }
-  return 0;
-}
-
 // Sensors of one meter, each with a gain of its own that its readings share.
 void AddSensorGains(double sigma, int sensors, SessionLight& light) {
   if (sensors == 0) return;
@@ -76,7 +69,7 @@ SessionLight LightOf(const Session& session, const std::vector<Observation>& obs
   for (const SessionReading& given : meter.readings) {
     Reading reading;
     reading.sensor = {given.position_m, given.normal, meter.response};
-    reading.state = StateIndex(session, given.state);
+    reading.state = std::max(0, StateIndex(session, given.state));
     reading.illuminance_lx = given.illuminance_lx;
     // Of the reading as it was taken, and of the one that was subtracted from it.
     const double taken_lx = std::hypot(given.illuminance_lx + given.ambient_lx, given.ambient_lx);

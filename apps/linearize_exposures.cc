@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "apps/file_stem.h"
 #include "apps/linearize.h"
 #include "calib/exposure_gains.h"
 #include "calib/exposure_metadata.h"
@@ -18,8 +19,6 @@ namespace {
 
 // Labels are rounded by up to 7 % (1/60 for 1/64): more is another exposure.
 constexpr double kLabelRounding = 0.10;
-
-std::string FileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
 std::string PhotoName(const Session& session, const std::string& file, int line) {
   return fmt::format("{}:{} ({})", FileName(session.photos_path), line, FileName(file));

@@ -51,7 +51,7 @@ int ElementUnder(const Room& room, const Sensor& sensor) {
 }
 
 Watched Watch(const FittedRoom& fitted) {
-  const FitUncertainty uncertainty = ReadFitUncertainty(fitted);
+  const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
   Watched watched{fitted,
                   ScaleOfSurfaces(fitted, uncertainty),
                   FluxCovariance(fitted, uncertainty),

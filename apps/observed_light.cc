@@ -197,37 +197,38 @@ void WarnOfCameras(const Session& session, const SelfCalibration& found, RunCont
 }
 
 nlohmann::json JsonOf(const Session& session, const NumberedPhotos& numbered, const SelfCalibration& found) {
-  nlohmann::json json = {
+  nlohmann::json found_json = {
       {"chosen", found.Chosen().name},         {"relative_difference_of_views", found.residual_sigma},
       {"candidates", nlohmann::json::array()}, {"exposure_gains", nlohmann::json::array()},
       {"states", nlohmann::json::array()},     {"cameras", nlohmann::json::array()}};
   for (const RadiometryCandidate& c : found.candidates)
-    json["candidates"].push_back({{"name", c.name},
-                                  {"parameters", c.parameters},
-                                  {"score", c.score},
-                                  {"standard_error", c.standard_error},
-                                  {"is_determined", c.is_determined}});
+    found_json["candidates"].push_back({{"name", c.name},
+                                        {"parameters", c.parameters},
+                                        {"score", c.score},
+                                        {"standard_error", c.standard_error},
+                                        {"is_determined", c.is_determined}});
   for (size_t p = 0; p < numbered.photos.size() && found.Chosen().gains; ++p) {
     const Eigen::Index at = static_cast<Eigen::Index>(p);
-    json["exposure_gains"].push_back({{"file", numbered.photos[p]->file},
-                                      {"factor", std::exp(found.log_gain[at])},
-                                      {"relative_sigma", std::sqrt(found.covariance(at, at))}});
+    found_json["exposure_gains"].push_back({{"file", numbered.photos[p]->file},
+                                            {"factor", std::exp(found.log_gain[at])},
+                                            {"relative_sigma", std::sqrt(found.covariance(at, at))}});
   }
   for (size_t s = 0; s < session.states.size() && found.Chosen().gains; ++s) {
     const Eigen::Index at = static_cast<Eigen::Index>(s);
-    json["states"].push_back({{"state", session.states[s].id},
-                              {"relative_sigma", found.state_sigma[at]},
-                              {"relative_sigma_beforehand", found.state_prior_sigma[at]}});
+    found_json["states"].push_back({{"state", session.states[s].id},
+                                    {"relative_sigma", found.state_sigma[at]},
+                                    {"relative_sigma_beforehand", found.state_prior_sigma[at]}});
   }
   for (size_t c = 0; c < session.cameras.size(); ++c) {
     const auto k = found.vignetting.col(static_cast<Eigen::Index>(c)).head(found.Chosen().order);
-    json["cameras"].push_back({{"camera", session.cameras[c].id},
-                               {"vignetting_coefficients", std::vector<double>(k.begin(), k.end())},
-                               {"corner_sigma", found.corner_sigma},
-                               {"response_exponent", 1 / (1 + found.exponent[static_cast<Eigen::Index>(c)])},
-                               {"exponent_sigma", found.exponent_sigma}});
+    found_json["cameras"].push_back(
+        {{"camera", session.cameras[c].id},
+         {"vignetting_coefficients", std::vector<double>(k.begin(), k.end())},
+         {"corner_sigma", found.corner_sigma},
+         {"response_exponent", 1 / (1 + found.exponent[static_cast<Eigen::Index>(c)])},
+         {"exponent_sigma", found.exponent_sigma}});
   }
-  return json;
+  return found_json;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
   data["cameras"] = ReportCamerasJson(fitted);
   data["tags"] = ReportTagsJson(fitted);
   data["places"] = PlacesJson(fitted, PlacesOf(fitted, targets));
-  data["views"] = ReportViewsJson(fitted, state);
+  data["views"] = ReportViewsJson(fitted);
   data["conditions"] = ConditionsJson(fitted);
   data["tasks"] = TasksJson();
   data["targets"] = {{"path", targets.path}, {"toml", TargetsToml(targets)}};

@@ -1,20 +1,17 @@
 #include "apps/report_places.h"
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/artifact.h"
 #include "apps/base64.h"
+#include "apps/fit_uncertainty.h"
 #include "apps/json_vectors.h"
 
 namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Odd, so that the standard's points are among the fine ones.
 void Refine(const FittedRoom& fitted, ReportPlane& plane) {
@@ -86,20 +83,6 @@ std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
     observers.push_back(std::move(observer));
   }
   return observers;
-}
-
-// What stages/fit.json knows of the parameters; nothing where it is not there.
-NamedCovariance ReadCovariance(const FittedRoom& fitted, ReportPlaces& places) {
-  NamedCovariance known;
-  const std::string path = fitted.out + "/stages/fit.json";
-  if (!std::filesystem::exists(path)) return known;
-  const json fit = ReadJson(path);
-  places.relative_model_error = fit.value("relative_model_error", 0.0);
-  places.undetermined = fit.value("undetermined", std::vector<std::string>());
-  if (fit.value("covariance", json::array()).empty()) return known;
-  for (const json& parameter : fit.at("parameters")) known.names.push_back(parameter.at("name"));
-  known.covariance = MatrixFromJson(fit.at("covariance"));
-  return known;
 }
 
 // The vertical plane at the eye: a meter that looks where the observer looks.
@@ -200,8 +183,12 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
     observer.place = static_cast<Eigen::Index>(sensors.size());
     sensors.push_back(EyeOf(observer.target));
   }
-  const NamedCovariance covariance = ReadCovariance(fitted, places);
-  places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors, covariance);
+  const FitUncertainty fit = ReadFitUncertainty(fitted.out);
+  places.relative_model_error = fit.relative_model_sigma;
+  places.undetermined = fit.undetermined;
+  places.light = PredictPlaces(
+      fitted.room, fitted.luminaires, fitted.albedo, sensors,
+      fit.covariance.size() > 0 ? NamedCovariance{fit.parameters, fit.covariance} : NamedCovariance{});
   // Sigmas would be confident where a parameter is not known at all.
   if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
   return places;
@@ -245,7 +232,7 @@ double GlareUnder(const ReportPlaces& places, const ReportObserver& observer,
     indirect_lx +=
         dimming[k] * (places.light.total_lx(observer.place, k) - places.light.direct_lx(observer.place, k));
   }
-  return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / kPi) : kNotDefined;
+  return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / M_PI) : kNotDefined;
 }
 
 json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places) {

@@ -1,10 +1,12 @@
 #include "apps/report_room.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/base64.h"
+#include "apps/fit_uncertainty.h"
 #include "apps/given_luminaire.h"
 #include "apps/json_vectors.h"
 #include "forward/display_cells.h"
@@ -13,8 +15,6 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kPi = 3.14159265358979323846;
 
 json FacetsJson(const FittedRoom& fitted, const DisplayCells& display) {
   const std::vector<Facet>& facets = fitted.room.patches.facets;
@@ -65,7 +65,7 @@ json PlaneCurve(const Luminaire& luminaire, double c_rad) {
   const Eigen::Vector3d along = std::cos(c_rad) * axes.along - std::sin(c_rad) * axes.across;
   json curve = json::array();
   for (int degrees = -180; degrees <= 180; degrees += 3) {
-    const double gamma = degrees * kPi / 180;
+    const double gamma = degrees * M_PI / 180;
     const Eigen::Vector3d direction = std::cos(gamma) * luminaire.aim + std::sin(gamma) * along;
     const double cd = luminaire.flux_lm * IntensityPerLumen(luminaire, axes, direction).cd_per_lm;
     curve.push_back(std::round(1e4 * cd) / 1e4);
@@ -74,7 +74,18 @@ json PlaneCurve(const Luminaire& luminaire, double c_rad) {
 }
 
 json CurvesJson(const Luminaire& luminaire) {
-  return {{"c0", PlaneCurve(luminaire, 0)}, {"c90", PlaneCurve(luminaire, kPi / 2)}};
+  return {{"c0", PlaneCurve(luminaire, 0)}, {"c90", PlaneCurve(luminaire, M_PI / 2)}};
+}
+
+// 95 % of a normal distribution in three dimensions; null where the data did not determine the position.
+json EllipsoidJson(const Eigen::Matrix3d& covariance_m2) {
+  if (!covariance_m2.allFinite()) return {};
+  const double radius = std::sqrt(7.8147);  // chi squared of three degrees of freedom at 95 %
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_m2);
+  const Eigen::Vector3d semi_axes_m = radius * eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
+  Eigen::Matrix3d axes = eigen.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  return {{"semi_axes_m", VectorJson(semi_axes_m)}, {"axes", MatrixJson(axes.transpose())}};
 }
 
 }  // namespace
@@ -94,6 +105,7 @@ json ReportRoomJson(const FittedRoom& fitted, int max_cells) {
 }
 
 json ReportLuminairesJson(const FittedRoom& fitted) {
+  const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
   json luminaires = json::array();
   for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
     const Luminaire& luminaire = fitted.luminaires[k];
@@ -106,7 +118,8 @@ json ReportLuminairesJson(const FittedRoom& fitted) {
                   {"shape", ToString(luminaire.shape)},
                   {"size_m", VectorJson(luminaire.size_m)},
                   {"flux", luminaire.flux_lm},
-                  {"curves", CurvesJson(luminaire)}};
+                  {"curves", CurvesJson(luminaire)},
+                  {"ellipsoid", EllipsoidJson(PositionCovariance(uncertainty, luminaire.id))}};
     const GivenLuminaire given = ReadGivenLuminaire(fitted.session.luminaires[k]);
     if (given.file && given.file->luminaire_flux_lm > 0) {
       Luminaire stated = luminaire;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "apps/internal/toml_reader.h"
@@ -119,7 +120,7 @@ std::string DirectionName(const Eigen::Vector3d& direction) {
     if (std::abs(direction[axis]) > 0.999)
       return (direction[axis] > 0 ? "+" : "-") + std::string(1, "xy"[axis]);
   }
-  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  constexpr double kDegrees = 180 / M_PI;
   return fmt::format("{:.0f} degrees from +x", kDegrees * std::atan2(direction.y(), direction.x()));
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/base64.h"
+#include "apps/photo_corrections.h"
 #include "apps/stages.h"
 #include "calib/encoded_image.h"
 #include "forward/surface_view.h"
@@ -68,17 +69,13 @@ ImagePlane PlaneOf(const Eigen::VectorXd& column, int width_px, int height_px) {
       .cast<float>();
 }
 
-ComparedView CompareView(const FittedRoom& fitted, const Session& session, const LitRoom& lit,
-                         const SessionPhoto& photo, const RegisteredView& view, int width_px) {
+// What a view shows of each luminaire alone, fully on: pixels x channels. Light adds, so every state is a
+// sum.
+std::vector<Eigen::MatrixXd> LuminanceOf(const FittedRoom& fitted, const std::vector<LitRoom>& lit,
+                                         const RegisteredView& view, int width_px, int height_px) {
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
-  const LuminanceImage image = ReadLuminance(session, photo, camera);
-  ComparedView compared;
-  compared.view = view.view;
-  compared.photo = Reduced(OnlyValid(image.relative_luminance, image.valid), width_px);
-  const int width = static_cast<int>(compared.photo.cols()), height = static_cast<int>(compared.photo.rows());
-  for (size_t c = 0; c < 3; ++c) compared.photo_rgb[c] = Reduced(image.relative_rgb[c], width_px);
   const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
-  Eigen::Matrix3Xd directions = DirectionsOf(camera, world_from_cam.linear(), width, height);
+  Eigen::Matrix3Xd directions = DirectionsOf(camera, world_from_cam.linear(), width_px, height_px);
   // Corners outside the lens's circle: the axis stands in for them, the photo shows nothing there.
   const Eigen::Vector3d axis = world_from_cam.linear().col(2);
   for (auto direction : directions.colwise()) {
@@ -86,23 +83,31 @@ ComparedView CompareView(const FittedRoom& fitted, const Session& session, const
   }
   ViewOptions options;
   options.shadow_grid = 1;
-  const Eigen::MatrixXd luminance =
-      RenderView(fitted.room, lit, world_from_cam.translation(), directions, options);
-  for (int c = 0; c < 3; ++c)
-    compared.predicted_rgb[static_cast<size_t>(c)] = PlaneOf(luminance.col(c), width, height);
-  compared.predicted = PlaneOf(luminance.col(3), width, height);
+  std::vector<Eigen::MatrixXd> luminance;
+  luminance.reserve(lit.size());
+  for (const LitRoom& one : lit)
+    luminance.push_back(RenderView(fitted.room, one, world_from_cam.translation(), directions, options));
+  return luminance;
+}
+
+// The part of a photo; the prediction is to come.
+ComparedView ReducedPhoto(const LuminanceImage& image, const std::string& view, int width_px) {
+  ComparedView compared;
+  compared.view = view;
+  compared.photo = Reduced(OnlyValid(image.relative_luminance, image.valid), width_px);
+  for (size_t c = 0; c < 3; ++c) compared.photo_rgb[c] = Reduced(image.relative_rgb[c], width_px);
   return compared;
 }
 
-std::vector<float> RatiosOf(const std::vector<ComparedView>& views) {
-  std::vector<float> ratios;
-  for (const ComparedView& view : views) {
-    for (Eigen::Index i = 0; i < view.photo.size(); ++i) {
-      const float photo = view.photo.data()[i], predicted = view.predicted.data()[i];
-      if (std::isfinite(photo) && predicted > 0) ratios.push_back(photo / predicted);
-    }
-  }
-  return ratios;
+void Predict(const std::vector<Eigen::MatrixXd>& of_luminaire, const Eigen::VectorXd& dimming,
+             ComparedView& view) {
+  Eigen::MatrixXd luminance = Eigen::MatrixXd::Zero(of_luminaire[0].rows(), of_luminaire[0].cols());
+  for (size_t k = 0; k < of_luminaire.size(); ++k)
+    luminance += dimming[static_cast<Eigen::Index>(k)] * of_luminaire[k];
+  const int width = static_cast<int>(view.photo.cols()), height = static_cast<int>(view.photo.rows());
+  for (int c = 0; c < 3; ++c)
+    view.predicted_rgb[static_cast<size_t>(c)] = PlaneOf(luminance.col(c), width, height);
+  view.predicted = PlaneOf(luminance.col(3), width, height);
 }
 
 // The value that a share of the finite ones lies below; 0 where there are none.
@@ -161,40 +166,112 @@ json ViewJson(const ComparedView& view, double scale) {
           {"largest_tenth_percent", QuantileOf(magnitudes, 0.9)}};
 }
 
-int WidthFor(const Camera& camera, size_t views, int max_pixels) {
-  const double pixels = static_cast<double>(max_pixels) / static_cast<double>(std::max<size_t>(1, views));
+int WidthFor(const Camera& camera, size_t pictures, int max_pixels) {
+  const double pixels = static_cast<double>(max_pixels) / static_cast<double>(std::max<size_t>(1, pictures));
   const double width = std::sqrt(pixels * camera.width_px / camera.height_px);
   return std::clamp(static_cast<int>(width), 16, std::min(kMaxWidthPx, camera.width_px));
 }
 
+// Photos that can be compared: of registered views, with a luminaire on. By state in the session's order.
+struct StatePhotos {
+  std::string state;
+  Eigen::VectorXd dimming;
+  std::vector<const SessionPhoto*> photo_of_view;  // null: none in this state
+  std::vector<ComparedView> views;
+};
+
+std::vector<float> RatiosOf(const std::vector<StatePhotos>& states) {
+  std::vector<float> ratios;
+  for (const StatePhotos& state : states) {
+    for (const ComparedView& view : state.views) {
+      for (Eigen::Index i = 0; i < view.photo.size(); ++i) {
+        const float photo = view.photo.data()[i], predicted = view.predicted.data()[i];
+        if (std::isfinite(photo) && predicted > 0) ratios.push_back(photo / predicted);
+      }
+    }
+  }
+  return ratios;
+}
+
+std::vector<StatePhotos> PhotosByState(const FittedRoom& fitted, const Session& session) {
+  std::vector<StatePhotos> all;
+  for (const SessionState& state : session.states) {
+    StatePhotos photos{state.id, DimmingOf(fitted, state.id), {}, {}};
+    bool has_one = false;
+    for (const RegisteredView& view : fitted.registered.registration.views) {
+      const auto found = std::find_if(
+          session.photos.begin(), session.photos.end(),
+          [&](const SessionPhoto& photo) { return photo.view == view.view && photo.state == state.id; });
+      photos.photo_of_view.push_back(found == session.photos.end() ? nullptr : &*found);
+      has_one = has_one || photos.photo_of_view.back() != nullptr;
+    }
+    if (has_one && photos.dimming.maxCoeff() > 0) all.push_back(std::move(photos));
+  }
+  return all;
+}
+
+std::vector<LitRoom> LightOfEach(const FittedRoom& fitted) {
+  const Eigen::MatrixXd albedo = ChannelsOf(fitted);
+  std::vector<LitRoom> lit;
+  lit.reserve(fitted.luminaires.size());
+  for (const Luminaire& luminaire : fitted.luminaires)
+    lit.push_back(LightRoom(fitted.room, {luminaire}, albedo));
+  return lit;
+}
+
+// Compares the photos of one view in every state.
+void CompareView(const FittedRoom& fitted, const Session& session, const PhotoCorrections& corrections,
+                 const std::vector<LitRoom>& lit, size_t index, int width_px,
+                 std::vector<StatePhotos>& states) {
+  const RegisteredView& view = fitted.registered.registration.views[index];
+  const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
+  std::vector<ComparedView> compared(states.size());
+  tbb::parallel_for(size_t{0}, states.size(), [&](size_t s) {
+    const SessionPhoto* photo = states[s].photo_of_view[index];
+    if (photo == nullptr) return;
+    compared[s] = ReducedPhoto(
+        Corrected(ReadLuminance(session, *photo, camera), corrections, session, *photo), view.view, width_px);
+  });
+  std::vector<Eigen::MatrixXd> luminance;
+  for (size_t s = 0; s < states.size(); ++s) {
+    const ImagePlane& photo = compared[s].photo;
+    if (photo.size() == 0) continue;
+    if (luminance.empty()) {
+      luminance =
+          LuminanceOf(fitted, lit, view, static_cast<int>(photo.cols()), static_cast<int>(photo.rows()));
+    }
+    Predict(luminance, states[s].dimming, compared[s]);
+    states[s].views.push_back(std::move(compared[s]));
+  }
+}
+
 }  // namespace
 
-json ReportViewsJson(const FittedRoom& fitted, const std::string& state, const ReportViewsOptions& options) {
-  json page = {{"state", state}, {"limit_percent", kResidualLimitPercent}, {"views", json::array()}};
+json ReportViewsJson(const FittedRoom& fitted, const ReportViewsOptions& options) {
+  json page = {
+      {"limit_percent", kResidualLimitPercent}, {"scale_is_of_fit", true}, {"states", json::array()}};
   const auto& registered = fitted.registered.registration.views;
   if (registered.empty() || fitted.session.photos.empty()) return page;
   RunContext context;
   context.is_quiet = true;
   const Session session = LinearizeSession(fitted.session, context);
-  std::vector<Luminaire> luminaires = fitted.luminaires;
-  const Eigen::VectorXd dimming = DimmingOf(fitted, state);
-  for (size_t k = 0; k < luminaires.size(); ++k)
-    luminaires[k].flux_lm *= dimming[static_cast<Eigen::Index>(k)];
-  const LitRoom lit = LightRoom(fitted.room, luminaires, ChannelsOf(fitted));
-  std::vector<ComparedView> views;
-  for (const RegisteredView& view : registered) {
-    const auto photo = std::find_if(session.photos.begin(), session.photos.end(), [&](const SessionPhoto& p) {
-      return p.view == view.view && p.state == state;
-    });
-    if (photo == session.photos.end()) continue;
-    const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
-    views.push_back(CompareView(fitted, session, lit, *photo, view,
-                                WidthFor(camera, registered.size(), options.max_pixels)));
+  std::vector<StatePhotos> states = PhotosByState(fitted, session);
+  const PhotoCorrections corrections = ReadPhotoCorrections(fitted.out);
+  const std::vector<LitRoom> lit = LightOfEach(fitted);
+  for (size_t v = 0; v < registered.size(); ++v) {
+    const Camera& camera = fitted.registered.cameras[static_cast<size_t>(registered[v].camera)];
+    CompareView(fitted, session, corrections, lit, v,
+                WidthFor(camera, registered.size() * states.size(), options.max_pixels), states);
   }
-  const double scale = fitted.camera_scale > 0 ? fitted.camera_scale : QuantileOf(RatiosOf(views), 0.5);
-  page["scale_is_of_fit"] = fitted.camera_scale > 0;
+  double scale = fitted.camera_scale;
+  page["scale_is_of_fit"] = scale > 0;
+  if (!(scale > 0)) scale = QuantileOf(RatiosOf(states), 0.5);
   if (!(scale > 0)) return page;
-  for (const ComparedView& view : views) page["views"].push_back(ViewJson(view, scale));
+  for (const StatePhotos& state : states) {
+    std::vector<json> views(state.views.size());
+    tbb::parallel_for(size_t{0}, views.size(), [&](size_t v) { views[v] = ViewJson(state.views[v], scale); });
+    page["states"].push_back({{"id", state.state}, {"views", std::move(views)}});
+  }
   return page;
 }
 

@@ -2,14 +2,14 @@
 //
 //   residual = 100 (Y / (c L) - 1) percent      Y: relative luminance of the photo, L: predicted, cd/m2
 //
-// c is the camera's scale of the fit; without one, what makes the median ratio of all views 1. Pictures are
-// reduced to a common budget of pixels; photo and prediction share one white. Pixels that the photo does not
+// c is the camera's scale of the fit; without one, what makes the median ratio of all views 1. Photos are
+// corrected by what the fit found them to be off (apps/photo_corrections.h). Pictures are reduced to a common
+// budget of pixels; photo and prediction share one white. Pixels that the photo does not
 // tell (saturated, dark) and luminaires have no residual.
 #ifndef LUXFIT_APPS_REPORT_VIEWS_H_
 #define LUXFIT_APPS_REPORT_VIEWS_H_
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
 #include "apps/fitted_room.h"
 
@@ -19,12 +19,11 @@ namespace luxfit {
 constexpr double kResidualLimitPercent = 20;
 
 struct ReportViewsOptions {
-  int max_pixels = 180'000;  // of all views together
+  int max_pixels = 1'000'000;  // of all photos together
 };
 
-// Photos taken in one state. Empty where there are none; throws as ReadLuminance does.
-nlohmann::json ReportViewsJson(const FittedRoom& fitted, const std::string& state,
-                               const ReportViewsOptions& options = {});
+// Every state's photos of registered views. Empty where there are none; throws as ReadLuminance does.
+nlohmann::json ReportViewsJson(const FittedRoom& fitted, const ReportViewsOptions& options = {});
 
 }  // namespace luxfit
 

@@ -81,7 +81,7 @@ bool DependsOnHeading(const Luminaire& luminaire) {
 
 // Nodes as in session files: cd per 1000 lm of the luminaire's flux.
 void AddNodes(const IntensityTable& table, json& entry) {
-  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  constexpr double kDegrees = 180 / M_PI;
   for (size_t j = 0; j < table.gamma_rad.size(); ++j) {
     entry["gamma_deg"].push_back(kDegrees * table.gamma_rad[j]);
     entry["cd_per_klm"].push_back(1000 * table.cd_per_lm[j]);
@@ -131,13 +131,13 @@ json LuminairesJson(const Session& session, const SessionFit& fit, const std::ve
         is_known ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
     if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
     if (fit.fit.state.free[k].tilt) {
-      constexpr double kDegrees = 180 / 3.14159265358979323846;
+      constexpr double kDegrees = 180 / M_PI;
       entry["aim_sigma_deg"] = {kDegrees * sigma(LuminaireQuantity::kTiltAlong),
                                 kDegrees * sigma(LuminaireQuantity::kTiltAcross)};
     }
     if (DependsOnHeading(luminaire)) entry["heading"] = Vector(AxesOf(luminaire).along);
     if (fit.fit.state.free[k].heading) {
-      constexpr double kDegrees = 180 / 3.14159265358979323846;
+      constexpr double kDegrees = 180 / M_PI;
       entry["heading_sigma_deg"] = kDegrees * sigma(LuminaireQuantity::kHeading);
     }
     if (entry["photometry"] == "table") AddNodes(*luminaire.table, entry);

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -43,6 +44,8 @@ int Show(const json& result, const CommandOptions& options, RoomRun what) {
 struct RoomResult {
   json result;
   std::string plan_svg;
+  RegisteredSession registered;
+  Room room;
 };
 
 RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
@@ -51,14 +54,13 @@ RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, R
   session = WithCountedLuminaires(std::move(prepared.session), prepared.room, prepared.observations, context);
   const SessionFit fit = FitSession(session, prepared.room, {prepared.observations, prepared.seen}, context);
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
-  RoomResult made;
-  made.result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
+  json result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
   if (what == RoomRun::kFitAndAlbedo) {
-    const json albedo = AlbedoOfRoom(session, prepared.room, fit, made.result, context);
-    made.result = WithAlbedo(std::move(made.result), albedo, context);
+    const json albedo = AlbedoOfRoom(session, prepared.room, fit, result, context);
+    result = WithAlbedo(std::move(result), albedo, context);
   }
-  made.plan_svg = PlanSvg(session, prepared.room.scene, made.result);
-  return made;
+  std::string plan_svg = PlanSvg(session, prepared.room.scene, result);
+  return {std::move(result), std::move(plan_svg), std::move(prepared.registered), std::move(prepared.room)};
 }
 
 // What the stages of the last run into a folder took; nothing where there was none.
@@ -73,15 +75,13 @@ std::map<std::string, double> LastTimes(const std::string& out) {
   return times_s;
 }
 
-// The page on what was found; a fit without luminaires has none, and its warnings say why. Seconds that it
-// took.
-double MakeReport(const RunContext& context, const json& result) {
-  if (result.at("luminaires").empty()) return 0;
+// The page on what was found. Seconds that it took.
+double MakeReport(const RunContext& context, const std::function<FittedRoom()>& fitted_room) {
   RunContext own;
   own.expected_s = context.expected_s;
   {
     const StageTimer timer(own, "report", context.out + "/report.html");
-    const FittedRoom fitted = ReadFittedRoom(context.out);
+    const FittedRoom fitted = fitted_room();
     WriteReport(fitted, ReportData(fitted, {"", "", context.provenance.command_line}));
   }
   return own.timing_s.at("report");
@@ -107,12 +107,16 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
     PrintText(options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan));
     return 0;
   }
+  // A fit without luminaires has no report, and its warnings say why.
+  const auto has_report = [&](const json& result) {
+    return what == RoomRun::kAll && !result.at("luminaires").empty();
+  };
   if (plan.is_up_to_date && !options.fresh) {
     std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",
                  path.c_str());
     const json result = ReadResult(path);
-    if (what == RoomRun::kAll && !std::filesystem::exists(context.out + "/report.html"))
-      MakeReport(context, result);
+    if (has_report(result) && !std::filesystem::exists(context.out + "/report.html"))
+      MakeReport(context, [&] { return ReadFittedRoom(context.out); });
     return Show(result, options, what);
   }
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
@@ -123,11 +127,15 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);
   WriteJson(path, made.result);
-  const double report_s = what == RoomRun::kAll ? MakeReport(context, made.result) : 0;
+  double report_s = 0;
+  if (has_report(made.result)) {
+    report_s = MakeReport(
+        context, [&] { return FittedRoomOf(context.out, std::move(made.registered), std::move(made.room)); });
+  }
   KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
   const int status = Show(made.result, options, what);
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"] + report_s,
-               what == RoomRun::kAll && report_s > 0 ? (context.out + "/report.html").c_str() : path.c_str());
+               report_s > 0 ? (context.out + "/report.html").c_str() : path.c_str());
   return status;
 }
 

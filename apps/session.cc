@@ -198,6 +198,12 @@ Session WithMoreLuminaires(Session session, int count) {
   return session;
 }
 
+int StateIndex(const Session& session, const std::string& id) {
+  const auto found = std::find_if(session.states.begin(), session.states.end(),
+                                  [&](const SessionState& state) { return state.id == id; });
+  return found == session.states.end() ? -1 : static_cast<int>(found - session.states.begin());
+}
+
 Eigen::Vector3d LuminanceWeights(const Session& session) {
   return session.cameras.empty() ? SessionCamera().luminance_weights : session.cameras[0].luminance_weights;
 }

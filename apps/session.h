@@ -194,6 +194,9 @@ Session ReadSession(const std::string& path);
 // With luminaires "lamp1", "lamp2", ... until there are `count`, on in every state.
 Session WithMoreLuminaires(Session session, int count);
 
+// Among session.states; -1: none of that name.
+int StateIndex(const Session& session, const std::string& id);
+
 // Of its first camera; the format's own where there is none.
 Eigen::Vector3d LuminanceWeights(const Session& session);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/json_vectors.h"
 #include "inverse/patch_albedo.h"
 
 namespace luxfit {
@@ -14,8 +15,6 @@ using nlohmann::json;
 
 // Of a material's observed elements: fewer that are unlike the rest are its border and its stains.
 constexpr double kWorthAWarning = 0.02;
-
-json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 // Relative sigmas of the fit's reflectances: what fluxes and camera scale leave open is in them.
 Eigen::VectorXd CommonSigma(const json& materials) {

@@ -233,24 +233,24 @@ class FitStage {
 
 // Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.
 void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
-  nlohmann::json json = ProvenanceJson("luxfit-fit-1", context.provenance);
-  json["message"] = fit.message;
-  json["outer_iterations"] = fit.outer_iterations;
-  json["relative_model_error"] = fit.relative_sigma;
-  json["undetermined"] = fit.undetermined;
-  json["parameters"] = nlohmann::json::array();
+  nlohmann::json artifact = ProvenanceJson("luxfit-fit-1", context.provenance);
+  artifact["message"] = fit.message;
+  artifact["outer_iterations"] = fit.outer_iterations;
+  artifact["relative_model_error"] = fit.relative_sigma;
+  artifact["undetermined"] = fit.undetermined;
+  artifact["parameters"] = nlohmann::json::array();
   const Eigen::VectorXd x = PackParameters(fit.state, fit.parameters);
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const Parameter& p = fit.parameters[i];
-    json["parameters"].push_back({{"name", p.name},
-                                  {"value", x[static_cast<Eigen::Index>(i)]},
-                                  {"lower", p.lower},
-                                  {"upper", p.upper}});
+    artifact["parameters"].push_back({{"name", p.name},
+                                      {"value", x[static_cast<Eigen::Index>(i)]},
+                                      {"lower", p.lower},
+                                      {"upper", p.upper}});
   }
-  json["covariance"] = nlohmann::json::array();
+  artifact["covariance"] = nlohmann::json::array();
   for (const auto row : fit.covariance.rowwise())
-    json["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
-  WriteJson(context.out + "/stages/fit.json", json);
+    artifact["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
+  WriteJson(context.out + "/stages/fit.json", artifact);
 }
 
 }  // namespace

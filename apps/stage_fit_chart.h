@@ -9,8 +9,7 @@
 //   position, flux    median error over luminaires, against --truth or against the finest point
 //   lux               mean error of the readings that only check, % of their mean
 //   time              of the processor, over all cores: form factors and fit
-//   slope             of ln time over ln size, least squares, over patches, photos and luminaires: 1 is
-//   linear
+//   slope             of ln time over ln size, least squares, over patches, photos and luminaires: 1 is linear
 //
 // Writes OUT/fit.csv, OUT/fit_position.svg, OUT/fit_flux.svg, OUT/fit_lux.svg, OUT/fit_cost.svg and
 // OUT/stages/fit_chart.json. Throws std::runtime_error as the stages do.

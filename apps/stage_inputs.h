@@ -3,8 +3,7 @@
 //
 //   linearize   cameras, photos
 //   register    cameras, tags, mesh, the photos it looks at (all of them where a camera's response or
-//   brackets tie
-//               photos together)
+//               brackets tie photos together)
 //   observe     both, states
 //   result      everything, readings and luminaires too
 //

@@ -20,13 +20,6 @@
 namespace luxfit {
 namespace {
 
-int StateIndex(const Session& session, const std::string& id) {
-  for (size_t s = 0; s < session.states.size(); ++s) {
-    if (session.states[s].id == id) return static_cast<int>(s);
-  }
-  return -1;
-}
-
 // The photo of a view with all luminaires off; null where there is none.
 const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo) {
   for (const SessionPhoto& other : session.photos) {
@@ -133,17 +126,18 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
         ObservePhoto(maps[static_cast<size_t>(index)], *image, index, StateIndex(session, photo.state));
   });
   std::vector<Observation> observations;
-  nlohmann::json json = ProvenanceJson("luxfit-observe-1", context.provenance);
-  json["photos"] = nlohmann::json::array();
+  nlohmann::json artifact = ProvenanceJson("luxfit-observe-1", context.provenance);
+  artifact["photos"] = nlohmann::json::array();
   for (size_t i = 0; i < by_photo.size(); ++i) {
     observations.insert(observations.end(), by_photo[i].begin(), by_photo[i].end());
-    json["photos"].push_back({{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
+    artifact["photos"].push_back(
+        {{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
   observations =
-      WithSelfCalibration(session, registered, room.patches, std::move(observations), context, json);
+      WithSelfCalibration(session, registered, room.patches, std::move(observations), context, artifact);
   SessionObservations observed{std::move(observations), SeenPlaces(room, registered, blobs)};
-  json["seen_luminaires"] = SeenJson(session, observed.seen);
-  WriteJson(context.out + "/stages/observe.json", json);
+  artifact["seen_luminaires"] = SeenJson(session, observed.seen);
+  WriteJson(context.out + "/stages/observe.json", artifact);
   return observed;
 }
 

@@ -16,10 +16,10 @@ namespace luxfit {
 namespace {
 
 void WriteArtifact(const Session& session, const RegisteredSession& registered, const RunContext& context) {
-  nlohmann::json json = ProvenanceJson("luxfit-register-1", context.provenance);
-  json.update(RegistrationJson(session, registered));
-  json["choices"] = ChoicesJson(context);
-  WriteJson(context.out + "/stages/register.json", json);
+  nlohmann::json artifact = ProvenanceJson("luxfit-register-1", context.provenance);
+  artifact.update(RegistrationJson(session, registered));
+  artifact["choices"] = ChoicesJson(context);
+  WriteJson(context.out + "/stages/register.json", artifact);
 }
 
 // Focal lengths that the tags contradicted: the cameras from here on, and the reason.

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "apps/seconds.h"
 #include "apps/stages.h"
 #include "apps/terminal.h"
 #include "forward/mesh_check.h"
@@ -14,10 +14,6 @@
 
 namespace luxfit {
 namespace {
-
-double NowS() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
   std::vector<Eigen::Vector3d> centers;

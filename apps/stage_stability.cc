@@ -13,6 +13,7 @@
 #include "apps/degradations.h"
 #include "apps/stability_chart.h"
 #include "apps/trial_log.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
@@ -58,13 +59,6 @@ FitScore ScoreOf(const json& line) {
   s.intervals = line.at("intervals");
   s.intervals_held = line.at("intervals_held");
   return s;
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Of the lines of one level's trials.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/json_vectors.h"
 #include "apps/stereo_photos.h"
 #include "calib/image.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+constexpr double kDegPerRad = 180 / M_PI;
 // Adjusted by more than this many of its sigmas, a direction was not measured as well as it says.
 constexpr double kSuspectSigmas = 3;
 
@@ -25,8 +26,6 @@ double MedianOf(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(); }
 
 // What turns the albedo's unit into reflectance; NaN without a surface of known albedo.
 double ReferenceFactor(const Session& session, const StereoPhotos& photos, const PhotometricStereo& result) {

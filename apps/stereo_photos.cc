@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+constexpr double kRadPerDeg = M_PI / 180;
 
 PixelMask ReadMask(const std::string& path, const LuminanceImage& like, const std::string& photo) {
   const Photo picture = ReadPhoto(path);

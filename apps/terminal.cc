@@ -9,16 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "apps/seconds.h"
+
 namespace luxfit {
 namespace {
 
 constexpr int kBarWidth = 20;
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr char kClearLine[] = "\r\x1b[K";
-
-double NowS() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 bool WantsColour(std::FILE* stream) { return IsTerminal(stream) && std::getenv("NO_COLOR") == nullptr; }
 

@@ -10,10 +10,10 @@ namespace luxfit {
 TrialLog::TrialLog(std::string path, std::string key) : path_(std::move(path)), key_(std::move(key)) {
   std::ifstream file(path_);
   for (std::string line; std::getline(file, line);) {
-    nlohmann::json json = nlohmann::json::parse(line, nullptr, false);
-    if (!json.is_object() || json.value("key", "") != key_ || !json.contains("trial")) continue;
-    const std::string trial = json["trial"];
-    lines_[trial] = std::move(json);
+    nlohmann::json kept = nlohmann::json::parse(line, nullptr, false);
+    if (!kept.is_object() || kept.value("key", "") != key_ || !kept.contains("trial")) continue;
+    const std::string trial = kept["trial"];
+    lines_[trial] = std::move(kept);
   }
 }
 

@@ -55,7 +55,7 @@ void CheckOptions(const CalibrateCamerasOptions& options) {
 // Across the widest camera, by its seed.
 double FieldOfViewDeg(const CalibrationInput& input, const CalibrationSeed& seed) {
   double widest_deg = 0;
-  constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+  constexpr double kDegPerRad = 180 / M_PI;
   const CalibrationState& state = seed.is_wide ? seed.wide : seed.pinhole;
   for (std::size_t c = 0; c < input.cameras.size(); ++c) {
     const double half = input.cameras[c].width_px / 2.0 / state.intrinsics[c][0];

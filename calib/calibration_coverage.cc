@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kCells = 6;
 constexpr int kThirds = 3;
-constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+constexpr double kDegPerRad = 180 / M_PI;
 constexpr double kLeastTiltDeg = 10;
 constexpr double kOneDistance = 1.2;  // farthest to nearest below this: one distance
 

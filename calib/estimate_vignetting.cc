@@ -10,7 +10,7 @@ namespace luxfit {
 namespace {
 
 constexpr int kFolds = 5;
-constexpr int kRounds = 12;
+constexpr int kVignettingRounds = 12;
 constexpr double kHuber = 2.5;
 constexpr size_t kMinSamples = 30;
 constexpr int kGrid = 32;
@@ -63,7 +63,7 @@ class Problem {
     Solution solution;
     solution.weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows_.size()));
     solution.x = Eigen::VectorXd::Zero(order_ + photos_);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kVignettingRounds; ++round) {
       Step(left_out, solution);
       const Eigen::VectorXd residual = Residuals(solution, left_out, false);
       for (Eigen::Index i = 0; i < residual.size(); ++i)

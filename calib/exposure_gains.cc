@@ -5,20 +5,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/median.h"
+
 namespace luxfit {
 namespace {
 
 constexpr Eigen::Index kStride = 3;
 constexpr size_t kMinPixels = 100;
-constexpr double kLeastSigma = 1e-3;
-constexpr double kSigmaPerMad = 1.4826;
-constexpr int kRounds = 30;
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double kLeastGainSigma = 1e-3;
+constexpr int kGainRounds = 30;
 
 }  // namespace
 
@@ -44,7 +39,7 @@ std::optional<ExposureRatio> MeasureRatio(const LuminanceImage& first, double fi
   for (double& r : ratios) r = std::abs(r - ratio.log_ratio);
   // The median's own spread is 1.25 times the mean's.
   const double spread = 1.25 * kSigmaPerMad * Median(ratios) / std::sqrt(static_cast<double>(ratio.pixels));
-  ratio.sigma = std::max(kLeastSigma, spread);
+  ratio.sigma = std::max(kLeastGainSigma, spread);
   return ratio;
 }
 
@@ -70,7 +65,7 @@ ExposureGains SolveGains(int photos, const std::vector<ExposureRatio>& ratios,
   if (photos == 0) return gains;
   Eigen::VectorXd prior = Eigen::VectorXd::Constant(photos, 1 / (options.prior * options.prior));
   Eigen::MatrixXd normal;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kGainRounds; ++round) {
     normal = data;
     normal.diagonal() += prior;
     gains.log_gain = normal.ldlt().solve(right);

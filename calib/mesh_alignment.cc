@@ -8,7 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "calib/internal/cross_matrix.h"
+#include "calib/internal/solve_symmetric.h"
 #include "calib/internal/triangle_tree.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
@@ -21,12 +24,6 @@ void CheckSurface(const TriangleSurface& surface) {
     throw std::invalid_argument("AlignPointsToSurface: expected a triangle or more");
   if (surface.triangles.minCoeff() < 0 || surface.triangles.maxCoeff() >= surface.vertices_m.cols())
     throw std::invalid_argument("AlignPointsToSurface: expected triangles of the surface's vertices");
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The points where they are now, with their nearest places on the surface.
@@ -85,7 +82,7 @@ Normal NormalEquations(const Laid& laid, const Eigen::Vector3d& middle, bool sca
 constexpr double kDamping = 1e-3;
 
 Similarity Step(const Similarity& now, const Normal& normal, const Eigen::Vector3d& middle) {
-  const Vector7 step = (normal.left + kDamping * Matrix7::Identity()).ldlt().solve(normal.right);
+  const Vector7 step = SolveSymmetric(normal.left + kDamping * Matrix7::Identity(), normal.right);
   Similarity next = now;
   const double angle = step.head<3>().norm(), grow = std::exp(std::clamp(step[6], -0.2, 0.2));
   const Eigen::Matrix3d turn = angle > 0 ? Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix()
@@ -109,7 +106,7 @@ Matrix7 CovarianceOf(const Normal& normal, const Laid& laid, const SurfaceAlignm
   const auto n = static_cast<double>(std::count(laid.counts.begin(), laid.counts.end(), true));
   Matrix7 left = normal.left;
   if (!options.scale_is_free) left(6, 6) = 1;
-  const Eigen::SelfAdjointEigenSolver<Matrix7> eigen(left);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(left);
   const Vector7 values = eigen.eigenvalues().cwiseMax(1e-12 * n);
   Matrix7 covariance = VarianceOfPoints(laid, options) * eigen.eigenvectors() *
                        values.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
@@ -132,7 +129,8 @@ double WorstSigma(const Matrix7& covariance, const Laid& laid, const Eigen::Vect
   Vector7 in_metres;
   in_metres << radius_m, radius_m, radius_m, 1, 1, 1, radius_m;
   const Matrix7 scaled = in_metres.asDiagonal() * covariance * in_metres.asDiagonal();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix7>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[6]);
+  return std::sqrt(
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[6]);
 }
 
 Eigen::Vector3d MiddleOf(const Laid& laid) { return laid.in_world.rowwise().mean(); }
@@ -228,11 +226,9 @@ Registration MovedToSurface(const Registration& registration, const SurfaceAlign
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = motion.rotation;
     // A turn about the points' middle carries the camera along.
     const Eigen::Vector3d arm = view.cam_from_world.inverse().translation() - alignment.middle_in_world;
-    Eigen::Matrix3d cross;
-    cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
     Eigen::Matrix<double, 6, 7> by_motion = Eigen::Matrix<double, 6, 7>::Zero();
     by_motion.topLeftCorner<3, 3>().setIdentity();
-    by_motion.bottomLeftCorner<3, 3>() = -cross;
+    by_motion.bottomLeftCorner<3, 3>() = -CrossMatrix(arm);
     by_motion.block<3, 3>(3, 3).setIdentity();
     by_motion.bottomRightCorner<3, 1>() = arm;
     view.covariance =

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/internal/cross_matrix.h"
 #include "calib/internal/lens_function.h"
 
 namespace luxfit {
@@ -16,12 +17,6 @@ LensFunction FunctionOf(const Camera& camera, const LensKind& kind) {
   if (kind.lens != LensModel::kFisheye)
     lens.model = ToMrcal(camera, kind.lens == LensModel::kOpenCv ? kind.coefficients : 0).model;
   return lens;
-}
-
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return cross;
 }
 
 }  // namespace
@@ -38,7 +33,7 @@ Eigen::Matrix2d ProjectionCovarianceAt(const Camera& camera, const ProjectionCov
   Eigen::Matrix<double, 2, Eigen::Dynamic> jacobian(2, free + 6);
   jacobian.leftCols(free) = image.d_parameters.rightCols(free);
   // A projection does not depend on the range, so its derivative falls with it: that of the unit direction.
-  jacobian.middleCols<3>(free) = -image.d_point * Cross(direction);
+  jacobian.middleCols<3>(free) = -image.d_point * CrossMatrix(direction);
   jacobian.rightCols<3>() = image.d_point / range_m;
   return jacobian * uncertainty.covariance * jacobian.transpose();
 }

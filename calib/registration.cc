@@ -23,8 +23,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 void CheckOptions(const RegisterViewsOptions& options) {
   if (!(options.survey_sigma_m >= 0) || !(options.tag_size_sigma >= 0) || !(options.huber_sigmas > 0) ||
       !(options.max_view_rms_sigmas > 0) || !(options.tag_size_m >= 0) ||
@@ -75,7 +73,7 @@ void LeaveOutUncertain(double max_rotation_sigma_rad, Registration& registration
     std::ostringstream message;
     message.precision(2);
     message << "The tags in view " << view.view << " leave its direction uncertain by "
-            << sigma_rad * 180 / kPi << " degrees and its place by " << 1000 * view.position_sigma_m.norm()
+            << sigma_rad * 180 / M_PI << " degrees and its place by " << 1000 * view.position_sigma_m.norm()
             << " mm; it is left out.";
     registration.notes.push_back({view.view, -1, "pose_uncertain", message.str(),
                                   "Show the view more tags, larger tags, or tags on a second surface."});

@@ -6,19 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/median.h"
+
 namespace luxfit {
 namespace {
 
 constexpr size_t kMinPairs = 2000;
 constexpr size_t kBins = 20;
 // Of a normal distribution: standard deviation over median absolute deviation.
-constexpr double kSigmaPerMad = 1.4826;
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Bin {
   double variance = 0;                      // of the difference

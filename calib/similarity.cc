@@ -1,5 +1,6 @@
 #include "calib/similarity.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
 
@@ -10,8 +11,10 @@ namespace {
 constexpr double kLine = 1e-3;
 
 bool SpansAPlane(const Eigen::Matrix3Xd& centred) {
-  const Eigen::Vector3d extent = Eigen::JacobiSVD<Eigen::Matrix3Xd>(centred).singularValues().head<3>();
-  return extent.allFinite() && extent[0] > 0 && extent[1] > kLine * extent[0];
+  const Eigen::Matrix3d scatter = centred * centred.transpose();
+  const Eigen::Vector3d squared =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return squared.allFinite() && squared[2] > 0 && squared[1] > kLine * kLine * squared[2];
 }
 
 }  // namespace

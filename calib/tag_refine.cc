@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "calib/internal/homography.h"
+#include "calib/internal/solve_symmetric.h"
 #include "calib/internal/tag_family.h"
 #include "calib/internal/tag_image_model.h"
 #include "calib/internal/tag_pixels.h"
@@ -155,7 +156,7 @@ class TagFitter {
       a += row * row.transpose();
       b += row * pixel.grey;
     }
-    fit.shading = a.ldlt().solve(b);
+    fit.shading = SolveSymmetric(a, b);
     return fit.shading.allFinite() && fit.shading[3] > 0;
   }
 
@@ -186,13 +187,13 @@ class TagFitter {
     // Levenberg's damping only against an exactly flat direction; blur held where it would leave its range.
     Normal damped = fit.normal;
     damped.diagonal() *= 1 + 1e-6;
-    Unknowns step = damped.ldlt().solve(right);
+    Unknowns step = SolveSymmetric(damped, right);
     const double blur = fit.blur_px2 + step[kBlur];
     if (blur < kMinBlurPx2 || blur > kMaxBlurPx2) {
       const double allowed = std::clamp(blur, kMinBlurPx2, kMaxBlurPx2) - fit.blur_px2;
       const Eigen::Matrix<double, kBlur, 1> reduced =
           right.head<kBlur>() - allowed * damped.topRightCorner<kBlur, 1>();
-      step.head<kBlur>() = damped.topLeftCorner<kBlur, kBlur>().ldlt().solve(reduced);
+      step.head<kBlur>() = SolveSymmetric(damped.topLeftCorner<kBlur, kBlur>(), reduced);
       step[kBlur] = allowed;
     }
     if (!step.allFinite()) return std::numeric_limits<double>::quiet_NaN();
@@ -280,7 +281,7 @@ std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera
 // not know.
 double CornerSigmaPx(const Camera& camera, const LocalFrame& frame, const TagPicture& picture,
                      const Fit& fit) {
-  const Normal inverse = Eigen::LDLT<Normal>(fit.normal).solve(Normal::Identity());
+  const Normal inverse = SolveSymmetric(fit.normal, Normal::Identity());
   const Normal covariance = inverse * fit.scatter * inverse;
   Eigen::Matrix<double, 8, kHomography> d_corners;
   const std::array<Eigen::Vector2d, 4> st = CornersInCells(picture);

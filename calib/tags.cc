@@ -11,6 +11,7 @@
 
 #include "calib/internal/display_image.h"
 #include "calib/internal/tag_family.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
@@ -99,13 +100,6 @@ std::vector<TagDetection> WithOthers(std::vector<TagDetection> tags,
     if (!is_known) tags.push_back(other);
   }
   return tags;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
 double LargestCornerDistance(const TagDetection& tag, const std::array<Eigen::Vector2d, 4>& corners_px) {

@@ -1,7 +1,7 @@
 // Direct illuminance of a luminaire, with derivatives.
 //
-//   E = Phi sum_q w_q I(gamma_q) max(0, n . d_q) / r_q^2,     d_q = unit vector from the receiver to surface
-//   point q
+//   E = Phi sum_q w_q I(gamma_q) max(0, n . d_q) / r_q^2
+//   d_q: unit vector from the receiver to surface point q
 //
 // lx for flux in lm, metres, world frame. Unoccluded: multiply by VisibleFraction where things stand between.
 //

@@ -8,7 +8,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 using Complex = std::complex<double>;
 
 // (z - ln(1 + z)) / z^2 for |z| < 1; below 0.1 by its series, to 1e-16.
@@ -54,10 +53,10 @@ struct RimDistance {
 // Antiderivatives at e = e^(i phi), or their differences between the ends of an arc; those of the whole rim
 // are 0 but for the angle.
 struct Antiderivatives {
-  double angle = 2 * kPi;  // phi - 2 arg(1 + m e)
-  Complex over = 0;        // e / r^2
-  Complex log = 0;         // ln(1 + m e) / m
-  Complex rest = 0;        // (log - scale / 2 over) / m
+  double angle = 2 * M_PI;  // phi - 2 arg(1 + m e)
+  Complex over = 0;         // e / r^2
+  Complex log = 0;          // ln(1 + m e) / m
+  Complex rest = 0;         // (log - scale / 2 over) / m
 };
 
 Antiderivatives Between(const RimDistance& rim, Complex direction, double half_angle) {
@@ -131,7 +130,8 @@ DiscFactor PointToDisc(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, 
     chord = EdgeVector(rim_point(half_angle), rim_point(-half_angle));
   }
   const RimIntegrals integrals(rim, ends);
-  const Eigen::Vector3d d_normal = -1 / (2 * kPi) * (ArcVector(disc, rim, ends, integrals, radius_m) + chord);
+  const Eigen::Vector3d d_normal =
+      -1 / (2 * M_PI) * (ArcVector(disc, rim, ends, integrals, radius_m) + chord);
   // int (n . r) {1, cos phi, sin phi} / r^4 dphi
   const Complex &first = integrals.second1, &second = integrals.second2;
   const double x = radius_m * n.x(), y = radius_m * n.y(), whole = integrals.second0;
@@ -140,9 +140,9 @@ DiscFactor PointToDisc(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, 
   const double sine = facing * first.imag() + 0.5 * (x * second.imag() + y * (whole - second.real()));
   const Eigen::Vector3d d_center(-disc.height * cosine, -disc.height * sine,
                                  disc.rho * cosine + radius_m * even);
-  return {std::max(n.dot(d_normal), 0.0), radius_m / kPi * (disc.axes * d_center), disc.axes * d_normal,
+  return {std::max(n.dot(d_normal), 0.0), radius_m / M_PI * (disc.axes * d_center), disc.axes * d_normal,
           // F keeps its value when centre and radius grow together.
-          -radius_m * disc.height / kPi * even};
+          -radius_m * disc.height / M_PI * even};
 }
 
 }  // namespace luxfit

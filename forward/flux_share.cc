@@ -10,10 +10,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kHorizontal = kPi / 2;
-constexpr double kWidestPiece = kPi / 180;  // of gamma
-constexpr int kPlanes = 144;                // of C
+constexpr double kHorizontal = M_PI / 2;
+constexpr double kWidestPiece = M_PI / 180;  // of gamma
+constexpr int kPlanes = 144;                 // of C
 
 // Where the integrand has kinks in gamma: the table's angles, the horizontal.
 std::vector<double> Kinks(const IntensityTable& table) {
@@ -51,7 +50,7 @@ FluxShares FluxSharesOf(const IntensityTable& table) {
   for (const GammaNode& node : GammaNodes(table)) {
     const double sine = std::sin(node.gamma), cosine = std::cos(node.gamma);
     for (int plane = 0; plane < kPlanes; ++plane) {
-      const double c = (plane + 0.5) * 2 * kPi / kPlanes, along = sine * std::cos(c),
+      const double c = (plane + 0.5) * 2 * M_PI / kPlanes, along = sine * std::cos(c),
                    across = sine * std::sin(c);
       const double lm = node.weight * sine * IntensityTowards(table, {along, across, -cosine}).cd_per_lm;
       flux += lm;

@@ -8,17 +8,20 @@
 //
 // The methods:
 //   hybrid             closed form or Gauss quadrature where nothing stands between (proved by shaft
-//   culling), rays between the
-//                      pairs where something does; more of them where these disagree. The default.
+//                      culling), rays between the pairs where something does; more of them where these
+//                      disagree. The default.
 //   analytic           double contour integration of every pair, rays as above where something stands between
 //   malley             cosine-weighted rays of a low-discrepancy sequence, shifted per receiver
-//   (Cranley-Patterson) malley_stratified  cosine-weighted rays, one at random in each of a grid of
-//   equal-area cells of the unit disc isocell            cosine-weighted rays through the centres of equal
-//   cells of the unit disc (Masset et al.) montecarlo         rays uniform over the hemisphere, weighted by 2
-//   cos(theta) hemicube           rays through the pixels of half a cube over the receiver's centre, with
-//   their delta form factors single_plane       rays through the proxels of one plane over the receiver's
-//   centre; the horizon is left out wallace            disc approximation from the receiver's centre to
-//   pieces of every patch, a shadow ray each
+//                      (Cranley-Patterson)
+//   malley_stratified  cosine-weighted rays, one at random in each of a grid of equal-area cells of the disc
+//   isocell            cosine-weighted rays through the centres of equal cells of the disc (Masset et al.)
+//   montecarlo         rays uniform over the hemisphere, weighted by 2 cos(theta)
+//   hemicube           rays through the pixels of half a cube over the receiver's centre, with their delta
+//                      form factors
+//   single_plane       rays through the proxels of one plane over the receiver's centre; the horizon is left
+//                      out
+//   wallace            disc approximation from the receiver's centre to pieces of every patch, a shadow ray
+//                      each
 //
 // Ray methods report rays that leave the scene (they carry no light) and rays that meet the back of a facet
 // (they started inside a solid and do not count). Equal input gives equal results on any number of cores.

@@ -9,8 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180 / kPi;
+constexpr double kDegrees = 180 / M_PI;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where table 4.1 of CIE 117 ends.
 constexpr double kLargestSide = 3, kLargestHeight = 1.9;
@@ -44,7 +43,7 @@ std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vect
   const LuminaireAxes axes = AxesOf(luminaire);
   const bool disc = luminaire.shape == LuminaireShape::kDisc;
   const double across_m = disc ? luminaire.size_m[0] : luminaire.size_m[1];
-  const double area_m2 = luminaire.size_m[0] * across_m * (disc ? kPi / 4 : 1.0);
+  const double area_m2 = luminaire.size_m[0] * across_m * (disc ? M_PI / 4 : 1.0);
   std::vector<Piece> pieces;
   for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
     const Eigen::Vector3d at =
@@ -68,7 +67,7 @@ std::vector<Piece> PiecesOfSphere(const Luminaire& luminaire, const Eigen::Vecto
   if (!(distance_m > radius_m)) return {};
   const Eigen::Vector3d normal = to_eye / distance_m;
   const Eigen::Vector3d along = normal.unitOrthogonal(), across = normal.cross(along);
-  const double area_m2 = kPi * radius_m * radius_m;
+  const double area_m2 = M_PI * radius_m * radius_m;
   const double intensity_cd =
       luminaire.flux_lm * IntensityPerLumen(luminaire, AxesOf(luminaire), normal).cd_per_lm;
   std::vector<Piece> pieces;

@@ -11,9 +11,8 @@
 // of links between elements add, as light of neighbours falls off the same way; those of links with a cluster
 // and that of direct light add by squares, taken as independent.
 //   uncertain of a link:  variation of F V over the receiver (Lambert's formula at four points, rays from
-//   each
-//                         to points of the source), of M over the source and over what is seen of it, extent
-//                         of clusters
+//                         each to points of the source), of M over the source and over what is seen of it,
+//                         extent of clusters
 //   uncertain of a leaf:  variation of direct light over it: shadow edges, near luminaires
 // Light from and to a cluster goes by second-order spherical harmonics of the clamped cosine, light within
 // one evenly to all members. Some rays of a link decide whether it is cut, others measure. After every pass

@@ -10,7 +10,6 @@
 namespace luxfit {
 namespace {
 
-constexpr int kMost = 1000000;  // of any count; what is left of the text bounds it further
 constexpr double kLeastFactor = 1e-6, kLargestFactor = 1e6;
 
 const std::map<IesVersion, std::string>& FirstLines() {
@@ -55,7 +54,7 @@ IesTilt ReadTiltData(PhotometryText& text, const std::string& source) {
   IesTilt tilt;
   tilt.source = source;
   tilt.lamp_geometry = text.Count("lamp-to-luminaire geometry", 1, 3);
-  const auto pairs = static_cast<size_t>(text.Count("number of tilt angles", 1, kMost));
+  const auto pairs = static_cast<size_t>(text.Count("number of tilt angles", 1, kMostCounted));
   tilt.angle_deg = text.Rising("tilt angles", pairs, -180, 180);
   tilt.factor = text.Numbers("tilt factors", pairs, 0);
   return tilt;
@@ -151,14 +150,14 @@ IesFile ParseIes(const std::string& bytes, const std::string& name) {
     throw text.Error("TILT", "expected NONE, INCLUDE or the name of a file after TILT=, got nothing");
   if (source == "NONE" || source == "INCLUDE") file.tilt.source = source;
   if (source == "INCLUDE") file.tilt = ReadTiltData(text, source);
-  file.lamps = text.Count("number of lamps", 1, kMost);
+  file.lamps = text.Count("number of lamps", 1, kMostCounted);
   file.lumens_per_lamp = text.Number("lumens per lamp");
   if (file.lumens_per_lamp != -1 && !(file.lumens_per_lamp > 0))
     throw text.Error("lumens per lamp", "expected > 0, or -1 for absolute photometry, got " +
                                             NumberText(file.lumens_per_lamp) + "; correct it");
   file.multiplier = text.NumberWithin("candela multiplier", kLeastFactor, kLargestFactor);
-  const auto vertical = static_cast<size_t>(text.Count("number of vertical angles", 2, kMost));
-  const auto horizontal = static_cast<size_t>(text.Count("number of horizontal angles", 1, kMost));
+  const auto vertical = static_cast<size_t>(text.Count("number of vertical angles", 2, kMostCounted));
+  const auto horizontal = static_cast<size_t>(text.Count("number of horizontal angles", 1, kMostCounted));
   file.type = static_cast<IesType>(text.Count("photometric type (1 C, 2 B, 3 A)", 1, 3));
   file.in_feet = text.Count("units (1 feet, 2 metres)", 1, 2) == 1;
   file.width = text.NumberWithin("width", -kLargestFactor, kLargestFactor);

@@ -10,14 +10,12 @@
 namespace luxfit {
 namespace {
 
-constexpr int kMost = 1000000;  // of any count; what is left of the text bounds it further
-
 std::vector<LdtLamps> ReadLamps(PhotometryText& text) {
-  const int sets = text.LineCount("number of lamp sets", 1, kMost);
+  const int sets = text.LineCount("number of lamp sets", 1, kMostCounted);
   std::vector<LdtLamps> lamps;
   for (int i = 0; i < sets; ++i) {  // each needs six lines, so the text's end bounds the list
     LdtLamps set;
-    set.count = text.LineCount("number of lamps", -kMost, kMost);
+    set.count = text.LineCount("number of lamps", -kMostCounted, kMostCounted);
     set.type = text.Line("type of lamps");
     set.flux_lm = text.LineNumber("total flux of the lamps");
     if (i == 0 && !(set.flux_lm > 0))
@@ -83,7 +81,7 @@ void ReadTable(PhotometryText& text, LdtFile& file, size_t gammas) {
 // Symmetry and number of planes, which must go together.
 void ReadSymmetry(PhotometryText& text, LdtFile& file) {
   file.symmetry = text.LineCount("Isym", 0, 4);
-  file.planes = text.LineCount("Mc, number of C planes", 1, kMost);
+  file.planes = text.LineCount("Mc, number of C planes", 1, kMostCounted);
   const int multiple = file.symmetry == 2 ? 2 : file.symmetry > 2 ? 4 : 1;
   if (file.planes % multiple != 0)
     throw text.Error("Mc, number of C planes", "expected a multiple of " + std::to_string(multiple) +
@@ -113,7 +111,7 @@ LdtFile ParseLdt(const std::string& bytes, const std::string& name) {
   file.type_indicator = text.LineCount("Ityp", 0, 3);
   ReadSymmetry(text, file);
   file.c_step_deg = text.LineNumber("Dc, distance of C planes");
-  const auto gammas = static_cast<size_t>(text.LineCount("Ng, number of gamma angles", 2, kMost));
+  const auto gammas = static_cast<size_t>(text.LineCount("Ng, number of gamma angles", 2, kMostCounted));
   file.gamma_step_deg = text.LineNumber("Dg, distance of gamma angles");
   file.report = text.Line("measurement report");
   file.luminaire = text.Line("luminaire name");

@@ -8,11 +8,7 @@
 #include "forward/photometry.h"
 
 namespace luxfit {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 std::string ToString(Distribution distribution) {
   switch (distribution) {
@@ -43,14 +39,14 @@ std::string ToString(LuminaireShape shape) {
 }
 
 Intensity IntensityPerLumen(const Luminaire& luminaire, double cosine_gamma) {
-  if (luminaire.distribution == Distribution::kIsotropic) return {1 / (4 * kPi), 0, 0};
+  if (luminaire.distribution == Distribution::kIsotropic) return {1 / (4 * M_PI), 0, 0};
   if (luminaire.distribution == Distribution::kMeasured)
     throw std::invalid_argument("IntensityPerLumen: expected the direction for a measured distribution");
   if (cosine_gamma <= 0) return {};
-  if (luminaire.distribution == Distribution::kLambertian) return {cosine_gamma / kPi, 1 / kPi, 0};
+  if (luminaire.distribution == Distribution::kLambertian) return {cosine_gamma / M_PI, 1 / M_PI, 0};
   const double m = luminaire.cosine_exponent;
   const double log_cosine = std::log(cosine_gamma);
-  const double lobe = std::exp(m * log_cosine) / (2 * kPi);
+  const double lobe = std::exp(m * log_cosine) / (2 * M_PI);
   return {(m + 1) * lobe, (m + 1) * m * lobe / cosine_gamma, lobe * (1 + (m + 1) * log_cosine)};
 }
 
@@ -68,7 +64,7 @@ std::vector<SurfaceSample> SampleSurface(LuminaireShape shape, int order) {
     for (const LineNode& node : GaussLegendre(order)) {
       const double radius = 0.5 * std::sqrt(node.t);
       for (int k = 0; k < spokes; ++k) {
-        const double angle = 2 * kPi * k / spokes;
+        const double angle = 2 * M_PI * k / spokes;
         samples.push_back({radius * std::cos(angle), radius * std::sin(angle), node.weight / spokes});
       }
     }

@@ -9,7 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBehindM = 1e-4;  // above the ray tracer's rounding, below any room's detail
 constexpr int kDiscCorners = 12;
 
@@ -22,7 +21,7 @@ bool ShinesToOneSide(const Luminaire& luminaire) {
   const double largest = *std::max_element(table.cd_per_lm.begin(), table.cd_per_lm.end());
   for (size_t i = 0; i < table.cd_per_lm.size(); ++i) {
     const double gamma = table.gamma_rad[i % table.gamma_rad.size()];
-    if (gamma > kPi / 2 + 1e-6 && table.cd_per_lm[i] > 1e-3 * largest) return false;
+    if (gamma > M_PI / 2 + 1e-6 && table.cd_per_lm[i] > 1e-3 * largest) return false;
   }
   return true;
 }
@@ -36,10 +35,10 @@ std::vector<Eigen::Vector3d> Outline(const Luminaire& luminaire) {
                           v = 0.5 * luminaire.size_m[1] * axes.across;
     outline = {-u - v, u - v, u + v, v - u};
   } else {
-    const double area_of_unit = 0.5 * kDiscCorners * std::sin(2 * kPi / kDiscCorners);
-    const double radius_m = 0.5 * luminaire.size_m[0] * std::sqrt(kPi / area_of_unit);
+    const double area_of_unit = 0.5 * kDiscCorners * std::sin(2 * M_PI / kDiscCorners);
+    const double radius_m = 0.5 * luminaire.size_m[0] * std::sqrt(M_PI / area_of_unit);
     for (int i = 0; i < kDiscCorners; ++i) {
-      const double angle = 2 * kPi * i / kDiscCorners;
+      const double angle = 2 * M_PI * i / kDiscCorners;
       outline.push_back(radius_m * (std::cos(angle) * axes.along + std::sin(angle) * axes.across));
     }
   }

@@ -14,8 +14,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Unit vector at gamma from the aim and C from the heading.
 Eigen::Vector3d DirectionAt(const Luminaire& luminaire, const LuminaireAxes& axes, double gamma, double c) {
   return std::cos(gamma) * luminaire.aim +
@@ -28,7 +26,7 @@ double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, doub
   double sum = 0;
   for (int k = 0; k < turns; ++k)
     sum +=
-        IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * kPi * (k + 0.5) / turns))
+        IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * M_PI * (k + 0.5) / turns))
             .cd_per_lm;
   return sum / turns;
 }
@@ -55,7 +53,7 @@ LuminaireRays SampleDistribution(const Luminaire& luminaire, int ray_count) {
   ExpectValid(luminaire);
   const LuminaireAxes axes = AxesOf(luminaire);
   const Tabulated polar(
-      0, kPi, [&](double gamma) { return MeanIntensity(luminaire, axes, gamma) * std::sin(gamma); });
+      0, M_PI, [&](double gamma) { return MeanIntensity(luminaire, axes, gamma) * std::sin(gamma); });
   const std::vector<Eigen::Vector2d> cells = Isocell(ray_count);
   LuminaireRays rays;
   rays.directions.resize(3, static_cast<Eigen::Index>(cells.size()));
@@ -63,7 +61,7 @@ LuminaireRays SampleDistribution(const Luminaire& luminaire, int ray_count) {
   for (Eigen::Index k = 0; k < rays.directions.cols(); ++k) {
     const Eigen::Vector2d& cell = cells[static_cast<size_t>(k)];
     const double gamma = polar.Quantile(cell[0]);
-    rays.directions.col(k) = DirectionAt(luminaire, axes, gamma, 2 * kPi * cell[1]);
+    rays.directions.col(k) = DirectionAt(luminaire, axes, gamma, 2 * M_PI * cell[1]);
     const double mean = MeanIntensity(luminaire, axes, gamma);
     const double here = IntensityPerLumen(luminaire, axes, rays.directions.col(k)).cd_per_lm;
     rays.share[k] = mean > 0 ? here / mean : 0;

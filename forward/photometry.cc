@@ -7,7 +7,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSameAngle = 1e-9;  // rad: rounding of mirrored angles, far below any goniophotometer's step
 
 void ExpectRising(const std::vector<double>& angles, const char* what) {
@@ -23,7 +22,7 @@ void ExpectTable(const std::vector<double>& c_rad, const std::vector<double>& ga
     throw std::invalid_argument("IntensityTable: expected planes x gamma intensities, two gamma at least");
   ExpectRising(c_rad, "C");
   ExpectRising(gamma_rad, "gamma");
-  if (!(gamma_rad.front() >= 0) || !(gamma_rad.back() <= kPi + kSameAngle))
+  if (!(gamma_rad.front() >= 0) || !(gamma_rad.back() <= M_PI + kSameAngle))
     throw std::invalid_argument("IntensityTable: expected gamma in [0, pi]");
   for (const double i : intensity) {
     if (!std::isfinite(i) || i < 0)
@@ -38,9 +37,9 @@ struct Plane {
 
 // Into [0, 2 pi).
 double OnCircle(double c_rad) {
-  double wrapped = std::fmod(c_rad, 2 * kPi);
-  if (wrapped < -kSameAngle) wrapped += 2 * kPi;
-  return wrapped < kSameAngle || wrapped > 2 * kPi - kSameAngle ? 0 : wrapped;
+  double wrapped = std::fmod(c_rad, 2 * M_PI);
+  if (wrapped < -kSameAngle) wrapped += 2 * M_PI;
+  return wrapped < kSameAngle || wrapped > 2 * M_PI - kSameAngle ? 0 : wrapped;
 }
 
 std::vector<Plane> PlanesAllRound(const std::vector<double>& c_rad, PlaneSymmetry symmetry) {
@@ -51,24 +50,24 @@ std::vector<Plane> PlanesAllRound(const std::vector<double>& c_rad, PlaneSymmetr
     const double c = c_rad[row];
     planes.push_back({OnCircle(c), row});
     if (across_0) planes.push_back({OnCircle(-c), row});
-    if (across_90) planes.push_back({OnCircle(kPi - c), row});
-    if (across_0 && across_90) planes.push_back({OnCircle(kPi + c), row});
+    if (across_90) planes.push_back({OnCircle(M_PI - c), row});
+    if (across_0 && across_90) planes.push_back({OnCircle(M_PI + c), row});
   }
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.c_rad < b.c_rad; });
   const auto same = [](const Plane& a, const Plane& b) { return b.c_rad - a.c_rad < kSameAngle; };
   planes.erase(std::unique(planes.begin(), planes.end(), same), planes.end());
-  planes.push_back({planes.front().c_rad + 2 * kPi, planes.front().row});
+  planes.push_back({planes.front().c_rad + 2 * M_PI, planes.front().row});
   return planes;
 }
 
 // The cell of a rising list that holds x, and how far x lies in it; index -1 outside the list.
-struct Cell {
+struct TableCell {
   std::ptrdiff_t index = -1;
   double share = 0, width = 1;
 };
 
-Cell CellOf(const std::vector<double>& angles, double x) {
+TableCell CellOf(const std::vector<double>& angles, double x) {
   if (x < angles.front() - kSameAngle || x > angles.back() + kSameAngle) return {};
   const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, x);
   const double low = *(above - 1), width = *above - low;
@@ -82,17 +81,17 @@ IntensityTable ExpandPlanes(const std::vector<double>& c_rad, const std::vector<
   ExpectTable(c_rad, gamma_rad, intensity);
   std::vector<Plane> planes;
   if (symmetry == PlaneSymmetry::kRotational) {
-    planes = {{0, 0}, {2 * kPi, 0}};
+    planes = {{0, 0}, {2 * M_PI, 0}};
   } else if (symmetry == PlaneSymmetry::kPartial) {
     for (size_t row = 0; row < c_rad.size(); ++row) planes.push_back({c_rad[row], row});
   } else {
     planes = PlanesAllRound(c_rad, symmetry);
   }
-  if (planes.size() < 2 || planes.back().c_rad - planes.front().c_rad > 2 * kPi + kSameAngle)
+  if (planes.size() < 2 || planes.back().c_rad - planes.front().c_rad > 2 * M_PI + kSameAngle)
     throw std::invalid_argument("IntensityTable: expected two planes or more, within one turn");
   IntensityTable table;
   table.gamma_rad = gamma_rad;
-  table.gamma_rad.back() = std::min(gamma_rad.back(), kPi);
+  table.gamma_rad.back() = std::min(gamma_rad.back(), M_PI);
   table.cd_per_lm.reserve(planes.size() * gamma_rad.size());
   for (const Plane& plane : planes) {
     table.c_rad.push_back(plane.c_rad);
@@ -137,10 +136,10 @@ bool IsSymmetricAboutAim(const IntensityTable& table) {
   constexpr double kTolerance = 0.01;
   constexpr int kGammas = 36, kTurns = 72;
   for (int g = 1; g < kGammas; ++g) {
-    const double gamma = kPi * g / kGammas;
+    const double gamma = M_PI * g / kGammas;
     double least = table.peak_cd_per_lm, most = 0;
     for (int k = 0; k < kTurns; ++k) {
-      const double c = 2 * kPi * k / kTurns;
+      const double c = 2 * M_PI * k / kTurns;
       const double i = IntensityTowards(table, {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c),
                                                 -std::cos(gamma)})
                            .cd_per_lm;
@@ -155,13 +154,13 @@ bool IsSymmetricAboutAim(const IntensityTable& table) {
 TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d d = table.table_from_luminaire * direction;
   const double sine = std::hypot(d.x(), d.y());
-  const Cell g = CellOf(table.gamma_rad, std::atan2(sine, -d.z()));
+  const TableCell g = CellOf(table.gamma_rad, std::atan2(sine, -d.z()));
   if (g.index < 0) return {};
   const double first = table.c_rad.front();
   double c_angle = sine > 0 ? std::atan2(d.y(), d.x()) : 0;
   // Rounding must not carry the first plane once round.
-  c_angle -= 2 * kPi * std::floor((c_angle - first + kSameAngle) / (2 * kPi));
-  const Cell c = CellOf(table.c_rad, c_angle);
+  c_angle -= 2 * M_PI * std::floor((c_angle - first + kSameAngle) / (2 * M_PI));
+  const TableCell c = CellOf(table.c_rad, c_angle);
   if (c.index < 0) return {};
 
   const double* low =
@@ -185,8 +184,8 @@ IntensityTable Resampled(const IntensityTable& table, int c_step_deg, int gamma_
   if (c_step_deg < 1 || gamma_step_deg < 1 || 360 % c_step_deg != 0 || 180 % gamma_step_deg != 0)
     throw std::invalid_argument("Resampled: expected steps that divide 360 and 180 degrees");
   std::vector<double> c_rad, gamma_rad, intensity;
-  for (int c = 0; c < 360; c += c_step_deg) c_rad.push_back(c * kPi / 180);
-  for (int g = 0; g <= 180; g += gamma_step_deg) gamma_rad.push_back(g * kPi / 180);
+  for (int c = 0; c < 360; c += c_step_deg) c_rad.push_back(c * M_PI / 180);
+  for (int g = 0; g <= 180; g += gamma_step_deg) gamma_rad.push_back(g * M_PI / 180);
   for (const double c : c_rad) {
     for (const double g : gamma_rad) {
       const Eigen::Vector3d direction(std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g));

@@ -11,7 +11,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kIntensityTolerance = 0.004;  // of the peak; the rest of 0.5 % is for scaling to the flux
 constexpr double kFluxTolerance = 0.001;
 constexpr double kRefinedTolerance = 0.00015;  // of the peak: chords all on one side hold the flux too
@@ -21,7 +20,7 @@ constexpr size_t kLongestFileName = 8;         // of EULUMDAT
 
 double CdPerLm(const Luminaire& luminaire, double gamma_deg) {
   // The cosine of 90 deg is not 0 in floating point.
-  return IntensityPerLumen(luminaire, gamma_deg == 90 ? 0 : std::cos(gamma_deg * kPi / 180)).cd_per_lm;
+  return IntensityPerLumen(luminaire, gamma_deg == 90 ? 0 : std::cos(gamma_deg * M_PI / 180)).cd_per_lm;
 }
 
 // How far the chord over a cell is from the curve.
@@ -86,9 +85,9 @@ std::vector<double> GammaAngles(const Luminaire& luminaire) {
 
 // LM-63 begins at 0 and ends at 90 or 180 deg; a table is dark beyond its own angles.
 IntensityTable WithWholeGamma(const IntensityTable& table) {
-  const double step = kFinestStepDeg * kPi / 180;
+  const double step = kFinestStepDeg * M_PI / 180;
   const double first = table.gamma_rad.front(), last = table.gamma_rad.back();
-  const double end = last <= kPi / 2 + 1e-9 ? kPi / 2 : kPi;
+  const double end = last <= M_PI / 2 + 1e-9 ? M_PI / 2 : M_PI;
   std::vector<double> before, after;
   if (first > 1e-9) before = {0};
   if (first > 2 * step) before.push_back(first - step);

@@ -7,7 +7,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPlaneTolerance = 1e-9;  // m: what lies this near a plane lies in it
 
 // Integral of ln(sqrt(t^2 + h^2)) over t, from 0.
@@ -143,7 +142,7 @@ double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, c
     a = b;
   }
   // Counter-clockwise from its front means clockwise for the point that it faces.
-  return std::max(-sum / (2 * kPi), 0.0);
+  return std::max(-sum / (2 * M_PI), 0.0);
 }
 
 PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
@@ -175,7 +174,7 @@ PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Ve
     to.gradient += height * (bend * w.cross(a) - a / r4) + angle / s * normal.cross(a);
   }
   // The sign as in PointToPolygon; a point behind the polygon sees nothing of it.
-  const double scale = result.factor > 0 ? 0 : -1 / (2 * kPi);
+  const double scale = result.factor > 0 ? 0 : -1 / (2 * M_PI);
   result.factor *= scale;
   // A corner cut off by the receiver's plane stays t of the way along its edge: sliding along it, it sweeps
   // what lies in that plane, which brings nothing.
@@ -197,7 +196,7 @@ double PolygonToPolygon(const ConvexPolygon& from, const ConvexPolygon& to) {
   const ConvexPolygon seeing = InFrontOf(from, to[0], area_to.normalized());
   if (seeing.count < 3) return 0;
   const double sum = DoubleContour(seeing, seen, 1e-9 * std::sqrt(area * area_to.norm()));
-  return std::max(0.0, sum / (2 * kPi * area));
+  return std::max(0.0, sum / (2 * M_PI * area));
 }
 
 }  // namespace luxfit

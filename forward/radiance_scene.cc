@@ -10,8 +10,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180 / kPi;
+constexpr double kDegrees = 180 / M_PI;
 constexpr double kLumensPerWatt = 179;
 constexpr double kPointRadiusM = 0.002;
 constexpr double kBackOffsetM = 1e-4;  // of the face that shines to the other side
@@ -65,7 +64,7 @@ class LuminaireText {
   bool ShinesBack() const {
     const size_t n = table_.gamma_rad.size();
     for (size_t i = 0; i < table_.cd_per_lm.size(); ++i) {
-      if (table_.gamma_rad[i % n] > kPi / 2 + 1e-6 && table_.cd_per_lm[i] > 0) return true;
+      if (table_.gamma_rad[i % n] > M_PI / 2 + 1e-6 && table_.cd_per_lm[i] > 0) return true;
     }
     return false;
   }
@@ -75,7 +74,7 @@ class LuminaireText {
     const double radiance = dimming_ * share * luminaire_.flux_lm / area_m2 / kLumensPerWatt;
     const std::string name = stem_ + suffix;
     std::string modifier = "void";
-    double value = radiance / kPi;
+    double value = radiance / M_PI;
     if (!IsLambertian()) {
       modifier = name + "_lobe";
       value = radiance;
@@ -119,7 +118,7 @@ class LuminaireText {
   void AddSphere() {
     const bool is_point = luminaire_.shape == LuminaireShape::kPoint || !(luminaire_.size_m[0] > 0);
     const double radius = is_point ? kPointRadiusM : luminaire_.size_m[0] / 2;
-    const std::string light = AddModifier(1, kPi * radius * radius, "");
+    const std::string light = AddModifier(1, M_PI * radius * radius, "");
     const Eigen::Vector3d& p = luminaire_.position;
     text_ << light << " sphere " << stem_ << "_surface\n0\n0\n4 " << p.x() << ' ' << p.y() << ' ' << p.z()
           << ' ' << radius << '\n';
@@ -144,7 +143,7 @@ class LuminaireText {
   void AddFlat(const Eigen::Vector3d& centre, const Eigen::Vector2d& size_m, double share,
                const std::string& suffix) {
     const bool is_disc = luminaire_.shape == LuminaireShape::kDisc;
-    const double area_m2 = is_disc ? kPi * size_m[0] * size_m[0] / 4 : size_m[0] * size_m[1];
+    const double area_m2 = is_disc ? M_PI * size_m[0] * size_m[0] / 4 : size_m[0] * size_m[1];
     const std::string light = AddModifier(share, area_m2, suffix);
     AddFace(light, suffix + "_surface", centre, size_m, luminaire_.aim);
     if (!IsLambertian() && ShinesBack())

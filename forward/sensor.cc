@@ -15,8 +15,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // w and dw/dtheta of a table.
 struct PolarWeight {
   double value = 0, d_theta = 0;
@@ -26,7 +24,7 @@ PolarWeight TableWeight(const SensorResponse& response, double theta) {
   const std::vector<double>&angles = response.angle_rad, &values = response.relative;
   const double cosine = std::max(0.0, std::cos(theta)), d_cosine = cosine > 0 ? -std::sin(theta) : 0;
   if (theta >= angles.back()) {
-    if (angles.back() >= kPi / 2 - 1e-9) return {theta == angles.back() ? values.back() : 0, 0};
+    if (angles.back() >= M_PI / 2 - 1e-9) return {theta == angles.back() ? values.back() : 0, 0};
     const double ratio = values.back() / std::cos(angles.back());
     return {ratio * cosine, ratio * d_cosine};
   }
@@ -71,7 +69,7 @@ double PolarDensity(const SensorResponse& response, double theta) {
   const double sine = std::sin(theta);
   if (response.kind == ResponseKind::kTable) return 2 * TableWeight(response, theta).value * sine;
   if (response.kind == ResponseKind::kSpherical) return sine / 2;
-  return 2 / kPi * sine * sine;  // cylinders
+  return 2 / M_PI * sine * sine;  // cylinders
 }
 
 }  // namespace
@@ -89,7 +87,7 @@ SensorResponse TableResponse(std::vector<double> angle_rad, std::vector<double> 
   const bool ascends = std::adjacent_find(angle_rad.begin(), angle_rad.end(),
                                           [](double a, double b) { return !(a < b); }) == angle_rad.end();
   if (angle_rad.size() < 2 || angle_rad.size() != relative.size() || angle_rad[0] != 0 || !ascends ||
-      !(angle_rad.back() <= kPi + 1e-9))
+      !(angle_rad.back() <= M_PI + 1e-9))
     throw std::invalid_argument(
         "TableResponse: expected angles that ascend from 0 to at most pi, a value each");
   if (!(relative[0] > 0) ||
@@ -116,14 +114,14 @@ DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction)
       break;
     }
     case ResponseKind::kCylindrical:
-      weight.value = sine / kPi;
-      if (sine > 1e-9) weight.d_direction = across / (kPi * sine);
+      weight.value = sine / M_PI;
+      if (sine > 1e-9) weight.d_direction = across / (M_PI * sine);
       break;
     case ResponseKind::kSemicylindrical: {
       // sin(epsilon) cos(alpha) = d . facing
       const Eigen::Vector3d facing = FrameOf(sensor).col(0);
-      weight.value = (sine + direction.dot(facing)) / kPi;
-      if (sine > 1e-9) weight.d_direction = (across / sine + facing) / kPi;
+      weight.value = (sine + direction.dot(facing)) / M_PI;
+      if (sine > 1e-9) weight.d_direction = (across / sine + facing) / M_PI;
       break;
     }
     case ResponseKind::kSpherical:
@@ -194,8 +192,8 @@ SensorRays SampleResponse(const Sensor& sensor, int ray_count) {
   SensorRays rays;
   rays.directions.resize(3, static_cast<Eigen::Index>(points.size()));
   const bool cosine = response.kind == ResponseKind::kCosine;
-  const Tabulated polar(0, kPi, [&](double theta) { return cosine ? 0 : PolarDensity(response, theta); });
-  const Tabulated azimuth(-kPi, kPi, [&](double alpha) {
+  const Tabulated polar(0, M_PI, [&](double theta) { return cosine ? 0 : PolarDensity(response, theta); });
+  const Tabulated azimuth(-M_PI, M_PI, [&](double alpha) {
     return response.kind == ResponseKind::kSemicylindrical ? 1 + std::cos(alpha) : 1;
   });
   if (!cosine) rays.total = polar.Total();

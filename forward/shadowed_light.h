@@ -5,8 +5,9 @@
 //
 // over the directions d towards the luminous surface. What hides does not move with the luminaire, so V(d) is
 // fixed and the derivative is that of L plus what the visible part of the surface's outline sweeps:
-//   dE = int V dL cos(theta) dOmega + oint V L cos(theta) d . (v x dx) / r^2        (v: velocity of the
-//   outline)
+//
+//   dE = int V dL cos(theta) dOmega + oint V L cos(theta) d . (v x dx) / r^2     v: velocity of the outline
+//
 // Exact for polygons of any kind as occluders; shares of the surface are found by rays on a grid that is
 // refined where neighbours disagree, the outline by rays at points along it.
 //

@@ -1,7 +1,7 @@
 // Radiosity by any of the field's solvers, behind one function.
 //
-//   (I - rho F) M = rho D,     E = D + F M            M: exitance lm/m2; D, E: direct and total illuminance,
-//   lx
+//   (I - rho F) M = rho D,     E = D + F M
+//   M: exitance, lm/m2; D, E: direct and total illuminance, lx
 //
 //   lu                   dense factorisation of I - rho F; n^2 floats more
 //   cholesky             of the symmetrised S of transport.h; n^2 floats more; best for many columns
@@ -10,8 +10,7 @@
 //   neumann              M = sum_{k < bounces} (rho F)^k rho D: so E has exactly `bounces` reflections.
 //                        0: direct light only; 1: D + F rho D, one reflection; ...
 //   shooting             progressive refinement: the patch with the most unshot flux shoots; at the end what
-//   is
-//                        left unshot is spread as the ambient term rho_i mean(dM) / (1 - mean rho), area
+//                        is left unshot is spread as the ambient term rho_i mean(dM) / (1 - mean rho), area
 //                        means
 //   conjugate_gradient   on the symmetrised S
 //   bicgstab             on I - rho F, for couplings that are not quite symmetric

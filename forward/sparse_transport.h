@@ -1,7 +1,7 @@
 // The coupling of many patches, of which only the pairs that a ray connected are stored.
 //
-//   K = (B + B^T) / 2,   B_ij = sqrt(A_i) F_ij / sqrt(A_j)       F from rays as in form_factors.h, ray for
-//   ray
+//   K = (B + B^T) / 2,   B_ij = sqrt(A_i) F_ij / sqrt(A_j)
+//   F from rays as in form_factors.h, ray for ray
 //
 // The same numbers as MakeTransportGeometry of ComputeFormFactors, without zeros: at most 2 rays_per_element
 // pairs an element, 8 bytes a pair (three times that while it is made). 10^6 patches of one element with 128

@@ -15,8 +15,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Where a ray meets a luminous surface, and how bright that is.
 struct LuminousHit {
   double distance = std::numeric_limits<double>::infinity();
@@ -37,7 +35,8 @@ LuminousHit MeetSphere(const Luminaire& luminaire, const Eigen::Vector3d& origin
   const double along = to_center.dot(direction);
   const double discriminant = along * along - to_center.squaredNorm() + radius * radius;
   if (!(radius > 0) || discriminant < 0 || along <= std::sqrt(discriminant)) return {};
-  return {along - std::sqrt(discriminant), IntensityTowards(luminaire, -direction) / (kPi * radius * radius)};
+  return {along - std::sqrt(discriminant),
+          IntensityTowards(luminaire, -direction) / (M_PI * radius * radius)};
 }
 
 LuminousHit MeetLuminaire(const Luminaire& luminaire, const Eigen::Vector3d& origin,
@@ -55,7 +54,7 @@ LuminousHit MeetLuminaire(const Luminaire& luminaire, const Eigen::Vector3d& ori
                         : (place.cwiseAbs().array() < luminaire.size_m.array() / 2).all();
   if (!met) return {};
   const double area_m2 =
-      disc ? kPi / 4 * luminaire.size_m[0] * luminaire.size_m[0] : luminaire.size_m[0] * luminaire.size_m[1];
+      disc ? M_PI / 4 * luminaire.size_m[0] * luminaire.size_m[0] : luminaire.size_m[0] * luminaire.size_m[1];
   return {distance, IntensityTowards(luminaire, -direction) / (area_m2 * cosine)};
 }
 
@@ -167,7 +166,7 @@ Eigen::MatrixXd RenderView(const Room& room, const LitRoom& lit, const Eigen::Ve
       const int material = room.scene.facets[static_cast<size_t>(hit.facet)].material;
       luminance.row(i) = lit.albedo.row(material).cwiseProduct(
                              IlluminanceAt(room, lit, hit.facet, hit.u, hit.v, options, rays)) /
-                         kPi;
+                         M_PI;
     }
   });
   return luminance;

@@ -1,8 +1,8 @@
 // What is seen of a lit room: the luminance along any ray.
 //
 //   L = rho E / pi,   E = E_direct(at the very point, occlusion tested) + E_indirect      cd/m2
-//   L = Phi I(gamma) / (A cos gamma)                a luminous surface seen directly; a sphere: Phi I / (pi
-//   r^2)
+//   L = Phi I(gamma) / (A cos gamma)                a luminous surface seen directly
+//   L = Phi I / (pi r^2)                            a sphere
 //
 // E_indirect is interpolated between vertices (forward/vertex_interpolation.h) or gathered by rays. Channels
 // are columns of the reflectances: each colour has its own interreflection, the direct light is computed once

@@ -13,7 +13,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kWeldM = 1e-4;  // coordinates of corners of different facets agree much better
 
 // Place, plane and material: what two facets must share for their vertices to be one.
@@ -51,10 +50,10 @@ std::vector<Corner> CornersOfCell(const Element& element, int i, int j, bool tri
   const double at_origin = Angle(u, v);
   if (!triangle)
     return {{i, j, at_origin},
-            {i + 1, j, kPi - at_origin},
+            {i + 1, j, M_PI - at_origin},
             {i + 1, j + 1, at_origin},
-            {i, j + 1, kPi - at_origin}};
-  const double at_u = Angle(-u, v - u), at_v = kPi - at_origin - at_u;
+            {i, j + 1, M_PI - at_origin}};
+  const double at_u = Angle(-u, v - u), at_v = M_PI - at_origin - at_u;
   if (upper) return {{i + 1, j + 1, at_origin}, {i, j + 1, at_u}, {i + 1, j, at_v}};
   return {{i, j, at_origin}, {i + 1, j, at_u}, {i, j + 1, at_v}};
 }
@@ -118,7 +117,7 @@ class Builder {
 
   std::vector<std::pair<int, float>> WeightsOf(const Vertex& vertex) const {
     std::vector<int> elements = vertex.elements;
-    if (vertex.angle < 2 * kPi - 1e-3) {  // at a border: their neighbours too
+    if (vertex.angle < 2 * M_PI - 1e-3) {  // at a border: their neighbours too
       for (const int e : vertex.elements) {
         for (const int v : vertices_of_element_[static_cast<size_t>(e)]) {
           const std::vector<int>& more = vertices_[static_cast<size_t>(v)].elements;

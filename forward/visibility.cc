@@ -15,11 +15,11 @@ namespace {
 
 constexpr unsigned kTriangles = 0, kQuads = 1;  // geometry ids
 
-struct Corner {
+struct RayCorner {
   float x, y, z;
 };
 
-Corner ToCorner(const Eigen::Vector3d& p) {
+RayCorner ToRayCorner(const Eigen::Vector3d& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
 }
 
@@ -69,11 +69,11 @@ struct RayScene::State {
     if (device != nullptr) rtcReleaseDevice(device);
   }
 
-  void Attach(RTCGeometryType type, unsigned id, unsigned corners, const std::vector<Corner>& vertices) {
+  void Attach(RTCGeometryType type, unsigned id, unsigned corners, const std::vector<RayCorner>& vertices) {
     if (vertices.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, type);
-    auto* out = static_cast<Corner*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Corner), vertices.size()));
+    auto* out = static_cast<RayCorner*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(RayCorner), vertices.size()));
     std::copy(vertices.begin(), vertices.end(), out);
     auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, corners == 3 ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4,
@@ -93,15 +93,15 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
   state_->scene = rtcNewScene(state_->device);
   // Robust: rays through the common edge of two facets must hit one of them.
   rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
-  std::vector<Corner> triangles, quads;
+  std::vector<RayCorner> triangles, quads;
   for (size_t f = 0; f < scene.facets.size(); ++f) {
     const Facet& facet = scene.facets[f];
     const bool quad = facet.kind == FacetKind::kParallelogram;
-    std::vector<Corner>& vertices = quad ? quads : triangles;
-    vertices.push_back(ToCorner(facet.origin));
-    vertices.push_back(ToCorner(facet.PointAt(1, 0)));
-    if (quad) vertices.push_back(ToCorner(facet.PointAt(1, 1)));
-    vertices.push_back(ToCorner(facet.PointAt(0, 1)));
+    std::vector<RayCorner>& vertices = quad ? quads : triangles;
+    vertices.push_back(ToRayCorner(facet.origin));
+    vertices.push_back(ToRayCorner(facet.PointAt(1, 0)));
+    if (quad) vertices.push_back(ToRayCorner(facet.PointAt(1, 1)));
+    vertices.push_back(ToRayCorner(facet.PointAt(0, 1)));
     (quad ? state_->facet_of_quad : state_->facet_of_triangle).push_back(static_cast<int>(f));
   }
   state_->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);

@@ -9,7 +9,7 @@ namespace luxfit {
 namespace {
 
 // Reflectances are one number a material: a thousand elements fix them as well as all would.
-constexpr int kMaxElements = 1000;
+constexpr int kMaxRgbElements = 1000;
 
 LightData ChannelData(const LightData& data, Eigen::Index channel) {
   LightData of_channel;
@@ -27,7 +27,7 @@ LightData ChannelData(const LightData& data, Eigen::Index channel) {
 // Of every material, with the indirect light as measured in the same data; empty without data.
 Eigen::VectorXd AlbedoIn(const Room& room, const LightData& data, const LightState& light) {
   LightData measured = WithMeasuredIndirect(room, data);
-  measured.observations = ThinElements(measured.observations, kMaxElements);
+  measured.observations = ThinElements(measured.observations, kMaxRgbElements);
   FitLuminairesOptions options;
   options.covariance = false;
   options.max_outer_iterations = 2;  // nothing moves: the second only settles the weights

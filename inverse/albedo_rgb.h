@@ -1,9 +1,10 @@
 // Reflectance by colour channel, once luminaires and camera scale are known.
 //
-//   rho_c = rho * rho'_c / rho'        rho: of the fit, rho': fitted to the channel and to the luminance,
-//   with the
-//                                      indirect light as measured in each (inverse/measured_indirect.h)
-// so interreflection carries the colour of what reflects it, and what patches that no photo shows make
+//   rho_c = rho * rho'_c / rho'
+//   rho: of the fit; rho': fitted to the channel and to the luminance, with the indirect light as measured in
+//   each (inverse/measured_indirect.h)
+//
+// So interreflection carries the colour of what reflects it, and what patches that no photo shows make
 // uncertain of it cancels. Assumes that the luminaires are neutral in the camera's RGB: where they are not,
 // their tint is in the reflectances of all materials alike.
 //

@@ -1,6 +1,7 @@
 #include "inverse/choose_count.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -11,8 +12,6 @@
 
 namespace luxfit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
 
@@ -70,7 +69,7 @@ std::optional<Trial> Try(const Room& room, const SubProblem& problem, const Ligh
   fit_options.covariance = false;
   fit_options.max_outer_iterations = 4;
   fit_options.visibility_order = 2;
-  const double flux_per_strength = seen.observations.empty() ? 1 : kPi;  // of readings, of photos
+  const double flux_per_strength = seen.observations.empty() ? 1 : M_PI;  // of readings, of photos
   const LuminaireFit fit = FitLuminaires(
       room, seen, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
   if (fit.status == FitStatus::kNoData) return {};

@@ -8,18 +8,19 @@
 #include <set>
 #include <utility>
 
+#include "calib/median.h"
 #include "inverse/internal/simplest_choice.h"
 #include "inverse/measured_indirect.h"
 
 namespace luxfit {
 namespace {
 
-constexpr int kMaxElements = 1000;
-constexpr int kLeftOutOf = 5;
+constexpr int kMaxColourElements = 1000;
+constexpr int kColourLeftOutOf = 5;
 constexpr int kMinRows = 20;
 constexpr size_t kFewFacets = 8, kFewPatches = 40;
-constexpr double kMostSquare = 9;
-constexpr double kLeastSigma = 5e-4;  // of a ratio of channels
+constexpr double kMostColourSquare = 9;
+constexpr double kLeastColourSigma = 5e-4;  // of a ratio of channels
 
 // One channel of one observation.
 struct Row {
@@ -54,7 +55,7 @@ std::vector<Row> RowsOf(const Room& room, const LightData& data, const Luminaire
   for (const Observation& o : data.observations) order.emplace(o.element, 0);
   int count = 0;
   for (auto& [element, number] : order) number = count++;
-  const int stride = std::max(1, (count + kMaxElements - 1) / kMaxElements);
+  const int stride = std::max(1, (count + kMaxColourElements - 1) / kMaxColourElements);
   std::vector<Row> rows;
   rows.reserve(3 * data.observations.size() / static_cast<size_t>(stride));
   for (size_t i = 0; i < data.observations.size(); ++i) {
@@ -81,18 +82,12 @@ std::vector<Row> RowsOf(const Room& room, const LightData& data, const Luminaire
   return rows;
 }
 
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Median of each key's ratios of values to what was modelled; 1 for a key without any.
 using Ratios = std::map<int, std::vector<double>>;
 using Factors = std::map<int, double>;
 Factors FactorsOf(const Ratios& ratios) {
   Factors factors;
-  for (const auto& [key, list] : ratios) factors[key] = MedianOf(list);
+  for (const auto& [key, list] : ratios) factors[key] = Median(list);
   return factors;
 }
 double FactorOf(const Factors& factors, int key) {
@@ -116,7 +111,7 @@ void Cut(std::vector<Row>& rows) {
   int count = 0;
   for (auto& [piece, n] : number) n = count++;
   for (Row& row : rows) {
-    row.is_left_out = number.at(piece_of(row)) % kLeftOutOf == 2;
+    row.is_left_out = number.at(piece_of(row)) % kColourLeftOutOf == 2;
     row.group = facets.size() < kFewFacets ? piece_of(row) : row.facet;
   }
 }
@@ -129,7 +124,7 @@ std::map<int, GroupScore> Score(const std::vector<Row>& rows, const std::vector<
     if (!rows[i].is_left_out) continue;
     const double z = (modelled[i] / rows[i].value - 1) / sigma;
     GroupScore& score = scores[rows[i].group];
-    score.sum += std::min(z * z, kMostSquare);
+    score.sum += std::min(z * z, kMostColourSquare);
     ++score.count;
   }
   return scores;
@@ -141,7 +136,8 @@ double SigmaOf(const std::vector<Row>& rows, const std::vector<double>& modelled
   for (size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].is_left_out) relative.push_back(std::abs(modelled[i] / rows[i].value - 1));
   }
-  return relative.empty() ? kLeastSigma : std::max(kLeastSigma, 1.4826 * MedianOf(std::move(relative)));
+  return relative.empty() ? kLeastColourSigma
+                          : std::max(kLeastColourSigma, 1.4826 * Median(std::move(relative)));
 }
 
 bool IsEnough(const std::vector<Row>& rows) {

@@ -11,7 +11,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTwoSided95 = 1.96;
 
 bool DependsOnHeading(const Luminaire& luminaire) {
@@ -55,7 +54,7 @@ ToleranceInterval HeadingOf(const Luminaire& designed, const MeasuredLuminaire& 
   if (!DependsOnHeading(designed) || !DependsOnHeading(measured.luminaire)) return {0, 0, tolerance, false};
   double angle = AngleBetween(AxesOf(designed).along, AxesOf(measured.luminaire).along);
   // Half a turn changes nothing of an even rectangle.
-  if (designed.distribution != Distribution::kMeasured) angle = std::min(angle, kPi - angle);
+  if (designed.distribution != Distribution::kMeasured) angle = std::min(angle, M_PI - angle);
   return {angle, kTwoSided95 * measured.heading_sigma_rad, tolerance, true};
 }
 
@@ -150,11 +149,12 @@ double DistributionDistance(const Luminaire& a, const Luminaire& b) {
   };
   double sum = 0;
   for (int i = 0; i < kGammas; ++i) {
-    const double gamma = (i + 0.5) * kPi / kGammas;
-    const double ring = std::cos(i * kPi / kGammas) - std::cos((i + 1) * kPi / kGammas);
+    const double gamma = (i + 0.5) * M_PI / kGammas;
+    const double ring = std::cos(i * M_PI / kGammas) - std::cos((i + 1) * M_PI / kGammas);
     for (int j = 0; j < kPlanes; ++j) {
-      const double c = (j + 0.5) * 2 * kPi / kPlanes;
-      sum += ring * 2 * kPi / kPlanes * std::abs(towards(a, axes_a, gamma, c) - towards(b, axes_b, gamma, c));
+      const double c = (j + 0.5) * 2 * M_PI / kPlanes;
+      sum +=
+          ring * 2 * M_PI / kPlanes * std::abs(towards(a, axes_a, gamma, c) - towards(b, axes_b, gamma, c));
     }
   }
   return 0.5 * sum;

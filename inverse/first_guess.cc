@@ -9,8 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
 
 std::vector<SparseSource> HeldSources(const LuminaireGroup& group, const KnownPositions& known) {
@@ -135,7 +133,7 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
       own.position.push_back(Inside(room.scene.Bounds(), seen[static_cast<size_t>(i)].position));
     const SparseLuminaires found = search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
                                                HeldSources(group, known_positions), own.position);
-    Assign(group, found, known_positions, own, data.observations.empty() ? 1 : kPi, guess);
+    Assign(group, found, known_positions, own, data.observations.empty() ? 1 : M_PI, guess);
     if (!found.sources.empty()) albedo.Add(found);
   }
   guess.albedo = albedo.Value();

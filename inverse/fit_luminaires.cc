@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calib/median.h"
 #include "inverse/internal/discretisation_bias.h"
 #include "inverse/internal/fit_covariance.h"
 #include "inverse/internal/frozen_problem.h"
@@ -11,13 +12,6 @@
 
 namespace luxfit {
 namespace {
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 class OuterLoop {
  public:

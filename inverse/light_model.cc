@@ -13,8 +13,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 PartKind PartKindOf(LuminaireQuantity quantity) {
   return quantity == LuminaireQuantity::kCell ? PartKind::kCell : PartKind::kGammaNode;
 }
@@ -76,7 +74,7 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
       p.name = "tilt across", p.lower = -1, p.upper = 1;
       break;
     case LuminaireQuantity::kHeading:
-      p.name = "heading", p.lower = -kPi, p.upper = kPi;
+      p.name = "heading", p.lower = -M_PI, p.upper = M_PI;
       break;
     case LuminaireQuantity::kGammaNode:
     case LuminaireQuantity::kCell:
@@ -350,7 +348,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     // What turns illuminance into the row's own unit.
     const int sensor = i < observations ? -1 : data_.readings[row - data_.observations.size()].sensor_index;
     const double sensor_gain = sensor >= 0 && state.sensor_gain.size() > 0 ? state.sensor_gain[sensor] : 1;
-    const double unit = material < 0 ? state.meter_scale * sensor_gain : state.camera_scale / kPi;
+    const double unit = material < 0 ? state.meter_scale * sensor_gain : state.camera_scale / M_PI;
     const double gain = material < 0 ? unit : unit * state.albedo[material];
     const double illuminance = light.total.row(r).cast<double>() * lumens;
     // Of a white surface, in the row's own unit.

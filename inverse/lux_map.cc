@@ -7,7 +7,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 void ExpectScale(const SurfaceScale& scale) {
@@ -27,7 +26,7 @@ bool IsKnown(const SurfaceScale& scale, int material) {
 }
 
 double LuxOf(const SurfaceScale& scale, int material, double relative_luminance) {
-  return kPi * relative_luminance / (scale.camera_scale * scale.albedo[material]);
+  return M_PI * relative_luminance / (scale.camera_scale * scale.albedo[material]);
 }
 
 PixelGap GapOf(const LuminanceImage& photo, const SurfaceScale& scale, int material, Eigen::Index v,

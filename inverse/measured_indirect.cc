@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kPi = 3.14159265F;
 
-struct Mean {
+struct AreaMean {
   double sum = 0, weight = 0;
   void Add(double value, double w) { sum += w * value, weight += w; }
   float value() const { return static_cast<float>(sum / weight); }
@@ -19,14 +19,14 @@ struct Mean {
 Eigen::MatrixXf PatchLuminance(const Room& room, const LightData& data) {
   const auto states = static_cast<Eigen::Index>(data.dimming.size());
   const auto patches = static_cast<Eigen::Index>(room.patches.patches.size());
-  std::map<std::pair<int, int>, Mean> of_facet, of_material, of_patch;
-  std::vector<Mean> of_all(data.dimming.size());
+  std::map<std::pair<int, int>, AreaMean> of_facet, of_material, of_patch;
+  std::vector<AreaMean> of_all(data.dimming.size());
   for (const Observation& o : data.observations) {
     const Element& element = room.patches.elements[static_cast<size_t>(o.element)];
     const Patch& patch = room.patches.patches[static_cast<size_t>(element.patch)];
     if (element.area_m2 <= 0) continue;
-    for (Mean* mean : {&of_patch[{element.patch, o.state}], &of_facet[{patch.facet, o.state}],
-                       &of_material[{patch.material, o.state}], &of_all[static_cast<size_t>(o.state)]}) {
+    for (AreaMean* mean : {&of_patch[{element.patch, o.state}], &of_facet[{patch.facet, o.state}],
+                           &of_material[{patch.material, o.state}], &of_all[static_cast<size_t>(o.state)]}) {
       mean->Add(o.relative_luminance, element.area_m2);
     }
   }
@@ -34,9 +34,9 @@ Eigen::MatrixXf PatchLuminance(const Room& room, const LightData& data) {
   for (int p = 0; p < static_cast<int>(patches); ++p) {
     const Patch& patch = room.patches.patches[static_cast<size_t>(p)];
     for (int s = 0; s < static_cast<int>(states); ++s) {
-      const Mean& all = of_all[static_cast<size_t>(s)];
+      const AreaMean& all = of_all[static_cast<size_t>(s)];
       if (all.weight == 0) continue;  // a state of which there is no photo
-      const Mean* nearest = &all;
+      const AreaMean* nearest = &all;
       if (const auto found = of_material.find({patch.material, s}); found != of_material.end())
         nearest = &found->second;
       if (const auto found = of_facet.find({patch.facet, s}); found != of_facet.end())

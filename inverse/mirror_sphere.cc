@@ -7,7 +7,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Half a pixel each: what a mask's border and a saturated highlight leave open.
 constexpr double kCentroidSigmaPx = 0.5, kCircleSigmaPx = 0.5;
 // Of the variances of a mask's pixels, against those of a disc.
@@ -61,7 +60,7 @@ SphereCircle CircleOfMask(const PixelMask& mask) {
     return circle;
   }
   circle.center_px = sum / count;
-  circle.radius_px = std::sqrt(count / kPi);
+  circle.radius_px = std::sqrt(count / M_PI);
   const Eigen::Matrix2d variance = squares / count - circle.center_px * circle.center_px.transpose();
   const double expected = circle.radius_px * circle.radius_px / 4;
   if ((variance / expected - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() > kRoundness)

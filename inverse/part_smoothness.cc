@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRightAngle = 3.14159265358979323846 / 2;
+constexpr double kRightAngle = M_PI / 2;
 
 bool IsPartOf(const Parameter& p, int luminaire, LuminaireQuantity quantity) {
   return p.kind == ParameterKind::kLuminaire && p.index == luminaire && p.quantity == quantity;

@@ -8,12 +8,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calib/median.h"
 #include "inverse/internal/albedo_ratios.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kLargestZ2 = 9;  // of one observation left out
+constexpr double kLargestAlbedoZ2 = 9;  // of one observation left out
 constexpr double kMadToSigma = 1.4826;
 constexpr std::array<AlbedoDetail, 3> kDetails = {AlbedoDetail::kMaterial, AlbedoDetail::kPatch,
                                                   AlbedoDetail::kElement};
@@ -26,15 +27,8 @@ int UnitOf(const AlbedoRatio& ratio, AlbedoDetail detail) {
   return detail == AlbedoDetail::kPatch ? ratio.patch : 0;
 }
 
-double MedianOf(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The albedo that some observations agree on.
-struct Mean {
+struct AgreedAlbedo {
   double albedo = NAN;
   double sigma = 0;
   int observations = 0;
@@ -53,13 +47,13 @@ class MaterialFit {
   }
 
   // Weighted by noise and model error, Cauchy's weights from the median on.
-  Mean RobustMean(const RatioIndices& indices, double model_error) const {
-    Mean mean;
+  AgreedAlbedo RobustMean(const RatioIndices& indices, double model_error) const {
+    AgreedAlbedo mean;
     mean.observations = static_cast<int>(indices.size());
     std::vector<double> values;
     values.reserve(indices.size());
     for (const size_t i : indices) values.push_back(ratios_[i].value);
-    mean.albedo = MedianOf(std::move(values));
+    mean.albedo = Median(std::move(values));
     if (!(mean.albedo > 0)) return mean;
     for (int iteration = 0; iteration < 10; ++iteration) {
       double weights = 0, sum = 0;
@@ -153,7 +147,7 @@ double ModelError(const Ratios& ratios, const std::vector<MaterialFit>& fits,
         noises.push_back(ratios[fit.own()[i]].relative_noise);
       }
     }
-    const double size = kMadToSigma * MedianOf(std::move(sizes)), noise = MedianOf(std::move(noises));
+    const double size = kMadToSigma * Median(std::move(sizes)), noise = Median(std::move(noises));
     if (std::isfinite(size))
       smallest = std::min(smallest, std::sqrt(std::max(0.0, size * size - noise * noise)));
   }
@@ -166,7 +160,7 @@ std::vector<double> Losses(const Ratios& ratios, const MaterialFit& fit, AlbedoD
   std::vector<double> losses = fit.LeftOutResiduals(detail, model_error);
   for (size_t i = 0; i < losses.size(); ++i) {
     const double sigma = std::hypot(ratios[fit.own()[i]].relative_noise, model_error);
-    if (std::isfinite(losses[i])) losses[i] = std::min(std::pow(losses[i] / sigma, 2), kLargestZ2);
+    if (std::isfinite(losses[i])) losses[i] = std::min(std::pow(losses[i] / sigma, 2), kLargestAlbedoZ2);
   }
   return losses;
 }
@@ -206,7 +200,7 @@ Compared Compare(const Ratios& ratios, const RatioIndices& own, const std::vecto
 double TextureOf(const MaterialFit& fit, AlbedoDetail detail, double model_error) {
   std::vector<double> albedos, sigmas;
   for (const auto& [unit, indices] : fit.Units(detail)) {
-    const Mean mean = fit.RobustMean(indices, model_error);
+    const AgreedAlbedo mean = fit.RobustMean(indices, model_error);
     albedos.push_back(mean.albedo);
     sigmas.push_back(mean.sigma);
   }
@@ -244,7 +238,8 @@ void ChooseDetail(const Ratios& ratios, const MaterialFit& fit, double model_err
   }
 }
 
-AlbedoUnit UnitFrom(const AlbedoRatio& one, const Mean& mean, AlbedoDetail detail, double common_sigma) {
+AlbedoUnit UnitFrom(const AlbedoRatio& one, const AgreedAlbedo& mean, AlbedoDetail detail,
+                    double common_sigma) {
   AlbedoUnit unit;
   unit.material = one.material;
   if (detail != AlbedoDetail::kMaterial) unit.patch = one.patch;
@@ -257,7 +252,7 @@ AlbedoUnit UnitFrom(const AlbedoRatio& one, const Mean& mean, AlbedoDetail detai
 
 void CountElements(const MaterialFit& fit, double model_error, MaterialAlbedo& material) {
   for (const auto& [element, indices] : fit.Units(AlbedoDetail::kElement)) {
-    const Mean mean = fit.RobustMean(indices, model_error);
+    const AgreedAlbedo mean = fit.RobustMean(indices, model_error);
     const double off = std::abs(mean.albedo - material.albedo);
     ++material.elements;
     if (off > 4 * mean.sigma && off > 0.1 * material.albedo) ++material.unlike_elements;
@@ -299,7 +294,7 @@ PatchAlbedo EstimatePatchAlbedo(const Room& room, const LightData& data, const L
     if (fits[m].own().empty()) continue;
     const double common =
         options.common_sigma.size() == 0 ? 0 : options.common_sigma[static_cast<Eigen::Index>(m)];
-    const Mean mean = fits[m].RobustMean(fits[m].own(), result.model_error);
+    const AgreedAlbedo mean = fits[m].RobustMean(fits[m].own(), result.model_error);
     material.albedo = mean.albedo;
     material.sigma = std::hypot(mean.sigma, common * mean.albedo);
     material.observations = mean.observations;

@@ -14,11 +14,10 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostBounces = 4;
-constexpr int kMaxElements = 800;
-constexpr int kLeftOutOf = 5;
-constexpr double kMostSquare = 9;
+constexpr int kMaxDetailElements = 800;
+constexpr int kDetailLeftOutOf = 5;
+constexpr double kMostDetailSquare = 9;
 
 int PatchOf(const Room& room, int element) {
   return room.patches.elements[static_cast<size_t>(element)].patch;
@@ -34,7 +33,7 @@ std::vector<size_t> RowsOf(const LightData& data, const LuminaireFit& fit) {
   }
   int count = 0;
   for (auto& [element, number] : order) number = count++;
-  const int stride = std::max(1, (count + kMaxElements - 1) / kMaxElements);
+  const int stride = std::max(1, (count + kMaxDetailElements - 1) / kMaxDetailElements);
   std::vector<size_t> rows;
   rows.reserve(data.observations.size());
   for (size_t i = 0; i < data.observations.size(); ++i) {
@@ -63,7 +62,7 @@ class Comparison {
       const double modelled = factor[static_cast<size_t>(patch.material)] * Modelled(left_out, i);
       const double z = (modelled - o.relative_luminance) / std::sqrt(VarianceOf(o));
       GroupScore& score = scores[patch.facet];
-      score.sum += std::min(z * z, kMostSquare);
+      score.sum += std::min(z * z, kMostDetailSquare);
       ++score.count;
     }
     return scores;
@@ -82,7 +81,7 @@ class Comparison {
 
  private:
   bool IsLeftOut(size_t i) const {
-    return PatchOf(room_, data_.observations[rows_[i]].element) % kLeftOutOf == 2;
+    return PatchOf(room_, data_.observations[rows_[i]].element) % kDetailLeftOutOf == 2;
   }
   double Predicted(size_t i) const { return fit_.predicted[static_cast<Eigen::Index>(rows_[i])]; }
   double Modelled(const Eigen::VectorXd& left_out, size_t i) const {
@@ -149,7 +148,7 @@ Eigen::VectorXd AtRows(const Room& room, const LightData& data, const LightState
     const Observation& o = data.observations[rows[i]];
     const double rho = state.albedo[PatchAt(room, PatchOf(room, o.element)).material];
     const float lx = room.form_factors.element_to_patch.row(o.element).dot(exitance.col(o.state));
-    value[static_cast<Eigen::Index>(i)] = state.camera_scale * rho / kPi * static_cast<double>(lx);
+    value[static_cast<Eigen::Index>(i)] = state.camera_scale * rho / M_PI * static_cast<double>(lx);
   }
   return value;
 }
@@ -216,7 +215,7 @@ Eigen::VectorXd LeftOutByLargerElements(const Room& room, const LightData& data,
   LightData part{data.dimming, {}, {}, true};
   part.observations.reserve(rows.size());
   for (const size_t row : rows) part.observations.push_back(data.observations[row]);
-  return -3 * DiscretisationBias(room, part, state, 2 * kMaxElements);
+  return -3 * DiscretisationBias(room, part, state, 2 * kMaxDetailElements);
 }
 
 template <typename Piece>

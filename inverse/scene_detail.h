@@ -3,9 +3,9 @@
 // Asked at the fitted state, with no further fit. What a coarser model would predict is the fit's own
 // prediction less what it would leave out:
 //
-//   n reflections        F (M - M_n),    M_n = sum_{k < n} (rho F)^k rho D        M: exitance, D: direct
-//   light patches twice as large   F (M - mean of M over 2 x 2 patches) elements twice as large  E - mean of
-//   E over 2 x 2 elements
+//   n reflections             F (M - M_n),  M_n = sum_{k < n} (rho F)^k rho D     M: exitance, D: direct light
+//   patches twice as large    F (M - mean of M over 2 x 2 patches)
+//   elements twice as large   E - mean of E over 2 x 2 elements
 //
 // Reflectances that are free may adapt: each material gets the factor with which the coarser prediction fits
 // four fifths of the patches; scored is the fifth left out, by the mean of min(z^2, 9). The simplest within

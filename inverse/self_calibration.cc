@@ -14,7 +14,7 @@
 namespace luxfit {
 namespace {
 
-constexpr int kRounds = 12;
+constexpr int kCalibrationRounds = 12;
 constexpr double kConverged = 1e-4;  // of any unknown: views differ by ten times as much
 constexpr double kTail = 2;          // of the gains' prior, in its sigmas: Cauchy's
 constexpr double kUnseen = 1e-6;     // curvature of a direction that no data see
@@ -25,7 +25,7 @@ constexpr int kMinElements = 20;
 // another place in each view, and gains take up some of it: that comes back on what was left out, too.
 constexpr double kWorthHaving = 0.25;
 // Views of a surface differ by less than this for no reason that a camera's model could know.
-constexpr double kLeastSigma = 1e-3;
+constexpr double kLeastRatioSigma = 1e-3;
 
 using Sums = PhotoEquations::Sums;
 
@@ -66,7 +66,7 @@ class Candidate {
 
   void Solve() {
     fit_ = equations_.Start(unknowns_);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kCalibrationRounds; ++round) {
       by_fold_ = equations_.Linearize(unknowns_, fit_);
       const Eigen::VectorXd step = StepWithout(-1);
       fit_.x = Bounded(fit_.x + step);
@@ -298,7 +298,7 @@ SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::V
     fitted[c].Solve();
     sigma = std::min(sigma, fitted[c].sigma());
   }
-  equations.set_common_sigma(std::max(kLeastSigma, sigma));
+  equations.set_common_sigma(std::max(kLeastRatioSigma, sigma));
   result.residual_sigma = sigma;
   std::vector<std::map<int, GroupScore>> scores;
   scores.resize(fitted.size());

@@ -9,7 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kPointsPerElement = 4;
 constexpr double kOffSurfaceM = 1e-4;  // so that a path does not start inside what it leaves
 
@@ -66,7 +65,7 @@ LightData SimulateLight(const Room& room, const TracedLight& traced, const Light
       o.element = traced.elements[i];
       o.state = static_cast<int>(s);
       o.pixels = 100;
-      o.relative_luminance = light.camera_scale * light.albedo[lit.material] * lx / kPi *
+      o.relative_luminance = light.camera_scale * light.albedo[lit.material] * lx / M_PI *
                              (1 + facet_error.at(cluster)) * (1 + noise);
       if (!(o.relative_luminance > 0)) continue;
       o.variance = std::pow(options.observation_sigma * o.relative_luminance, 2);

@@ -4,18 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/median.h"
+
 namespace luxfit {
 namespace {
 
 constexpr double kChiSquare3 = 7.815;  // 95 %, three degrees of freedom
 constexpr double kNormal = 1.96;       // 95 %, both sides
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 // For each of the reference's, the index of what was found; -1: none.
 std::vector<int> Match(const std::vector<EstimatedLuminaire>& found,

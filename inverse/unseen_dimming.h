@@ -1,8 +1,9 @@
 // Which luminaires can be dimmed without the people present noticing.
 //
-//   E_p(d) = sum_k d_k E_pk           illuminance at the eye of person p, on the plane perpendicular to the
-//   gaze E_p(d) >= (1 - drop) E_p(d0)      for every person d_k >= (1 - drop) d0_k            of luminaires
-//   whose own body somebody has in view min sum_k p_k d_k,   0 <= d <= d0
+//   E_p(d) = sum_k d_k E_pk              illuminance at the eye of person p, across the gaze
+//   min sum_k p_k d_k,  0 <= d <= d0     such that
+//   E_p(d) >= (1 - drop) E_p(d0)         for every person
+//   d_k >= (1 - drop) d0_k               for luminaires whose own body somebody has in view
 //
 // What reaches the eye is what adapts it: a drop of it below the threshold of slow changes passes unnoticed,
 // wherever in the room the light went. A luminaire that is looked at gives itself away before that. Slow

@@ -1,6 +1,7 @@
 #include "apps/internal/session_luxmeter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -116,7 +117,7 @@ double CommonSigma(const std::string& meter_class) {
 
 SensorResponse ReadSensitivity(const std::string& path) {
   const CsvTable table = ReadCsvTable(path, {{"angle_deg", "relative"}, {}});
-  constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+  constexpr double kRadPerDeg = M_PI / 180;
   std::vector<double> angle_rad, relative;
   double last_deg = 0;
   for (const CsvRow& row : table.rows) {

@@ -20,7 +20,7 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr double kDegPerRad = 180 / 3.14159265358979323846;
+constexpr double kDegPerRad = 180 / M_PI;
 
 std::runtime_error Wrong(const std::string& argument, const std::string& message) {
   return std::runtime_error("Luminaire: " + argument + ": " + message);

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "apps/artifact.h"
 #include "apps/commands.h"
+#include "apps/fit_uncertainty.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/suggest.h"
@@ -24,9 +24,7 @@ using nlohmann::json;
 // result.json and, of stages/fit.json, the parameters with their covariance.
 struct Result {
   json whole;
-  std::vector<std::string> parameter_names;
-  Eigen::VectorXd parameters;
-  RowMajorXd covariance;
+  FitUncertainty fit;
 
   const json& List(const std::string& key) const {
     static const json kNone = json::array();
@@ -35,37 +33,15 @@ struct Result {
   }
 };
 
-void ReadParameters(const json& artifact, Result& result) {
-  const json& parameters = artifact.at("parameters");
-  const auto n = static_cast<Eigen::Index>(parameters.size());
-  result.parameters.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const json& parameter = parameters[static_cast<size_t>(i)];
-    result.parameter_names.push_back(parameter.at("name").get<std::string>());
-    result.parameters[i] = NumberOrNan(parameter, "value");
-  }
-  const json& rows = artifact.at("covariance");
-  if (rows.size() != parameters.size()) return;
-  result.covariance.resize(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const json& value = rows[static_cast<size_t>(i)].at(static_cast<size_t>(j));
-      result.covariance(i, j) =
-          value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    }
-  }
-}
-
 Result ReadResultOf(const std::filesystem::path& given) {
   const std::filesystem::path out = std::filesystem::is_directory(given) ? given : given.parent_path();
   const std::filesystem::path path = std::filesystem::is_directory(given) ? given / "result.json" : given;
-  Result result{ReadJson(path.string()), {}, {}, {}};
+  Result result{ReadJson(path.string()), {}};
   if (!result.whole.is_object() || result.whole.value("format", "") != "luxfit-result-1")
     throw std::runtime_error(
         path.string() +
         ": format: expected \"luxfit-result-1\"; give the folder that `luxfit run` wrote into");
-  const std::filesystem::path fit = out / "stages" / "fit.json";
-  if (std::filesystem::exists(fit)) ReadParameters(ReadJson(fit.string()), result);
+  if (std::filesystem::exists(out / "stages" / "fit.json")) result.fit = ReadFitUncertainty(out.string());
   return result;
 }
 
@@ -101,13 +77,13 @@ std::vector<std::string> Names(const json& list, const std::string& key) {
 RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& names) {
   std::vector<Eigen::Index> at;
   for (const std::string& name : names) {
-    const auto found = std::find(result.parameter_names.begin(), result.parameter_names.end(), name);
-    if (found == result.parameter_names.end())
-      throw std::runtime_error("covariance_of: " + ExpectedOneOf(result.parameter_names, name));
-    at.push_back(found - result.parameter_names.begin());
+    const auto found = std::find(result.fit.parameters.begin(), result.fit.parameters.end(), name);
+    if (found == result.fit.parameters.end())
+      throw std::runtime_error("covariance_of: " + ExpectedOneOf(result.fit.parameters, name));
+    at.push_back(found - result.fit.parameters.begin());
   }
-  if (result.covariance.size() == 0) throw std::runtime_error("covariance_of: the fit has no covariance");
-  return result.covariance(at, at);
+  if (result.fit.covariance.size() == 0) throw std::runtime_error("covariance_of: the fit has no covariance");
+  return result.fit.covariance(at, at);
 }
 
 using ResultClass = py::class_<Result>;
@@ -157,11 +133,17 @@ void AddColumns(ResultClass& result) {
 }
 
 void AddParameters(ResultClass& result) {
-  result.def_readonly("parameter_names", &Result::parameter_names, "Of parameters and covariance.")
-      .def_readonly("parameters", &Result::parameters,
-                    "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the "
-                    "name says so.")
-      .def_readonly("covariance", &Result::covariance, "(p, p) of the parameters; empty where there is none.")
+  const auto of_fit = [](auto member) { return [member](const Result& r) { return r.fit.*member; }; };
+  result
+      .def_property_readonly("parameter_names", of_fit(&FitUncertainty::parameters),
+                             "Of parameters and covariance.")
+      .def_property_readonly(
+          "parameters", of_fit(&FitUncertainty::values),
+          "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the "
+          "name says so.")
+      .def_property_readonly(
+          "covariance", [](const Result& r) { return RowMajorXd(r.fit.covariance); },
+          "(p, p) of the parameters; empty where there is none.")
       .def("covariance_of", &CovarianceOf, py::arg("names"), "Covariance of these parameters alone.")
       .def(
           "position_covariance_m2",

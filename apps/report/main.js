@@ -49,7 +49,7 @@ function build(data) {
     planes.length > 0 ? section('planes', 'Work planes', h('span', null, 'Illuminance over areas, by the grid of EN 12464-1. ', h('span', { class: 'print-only' }, lightWords(data, light))), planes.map((p) => p.element)) : null,
     data.room ? section('glare', 'Glare', 'Unified glare rating (CIE 117) of observers, from the luminaires\u2019 luminous openings as found and the background as predicted.', glareTable(data, light)) : null,
     section('curves', 'Light distribution', null, h('div', { class: 'polars' }, data.luminaires.map((l, k) => polarCurve(l, data.result.luminaires[k], data.is_absolute ? 'cd' : 'rel.')))),
-    section('photos', 'Photos and predictions', data.views.views.length > 0 ? `State ${data.views.state}; photo and prediction share one exposure.` : null, photoViews(data)),
+    section('photos', 'Photos and predictions', null, photoViews(data, light)),
     section('surfaces', 'Reflectances', null, reflectances(data)),
     section('table', 'All readings', null, data.result.luxmeter.length > 0 ? details(`${data.result.luxmeter.length} readings`, readingTable(data)) : h('p', null, 'None.')),
     section('conditions', 'Measurement conditions', null, conditions(data)),

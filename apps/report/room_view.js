@@ -10,7 +10,6 @@ import { cellCorners } from './data.js';
 const kYellow = 0xffd54a, kBlue = 0x4aa8ff, kGreen = 0x35c46a;
 
 // Of the 95 % intervals of the three coordinates.
-const kTwoSided95 = 1.96;
 
 function cellGeometry(room) {
   const corners = Array.from({ length: room.count }, (_, c) => cellCorners(room, c));
@@ -136,7 +135,7 @@ export class RoomView {
     const { data } = this;
     this.addLayer('edges', [edgeLines(this.room)]);
     this.addLayer('luminaires', data.luminaires.flatMap((l) => [luminaireShape(l), aimArrow(l)]));
-    this.addLayer('uncertainty', data.luminaires.map((l, k) => this.ellipsoid(l, data.result.luminaires[k])).filter(Boolean));
+    this.addLayer('uncertainty', data.luminaires.map((l) => this.ellipsoid(l)).filter(Boolean));
     this.addLayer('cameras', data.cameras.map((c) => frustum(c, 0.45)));
     this.addLayer('tags', data.tags.map(tagSquare));
     this.pointMeshes = data.places.points.map((p) => {
@@ -151,20 +150,20 @@ export class RoomView {
     this.scene.add(this.selection);
   }
 
-  // Semi-axes are the half widths of the 95 % intervals along the world's axes.
-  ellipsoid(luminaire, result) {
-    const sigma = result?.position_sigma_m;
-    if (!sigma || sigma.some((s) => s === null)) return null;
+  ellipsoid(luminaire) {
+    if (!luminaire.ellipsoid) return null;
+    const { semi_axes_m: semiAxes, axes } = luminaire.ellipsoid;
     const material = new THREE.MeshBasicMaterial({ color: 0xff5fa2, transparent: true, opacity: 0.45, depthWrite: false });
     const mesh = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 24, 16), material);
     mesh.position.copy(vec(luminaire.position_m));
-    mesh.userData.halfWidths = sigma.map((s) => Math.max(1e-5, kTwoSided95 * s));
-    mesh.scale.set(...mesh.userData.halfWidths);
+    mesh.setRotationFromMatrix(new THREE.Matrix4().makeBasis(...axes.map(vec)));
+    mesh.userData.semiAxes = semiAxes.map((s) => Math.max(1e-5, s));
+    mesh.scale.set(...mesh.userData.semiAxes);
     return mesh;
   }
 
   setExaggeration(factor) {
-    for (const mesh of this.layers.uncertainty.children) mesh.scale.set(...mesh.userData.halfWidths.map((x) => factor * x));
+    for (const mesh of this.layers.uncertainty.children) mesh.scale.set(...mesh.userData.semiAxes.map((x) => factor * x));
     this.requestRender();
   }
 

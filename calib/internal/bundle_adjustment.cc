@@ -8,17 +8,12 @@
 #include <memory>
 
 #include "calib/internal/bundle_problem.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kMedianOfTwo = 1.386;  // median of chi2 with two degrees of freedom, 2 ln 2
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // A point's residual and what the fit of the point itself leaves of its square: 2n - 3 of 2n for n views.
 struct PointError {

@@ -4,21 +4,17 @@
 #include <cmath>
 #include <set>
 
+#include "calib/internal/cross_matrix.h"
+
 namespace luxfit {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return cross;
-}
-
 // d(rotation vector on the left) / d(Rodrigues vector).
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& r) {
   const double angle = r.norm();
-  const Eigen::Matrix3d cross = Cross(r);
+  const Eigen::Matrix3d cross = CrossMatrix(r);
   if (angle < 1e-6) return Eigen::Matrix3d::Identity() + cross / 2;
   return Eigen::Matrix3d::Identity() + (1 - std::cos(angle)) / (angle * angle) * cross +
          (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
@@ -28,7 +24,7 @@ Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& r) {
 Matrix6 TwistOf(const Eigen::Isometry3d& pose) {
   Matrix6 twist = Matrix6::Identity();
   twist.topLeftCorner<3, 3>() = LeftJacobian(RodriguesOf(pose).head<3>());
-  twist.bottomLeftCorner<3, 3>() = Cross(pose.translation()) * twist.topLeftCorner<3, 3>();
+  twist.bottomLeftCorner<3, 3>() = CrossMatrix(pose.translation()) * twist.topLeftCorner<3, 3>();
   return twist;
 }
 
@@ -36,7 +32,7 @@ Matrix6 TwistOf(const Eigen::Isometry3d& pose) {
 Matrix6 Adjoint(const Eigen::Isometry3d& pose) {
   Matrix6 adjoint = Matrix6::Zero();
   adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = pose.linear();
-  adjoint.bottomLeftCorner<3, 3>() = Cross(pose.translation()) * pose.linear();
+  adjoint.bottomLeftCorner<3, 3>() = CrossMatrix(pose.translation()) * pose.linear();
   return adjoint;
 }
 

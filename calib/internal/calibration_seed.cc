@@ -13,8 +13,8 @@ namespace luxfit {
 namespace {
 
 constexpr double kFocalStep = 1.25;
-constexpr double kGateOfDiagonal = 0.02;    // what distortion may amount to before it is fitted
-constexpr double kScaleOfDiagonal = 0.005;  // of the loss
+constexpr double kSeedGateOfDiagonal = 0.02;  // what distortion may amount to before it is fitted
+constexpr double kScaleOfDiagonal = 0.005;    // of the loss
 constexpr std::size_t kImagesOfScan = 8;
 constexpr int kStepsOfScan = 8, kStepsOfPose = 30;
 constexpr int kLeastCorners = 6;
@@ -64,7 +64,7 @@ GuessedCamera Guess(const CalibrationCamera& size, bool is_wide, double focal_px
   guess.lens = MakeLensFunction(KindOf(is_wide), guess.camera);
   guess.parameters = ParametersOf(guess.lens, guess.camera);
   const double diagonal_px = std::hypot(size.width_px, size.height_px);
-  guess.gate_px = kGateOfDiagonal * diagonal_px;
+  guess.gate_px = kSeedGateOfDiagonal * diagonal_px;
   guess.scale_px = kScaleOfDiagonal * diagonal_px;
   return guess;
 }

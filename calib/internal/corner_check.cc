@@ -6,6 +6,7 @@
 #include "calib/camera.h"
 #include "calib/internal/homography.h"
 #include "calib/internal/plane_lens.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
@@ -52,12 +53,6 @@ double StrayPx(const std::vector<Placed>& places, const std::vector<BoardCorner>
   const auto homography = FitHomography(from, to);
   const double stray_px = homography ? (MapPoint(*homography, own.place_m) - corners[i].pixel).norm() : 0;
   return std::isfinite(stray_px) ? stray_px : 0;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The corners as a lens without distortion would show them.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastStep = 1e-5;
 
 // Rounds of reweighting: the weights need the slope of the curve that they give.
-constexpr int kRounds = 3;
+constexpr int kDebevecRounds = 3;
 
 // The paper's hat, 1 at half scale and 0 at both ends: the weight of a first round.
 double Hat(double counts, double full_scale_counts) {
@@ -158,7 +158,7 @@ CameraResponse SolveDebevec(const std::vector<BracketSamples>& brackets, const R
     Eigen::VectorXd weight_of_level(kResponseLevels);
     for (Eigen::Index k = 0; k < kResponseLevels; ++k)
       weight_of_level[k] = std::pow(Hat(static_cast<double>(k), kResponseLevels - 1), 2);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kDebevecRounds; ++round) {
       curves[c] = SolveChannel(brackets, c, weight_of_level, options, debevec.smoothing);
       weight_of_level = InverseVariance(curves[c]);
     }

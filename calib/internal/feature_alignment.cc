@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "calib/internal/solve_symmetric.h"
+
 namespace luxfit {
 namespace {
 
@@ -184,7 +186,7 @@ Similarity Refine(const BundleContext& context, const std::vector<Sight>& sights
       for (std::size_t corner = 0; corner < 4; ++corner)
         AddCorner(context, sight, corner, model_from_world, normal);
     }
-    const Eigen::Matrix<double, 7, 1> step = normal.left.ldlt().solve(normal.right);
+    const Eigen::Matrix<double, 7, 1> step = SolveSymmetric(normal.left, normal.right);
     if (!step.allFinite()) return start;
     const Eigen::Vector3d turn = step.head<3>();
     if (turn.norm() > 0) {

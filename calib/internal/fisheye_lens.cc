@@ -7,7 +7,6 @@ namespace luxfit {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = 3.14159265358979323846;
 
 struct Radius {
   double value = 0, slope = 0;  // theta (1 + k1 theta^2 + ...) and its derivative
@@ -48,7 +47,7 @@ Eigen::Vector3d FisheyeLensDirection(const Camera& camera, const Eigen::Vector2d
   constexpr int kSteps = 64;
   double low = 0, high = kNaN;
   for (int i = 1; i <= kSteps && !(high == high); ++i) {
-    const double theta = kPi * i / kSteps;
+    const double theta = M_PI * i / kSteps;
     const Radius radius = RadiusOf(camera.distortion, theta);
     if (radius.value >= target) {
       high = theta;

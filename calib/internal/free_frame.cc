@@ -1,9 +1,12 @@
 #include "calib/internal/free_frame.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <array>
 #include <map>
+#include <optional>
+
+#include "calib/internal/cross_matrix.h"
+#include "calib/similarity.h"
 
 namespace luxfit {
 namespace {
@@ -20,25 +23,6 @@ std::map<int, const TagObservation*> TagsInUse(const BundleAdjustment& adjustmen
   return tags;
 }
 
-Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return cross;
-}
-
-// The rigid motion with the least sum of |b - motion * a|^2.
-Eigen::Isometry3d RigidFit(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b) {
-  const Eigen::Vector3d middle_a = a.rowwise().mean(), middle_b = b.rowwise().mean();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd((b.colwise() - middle_b) * (a.colwise() - middle_a).transpose(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  sign[2] = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  motion.translation() = middle_b - motion.linear() * middle_a;
-  return motion;
-}
-
 }  // namespace
 
 void SettleFrame(BundleAdjustment& adjustment) {
@@ -53,7 +37,11 @@ void SettleFrame(BundleAdjustment& adjustment) {
       first.col(column) = tag->corners_in_world[i];
     }
   }
-  const Eigen::Isometry3d motion = RigidFit(adjusted, first);
+  const std::optional<Similarity> fit = FitSimilarity(adjusted, first, 1);
+  if (!fit) return;
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+  motion.linear() = fit->rotation;
+  motion.translation() = fit->translation;
   for (const auto& [id, tag] : tags) {
     BundleTag& hung = adjustment.tags.at(id);
     const Eigen::Vector3d center = TagCenter(*tag);
@@ -79,7 +67,7 @@ Eigen::MatrixXd FrameRows(const BundleAdjustment& adjustment, const std::vector<
     const Eigen::Index at = first + 6 * static_cast<Eigen::Index>(t);
     for (const Eigen::Vector3d& corner : AdjustedCorners(adjustment, tag)) {
       // dx = d(displacement) + 2 d(half turn) x arm
-      const Eigen::Matrix3d by_turn = -2 * Cross(corner - center), lever = Cross(corner - middle);
+      const Eigen::Matrix3d by_turn = -2 * CrossMatrix(corner - center), lever = CrossMatrix(corner - middle);
       rows.block<3, 3>(0, at) += Eigen::Matrix3d::Identity();
       rows.block<3, 3>(0, at + 3) += by_turn;
       rows.block<3, 3>(3, at) += lever;

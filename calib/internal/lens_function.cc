@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kCore = 4;
 constexpr int kSplineOrder = 3;  // cubic: curvature is continuous, as of glass
-constexpr double kPi = 3.14159265358979323846;
 
 // Half of the image in stereographic units, along x and y.
 Eigen::Vector2d HalfField(const Camera& wide) {
@@ -28,7 +27,7 @@ mrcal_lensmodel_t SplinedModel(int knots, const Camera& wide) {
   config.order = kSplineOrder;
   config.Nx = static_cast<uint16_t>(knots);
   // The corners of the image lie further out than its sides, and the seed's focal length is not exact.
-  const double fov_deg = 4 * std::atan(1.03 * half.x() / 2) * 180 / kPi;
+  const double fov_deg = 4 * std::atan(1.03 * half.x() / 2) * 180 / M_PI;
   config.fov_x_deg = static_cast<uint16_t>(std::clamp(std::ceil(fov_deg), 2.0, 350.0));
   constexpr int kMostRows = 128;
   for (int rows = kSplineOrder + 1; rows <= kMostRows; ++rows) {

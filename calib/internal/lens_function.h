@@ -32,8 +32,8 @@ Camera CameraOf(const LensFunction& lens, const std::vector<double>& parameters,
 std::vector<double> ParametersOf(const LensFunction& lens, const Camera& camera);
 
 struct LensPoint {
-  Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3, Eigen::RowMajor> d_point;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Matrix<double, 2, 3, Eigen::RowMajor> d_point = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>::Zero();
   Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> d_parameters;  // empty unless asked for
 };
 LensPoint ProjectByLens(const LensFunction& lens, const double* parameters, const Eigen::Vector3d& p_in_cam,

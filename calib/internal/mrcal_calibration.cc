@@ -18,9 +18,9 @@ mrcal_pose_t MrcalPose(const Eigen::Isometry3d& pose) {
   return out;
 }
 
-Eigen::Isometry3d PoseOf(const mrcal_pose_t& pose) {
+Eigen::Isometry3d IsometryOf(const mrcal_pose_t& pose) {
   const double rt[6] = {pose.r.x, pose.r.y, pose.r.z, pose.t.x, pose.t.y, pose.t.z};
-  return luxfit::PoseOf(rt);
+  return PoseOf(rt);
 }
 
 mrcal_problem_selections_t SelectionsOf(const LensFunction& lens, const SolveSelection& selection,
@@ -182,11 +182,11 @@ CalibrationState StateOf(const MrcalArguments& arguments, CalibrationState state
   }
   if (arguments.is_grid) {
     for (std::size_t c = 1; c < state.cam_from_rig.size(); ++c)
-      state.cam_from_rig[c] = PoseOf(arguments.cam_from_reference[c - 1]);
+      state.cam_from_rig[c] = IsometryOf(arguments.cam_from_reference[c - 1]);
   }
   const std::vector<mrcal_pose_t>& poses =
       arguments.is_grid ? arguments.reference_from_target : arguments.cam_from_reference;
-  for (std::size_t s = 0; s < poses.size(); ++s) state.rig_from_target[s] = PoseOf(poses[s]);
+  for (std::size_t s = 0; s < poses.size(); ++s) state.rig_from_target[s] = IsometryOf(poses[s]);
   state.warp_m = {arguments.warp.x2, arguments.warp.y2};
   return state;
 }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "calib/internal/cross_matrix.h"
+
 namespace luxfit {
 namespace {
 
@@ -13,11 +15,9 @@ using RowMajor27 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
 // w x v = -[v]x w, w = 2 delta with delta the manifold's tangent. d q / d delta = (delta, 0) * q has
 // orthonormal columns, so its transpose carries the derivative to q.
 RowMajor24 ByRotation(const RowMajor23& d_v, const Eigen::Vector3d& v, const Eigen::Quaterniond& q) {
-  Eigen::Matrix3d cross;
-  cross << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   Eigen::Matrix<double, 4, 3> d_q;
   d_q << q.w(), q.z(), -q.y(), -q.z(), q.w(), q.x(), q.y(), -q.x(), q.w(), -q.x(), -q.y(), -q.z();
-  return -2 * d_v * cross * d_q.transpose();
+  return -2 * d_v * CrossMatrix(v) * d_q.transpose();
 }
 
 // Residual of a world point seen from a pose; its derivative by the point into `d_point`, by the pose into

@@ -5,14 +5,14 @@
 #include <limits>
 
 #include "calib/internal/response_levels.h"
+#include "calib/median.h"
 
 namespace luxfit {
 namespace {
 
 constexpr Eigen::Index kBins = 24;
 constexpr size_t kMinResiduals = 30;
-constexpr int kRounds = 4;
-constexpr double kSigmaPerMad = 1.4826;
+constexpr int kNoiseRounds = 4;
 
 Eigen::Index BinOf(double counts, const ResponseOptions& options) {
   const double share = counts / options.full_scale_counts;
@@ -20,10 +20,10 @@ Eigen::Index BinOf(double counts, const ResponseOptions& options) {
 }
 
 // |r| and the variance of the mean it was taken from.
-struct Residual {
+struct AbsoluteResidual {
   double absolute, mean_variance;
 };
-using ResidualBins = std::vector<std::vector<Residual>>;
+using ResidualBins = std::vector<std::vector<AbsoluteResidual>>;
 
 void AddResiduals(const Eigen::MatrixXd& counts, const Eigen::VectorXd& log_time, size_t channel,
                   const CameraResponse& response, const ResponseOptions& options,
@@ -54,13 +54,14 @@ void AddResiduals(const Eigen::MatrixXd& counts, const Eigen::VectorXd& log_time
   }
 }
 
-double SigmaOf(std::vector<Residual>& residuals) {
+double SigmaOf(std::vector<AbsoluteResidual>& residuals) {
   const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end(),
-                   [](const Residual& a, const Residual& b) { return a.absolute < b.absolute; });
+  std::nth_element(
+      residuals.begin(), middle, residuals.end(),
+      [](const AbsoluteResidual& a, const AbsoluteResidual& b) { return a.absolute < b.absolute; });
   const double total = std::pow(kSigmaPerMad * middle->absolute, 2);
   double mean_variance = 0;
-  for (const Residual& r : residuals)
+  for (const AbsoluteResidual& r : residuals)
     mean_variance += r.mean_variance / static_cast<double>(residuals.size());
   // Where the others' noise explains all of it, a tenth is left: no count is perfect.
   return std::sqrt(std::max(total - mean_variance, 0.1 * total));
@@ -69,7 +70,7 @@ double SigmaOf(std::vector<Residual>& residuals) {
 Eigen::VectorXd NextSigma(ResidualBins& bins) {
   Eigen::VectorXd sigma = Eigen::VectorXd::Constant(kBins, std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index b = 0; b < kBins; ++b) {
-    std::vector<Residual>& residuals = bins[static_cast<size_t>(b)];
+    std::vector<AbsoluteResidual>& residuals = bins[static_cast<size_t>(b)];
     if (residuals.size() >= kMinResiduals) sigma[b] = std::max(1e-4, SigmaOf(residuals));
   }
   for (Eigen::Index b = 1; b < kBins; ++b) {
@@ -88,7 +89,7 @@ std::array<Eigen::VectorXd, 3> RelativeSigma(const std::vector<BracketSamples>& 
   std::array<Eigen::VectorXd, 3> result;
   for (size_t c = 0; c < 3; ++c) {
     Eigen::VectorXd sigma = Eigen::VectorXd::Constant(kBins, 0.05);
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kNoiseRounds; ++round) {
       ResidualBins bins(static_cast<size_t>(kBins));
       for (const BracketSamples& bracket : brackets) {
         AddResiduals(bracket.counts[c], bracket.exposure_s.array().log(), c, response, options, sigma, bins);

@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-constexpr int kMaxIterations = 200;
+constexpr int kMaxRobertsonIterations = 200;
 constexpr double kTolerance = 1e-4;  // relative change of f, root mean square
 // Of ln f from one knot to the next.
 constexpr double kLeastStep = 1e-5;
@@ -97,7 +97,7 @@ Eigen::VectorXd SolveChannel(const std::vector<std::vector<Entry>>& pixels) {
   // From a linear response, as the paper does.
   Eigen::VectorXd curve =
       (Eigen::VectorXd::LinSpaced(kResponseLevels, 0, kResponseLevels - 1).array() + 0.5) / kResponseLevels;
-  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxRobertsonIterations; ++iteration) {
     Eigen::VectorXd next = OneRound(pixels, curve);
     next /= next[kResponseLevels / 2];
     const double change =

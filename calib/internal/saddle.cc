@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr int kMaxIterations = 30;
+constexpr int kMaxSaddleIterations = 30;
 constexpr double kConvergedPx = 1e-3;
 constexpr double kLeastCondition = 0.02;  // of the normal matrix: less is an edge, not a corner
 constexpr double kMostAsymmetry = 0.15;   // of the patch's variance: an occluder, or all noise
@@ -105,7 +105,7 @@ std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d
   if (half < 1 || !start.allFinite()) return std::nullopt;
   Eigen::Vector2d at = start;
   bool converged = false;
-  for (int i = 0; i < kMaxIterations && !converged; ++i) {
+  for (int i = 0; i < kMaxSaddleIterations && !converged; ++i) {
     if (!Holds(grey, at, half + 1)) return std::nullopt;
     const Normal normal = Window(Patch(grey, at, half), half).Sums();
     if (!IsCorner(normal.gg)) return std::nullopt;

@@ -10,8 +10,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 class Collector {
  public:
   void Add(const Eigen::Vector3d& direction, double weight) {
@@ -64,7 +62,7 @@ void AddIsocell(int count, Collector& set) {
 void AddMonteCarlo(int count, uint64_t variant, Collector& set) {
   uint64_t state = Mix(variant);
   for (int k = 0; k < count; ++k) {
-    const double cosine = UnitFrom(state = Mix(state)), angle = 2 * kPi * UnitFrom(state = Mix(state));
+    const double cosine = UnitFrom(state = Mix(state)), angle = 2 * M_PI * UnitFrom(state = Mix(state));
     const double sine = std::sqrt(1 - cosine * cosine);
     set.Add({sine * std::cos(angle), sine * std::sin(angle), std::max(cosine, 1e-6)}, 2 * cosine / count);
   }
@@ -78,10 +76,10 @@ void AddHemicube(int count, Collector& set) {
     const double x = (i + 0.5) * width;
     for (int j = -half; j < half; ++j) {
       const double y = (j + 0.5) * width, r2 = x * x + y * y + 1;
-      set.Add({x, y, 1}, area / (kPi * r2 * r2));
+      set.Add({x, y, 1}, area / (M_PI * r2 * r2));
     }
     for (int j = 0; j < half; ++j) {
-      const double z = (j + 0.5) * width, r2 = x * x + z * z + 1, delta = z * area / (kPi * r2 * r2);
+      const double z = (j + 0.5) * width, r2 = x * x + z * z + 1, delta = z * area / (M_PI * r2 * r2);
       set.Add({x, 1, z}, delta);
       set.Add({x, -1, z}, delta);
       set.Add({1, x, z}, delta);
@@ -94,7 +92,7 @@ void AddHemicube(int count, Collector& set) {
 // 1; odd in both.
 double CornerFactor(double a, double b) {
   const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
-  return (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * kPi);
+  return (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * M_PI);
 }
 
 void AddSinglePlane(int count, Collector& set) {

@@ -9,11 +9,7 @@
 #include "forward/internal/quadrature.h"
 
 namespace luxfit {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 FormFactors DiscFormFactors(const RayScene& rays, const Patches& patches, int rays_per_element) {
   const size_t n = patches.patches.size();
@@ -38,7 +34,7 @@ FormFactors DiscFormFactors(const RayScene& rays, const Patches& patches, int ra
         const double here = element.normal.dot(d), there = -normal.dot(d), r2 = d.squaredNorm();
         if (here <= 0 || there <= 0 || rays.Occluded(from, to)) continue;
         const double area = node.weight * patch.area_m2;
-        sum += here * there / r2 * area / (kPi * r2 + area);
+        sum += here * there / r2 * area / (M_PI * r2 + area);
       }
       result.element_to_patch(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(j)) =
           static_cast<float>(sum);

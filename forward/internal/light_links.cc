@@ -10,7 +10,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kPlaneTolerance = 1e-9;  // m
 
 // Whether all of `node` lies behind the plane of `element`.
@@ -238,7 +237,7 @@ LinkEvaluation BetweenNear(const LightTree& tree, const RayScene& rays, int rece
   // Mean of 1 / r^2 between points of one sphere: 9 / 4 over its radius squared.
   const double reach = p.radius_m + q.radius_m;
   const double share =
-      std::min(1.0, q.area_m2 / (4 * kPi) / ((q.center - p.center).squaredNorm() + reach * reach / 9));
+      std::min(1.0, q.area_m2 / (4 * M_PI) / ((q.center - p.center).squaredNorm() + reach * reach / 9));
   if (share > tolerance) return {LinkEvaluation::Verdict::kTooNear, {receiver, source, 0, 0, 0, 0}};
   constexpr int kRays = 8;
   const double factor = MeetingShare(tree, rays, receiver, source, kRays);
@@ -254,11 +253,11 @@ LinkEvaluation BetweenDistant(const LightTree& tree, const RayScene& rays, int r
   const double r = d.norm();
   const double cos_p = p.IsCluster() ? 1 : std::max(0.0, p.normal.dot(d) / r);
   const double cos_q = q.IsCluster() ? 1 : std::max(0.0, -q.normal.dot(d) / r);
-  const double factor = cos_p * cos_q * (q.IsCluster() ? 1 : q.area_m2 / kPi) / (r * r);
+  const double factor = cos_p * cos_q * (q.IsCluster() ? 1 : q.area_m2 / M_PI) / (r * r);
   // The same in units of mean exitance; members of clusters face the other end with half their area, on
   // average.
   const double share =
-      std::min(1.0, (q.IsCluster() ? 0.5 * q.area_m2 / kPi : 1) * (p.IsCluster() ? 0.5 : 1) * factor);
+      std::min(1.0, (q.IsCluster() ? 0.5 * q.area_m2 / M_PI : 1) * (p.IsCluster() ? 0.5 : 1) * factor);
   constexpr int kMostRays = 32;
   const int count = std::clamp(static_cast<int>(2 * share / tolerance), 4, kMostRays);
   // Rays that decide whether to cut, and others that measure: see BetweenElements.

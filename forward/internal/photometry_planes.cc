@@ -7,20 +7,19 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kResampleCDeg = 5, kResampleGammaDeg = 1;  // no coarser than what goniophotometers give
 
 std::vector<double> DegFromRad(const std::vector<double>& rad) {
   std::vector<double> deg;
   deg.reserve(rad.size());
   // Rounded to what was in the file before it was turned into rad.
-  for (const double r : rad) deg.push_back(std::round(r * 180 / kPi * 1e9) / 1e9);
+  for (const double r : rad) deg.push_back(std::round(r * 180 / M_PI * 1e9) / 1e9);
   return deg;
 }
 
 bool IsWholeCircle(const IntensityTable& table) {
   return table.table_from_luminaire.isIdentity() && std::abs(table.c_rad.front()) < 1e-9 &&
-         std::abs(table.c_rad.back() - 2 * kPi) < 1e-9;
+         std::abs(table.c_rad.back() - 2 * M_PI) < 1e-9;
 }
 
 bool IsRotational(const IntensityTable& table) {
@@ -36,7 +35,7 @@ bool IsRotational(const IntensityTable& table) {
 std::vector<double> RadFromDeg(const std::vector<double>& deg) {
   std::vector<double> rad;
   rad.reserve(deg.size());
-  for (const double d : deg) rad.push_back(d * kPi / 180);
+  for (const double d : deg) rad.push_back(d * M_PI / 180);
   return rad;
 }
 

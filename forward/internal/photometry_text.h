@@ -13,6 +13,9 @@
 
 namespace luxfit {
 
+// Of anything that a file counts: what is left of its text bounds it further.
+inline constexpr int kMostCounted = 1000000;
+
 class PhotometryText {
  public:
   // Commas separate numbers in .ies and stand for the decimal point in .ldt.

@@ -12,7 +12,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Shifted copies of a sequence, one picked per receiver, which also turns it by an angle of its own.
 constexpr uint64_t kVariants = 64;
 
@@ -25,7 +24,7 @@ Eigen::Matrix3f FrameOf(const Element& receiver, double turn) {
   const Eigen::Vector3d along =
       receiver.edge_u.squaredNorm() > 0 ? receiver.edge_u.normalized() : receiver.normal.unitOrthogonal();
   const Eigen::Vector3d across = receiver.normal.cross(along);
-  const double c = std::cos(2 * kPi * turn), s = std::sin(2 * kPi * turn);
+  const double c = std::cos(2 * M_PI * turn), s = std::sin(2 * M_PI * turn);
   Eigen::Matrix3d frame;
   frame << c * along + s * across, c * across - s * along, receiver.normal;
   return frame.cast<float>();

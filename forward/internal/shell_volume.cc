@@ -9,7 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kMaxSolidAngles = 1e7;  // about half a second: the largest shells come first
 constexpr double kThin = 1e-6;           // volume over area^1.5: a sheet with two sides has none
 constexpr double kNearlyClosed = 0.02;   // sum of area vectors over the area
@@ -44,7 +43,7 @@ bool IsWithinOdd(const Scene& scene, const Shell& shell, const Eigen::Vector3d& 
     angle += SolidAngle(c.points[0] - p, c.points[1] - p, c.points[2] - p);
     if (c.count == 4) angle += SolidAngle(c.points[0] - p, c.points[2] - p, c.points[3] - p);
   }
-  return std::llround(angle / (4 * kPi)) % 2 != 0;
+  return std::llround(angle / (4 * M_PI)) % 2 != 0;
 }
 
 // The closed shells, and all open ones as one.

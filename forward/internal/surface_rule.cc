@@ -9,7 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMaxOrder = 24;
 
 // Exponent of the cosine-power lobe that is as narrow.
@@ -21,7 +20,7 @@ double SharpnessOf(const Luminaire& luminaire) {
     case Distribution::kCosinePower:
       return std::max(luminaire.cosine_exponent, 1.0);
     case Distribution::kMeasured:
-      if (luminaire.table) return std::max(2 * kPi * luminaire.table->peak_cd_per_lm - 1, 1.0);
+      if (luminaire.table) return std::max(2 * M_PI * luminaire.table->peak_cd_per_lm - 1, 1.0);
   }
   return 1;
 }

@@ -11,7 +11,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = 4, kMiddle = 2.2;  // distances in radii, see pair_rows.h
 constexpr size_t kPoints = 4;
 
@@ -83,7 +82,7 @@ UnoccludedFactors::UnoccludedFactors(const Patches& patches, bool contour_always
       float* const point = points_.data() + k * 4 * count_ + j;
       for (size_t axis = 0; axis < 3; ++axis)
         point[axis * count_] = static_cast<float>(p[static_cast<Eigen::Index>(axis)]);
-      point[3 * count_] = static_cast<float>(rule[k].weight * area / kPi);
+      point[3 * count_] = static_cast<float>(rule[k].weight * area / M_PI);
     }
   }
 }
@@ -151,7 +150,8 @@ double UnoccludedFactors::Quadrature(const Element& element, int j, int element_
       if (here > 0 && there > 0) sum += node.weight * patch_rule[k].weight * here * there / (r2 * r2);
     }
   }
-  return sum * patch.edge_u.cross(patch.edge_v).norm() * (facet.kind == FacetKind::kTriangle ? 0.5 : 1) / kPi;
+  return sum * patch.edge_u.cross(patch.edge_v).norm() * (facet.kind == FacetKind::kTriangle ? 0.5 : 1) /
+         M_PI;
 }
 
 double UnoccludedFactors::Near(const Element& element, int j) const {

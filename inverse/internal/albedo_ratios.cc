@@ -9,7 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // A luminaire dimmed below this share of the state's light at a place draws no shadow edge worth leaving out.
 constexpr double kLeastShare = 0.02;
 
@@ -50,7 +49,7 @@ Eigen::MatrixXf ElementExitance(const Room& room, const LightData& data, const L
     exitance.row(e) *= static_cast<float>(state.albedo[material]);
   }
   for (const Observation& o : data.observations)
-    exitance(o.element, o.state) = static_cast<float>(kPi * o.relative_luminance / state.camera_scale);
+    exitance(o.element, o.state) = static_cast<float>(M_PI * o.relative_luminance / state.camera_scale);
   return exitance;
 }
 
@@ -88,7 +87,7 @@ std::vector<AlbedoRatio> AlbedoRatios(const Room& room, const LightData& data, c
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
     const Patch& p = room.patches.patches[static_cast<size_t>(patch)];
     ratios.push_back({o.element, patch, p.facet, p.material, o.state,
-                      kPi * o.relative_luminance / (light.camera_scale * lx),
+                      M_PI * o.relative_luminance / (light.camera_scale * lx),
                       std::sqrt(o.variance) / o.relative_luminance});
   }
   return ratios;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "forward/direct_light.h"
@@ -10,8 +11,6 @@
 
 namespace luxfit {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Per lumen of each luminaire: mean over the element less the value at its centre.
 Eigen::VectorXd MeanLessCentre(const Room& room, const Element& element,
@@ -93,7 +92,7 @@ void AddTo(const Room& room, const LightData& data, const LightState& state, con
     for (Eigen::Index k = 0; k < dimming.size(); ++k)
       lx += dimming[k] * state.luminaires[static_cast<size_t>(k)].flux_lm *
             bias(place - taken.elements.begin(), k);
-    sum[static_cast<Eigen::Index>(i)] += taken.each * state.camera_scale * rho / kPi * lx;
+    sum[static_cast<Eigen::Index>(i)] += taken.each * state.camera_scale * rho / M_PI * lx;
   }
 }
 

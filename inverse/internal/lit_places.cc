@@ -19,7 +19,7 @@ Eigen::MatrixXf LobeColumns(const Room& room, const std::vector<Sensor>& places,
   Luminaire lamp;
   lamp.position = position;
   lamp.distribution = Distribution::kIsotropic;
-  constexpr double kIsotropicCdPerLm = 0.25 / 3.14159265358979323846;
+  constexpr double kIsotropicCdPerLm = 0.25 / M_PI;
   // A candidate close to a surface must not win by one enormous value.
   constexpr double kNearestM = 0.1;
   for (Eigen::Index i = 0; i < rows; ++i) {

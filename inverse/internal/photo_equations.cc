@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "calib/median.h"
+
 namespace luxfit {
 namespace {
 
@@ -32,12 +34,6 @@ Eigen::MatrixXd BaseOfStates(const std::vector<Eigen::VectorXd>& dimming) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
   const Eigen::Index rank = (svd.singularValues().array() > kRankLimit * svd.singularValues()[0]).count();
   return svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal();
-}
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Light that no row sees stays where it is.

@@ -13,10 +13,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr size_t kFewestGroups = 4;  // fewer have no standard error to speak of
 
-struct Candidate {
+struct FittedCandidate {
   std::string name;
   FittedModel fitted;
 };
@@ -43,7 +42,7 @@ std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const 
   std::vector<double> gamma_rad;
   const int steps = static_cast<int>(std::lround(last_deg / step_deg));
   gamma_rad.reserve(static_cast<size_t>(steps) + 1);
-  for (int j = 0; j <= steps; ++j) gamma_rad.push_back(j * last_deg / steps * kPi / 180);
+  for (int j = 0; j <= steps; ++j) gamma_rad.push_back(j * last_deg / steps * M_PI / 180);
   return gamma_rad;
 }
 
@@ -91,7 +90,7 @@ class Refiner {
  private:
   struct Step {
     RefinementKind kind = RefinementKind::kTable;
-    std::vector<Candidate> candidates;  // the first: as it was
+    std::vector<FittedCandidate> candidates;  // the first: as it was
     int chosen = 0;
     double gain = 0, standard_error = 0;  // of the best over the first
   };
@@ -107,11 +106,11 @@ class Refiner {
     record.kind = RefinementKind::kHeading;
     FreeQuantities free = result_.free;
     free.heading = true;
-    std::vector<Candidate> candidates;
+    std::vector<FittedCandidate> candidates;
     for (const int degrees : {0, 90, 180, 270}) {
       Luminaire start = result_.luminaire;
       const LuminaireAxes axes = AxesOf(start);
-      const double angle = degrees * kPi / 180;
+      const double angle = degrees * M_PI / 180;
       start.heading = std::cos(angle) * axes.along - std::sin(angle) * axes.across;
       candidates.push_back({"from " + std::to_string(degrees) + " deg", Fit(start, free)});
     }
@@ -181,13 +180,13 @@ class Refiner {
   }
 
   // By the model error of what is held, so that candidates can be compared before all are there.
-  double Score(const Candidate& candidate) const {
+  double Score(const FittedCandidate& candidate) const {
     return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
   }
 
-  static double SmallestSigma(const std::vector<Candidate>& candidates) {
+  static double SmallestSigma(const std::vector<FittedCandidate>& candidates) {
     double sigma = 1;
-    for (const Candidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
+    for (const FittedCandidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
     return sigma;
   }
 
@@ -244,7 +243,7 @@ class Refiner {
     record.chosen = step.chosen;
     record.standard_error = step.standard_error;
     const double sigma = SmallestSigma(step.candidates);
-    for (const Candidate& c : step.candidates) {
+    for (const FittedCandidate& c : step.candidates) {
       record.among.push_back(c.name);
       record.score.push_back(Mean(ScoreGroups(problem_, c.fitted.predicted, sigma)));
       record.effective_parameters.push_back(c.fitted.effective_parts);

@@ -45,6 +45,13 @@ struct PixelBlock {
   bool is_used = false;
 };
 
+Eigen::Matrix3d Damped(const PixelBlock& block, double damping) {
+  Eigen::Matrix3d h = block.h;
+  h.diagonal() *= 1 + damping;
+  h.diagonal().array() += 1e-12 * (1 + h.trace());
+  return h;
+}
+
 struct NormalEquations {
   std::vector<PixelBlock> pixels;
   Eigen::MatrixXd h;
@@ -83,7 +90,7 @@ class Linearization {
     for (Eigen::Index i = 0; i < state_.b.cols(); ++i) {
       const PixelBlock& block = equations.pixels[static_cast<size_t>(i)];
       if (!block.is_used) continue;
-      const Eigen::Matrix3Xd by_shared = block.h.ldlt().solve(block.coupling);
+      const Eigen::Matrix3Xd by_shared = Damped(block, 0).inverse() * block.coupling;
       const StereoPixel pixel(state_, i);
       for (Eigen::Index k = 0; k < problem_.value.rows(); ++k) {
         if (!problem_.used(k, i)) continue;
@@ -138,12 +145,7 @@ struct Reduced {
   Eigen::MatrixXd h;
   Eigen::VectorXd g;
 };
-Eigen::Matrix3d Damped(const PixelBlock& block, double damping) {
-  Eigen::Matrix3d h = block.h;
-  h.diagonal() *= 1 + damping;
-  h.diagonal().array() += 1e-12 * (1 + h.trace());
-  return h;
-}
+
 Reduced Reduce(const NormalEquations& equations, const SharedUnknowns& shared, double damping) {
   Reduced reduced{equations.h, equations.g};
   reduced.h.diagonal() *= 1 + damping;
@@ -183,7 +185,7 @@ StereoState Stepped(const StereoState& state, const NormalEquations& equations, 
   for (Eigen::Index i = 0; i < next.b.cols(); ++i) {
     const PixelBlock& block = equations.pixels[static_cast<size_t>(i)];
     if (!block.is_used) continue;
-    Eigen::Vector3d db = Damped(block, damping).ldlt().solve(block.g - block.coupling * dx);
+    Eigen::Vector3d db = Damped(block, damping).inverse() * (block.g - block.coupling * dx);
     // A pixel of few lights must not leap over to another branch.
     const double longest = 0.4 * state.b.col(i).norm();
     if (db.norm() > longest) db *= longest / db.norm();
@@ -224,7 +226,7 @@ Eigen::Matrix3Xd SolveLambert(const StereoProblem& problem, const Eigen::VectorX
     // Lights that lie nearly in a plane: the normal across it would be noise.
     constexpr double kLeastShare = 1e-4;
     if (!(eigen.eigenvalues()[0] > kLeastShare * eigen.eigenvalues()[2])) return;
-    b.col(i) = h.ldlt().solve(g);
+    b.col(i) = h.inverse() * g;
   });
   return b;
 }

@@ -1,7 +1,7 @@
 // Photometric stereo as one adjustment: every pixel's albedo and normal together with what all pixels share.
 //
-//   min sum_ik rho((v_ik - s_k |b_i| f(b_i/|b_i|, l_k) - a) / sigma) + sum_k N_k angle(l_k, given)^2 /
-//   sigma_k^2
+//   min sum_ik rho((v_ik - s_k |b_i| f(b_i/|b_i|, l_k) - a) / sigma)
+//       + sum_k N_k angle(l_k, given)^2 / sigma_k^2
 //
 // b = albedo * normal of pixel i, l_k: direction to the light of image k, s_k: its strength, f and a: the
 // reflectance curve, rho: Cauchy's. Levenberg-Marquardt; the pixels' 3 x 3 blocks are eliminated (Schur), so

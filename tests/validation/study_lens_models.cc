@@ -22,6 +22,7 @@
 #include "apps/artifact.h"
 #include "apps/line_chart_svg.h"
 #include "calib/calibration.h"
+#include "calib/median.h"
 #include "tests/support/board_views.h"
 #include "tests/support/study_options.h"
 
@@ -64,13 +65,6 @@ CalibrationInput Views(const Truth& truth, int images, unsigned seed) {
 struct Measured {
   double time_s = 0, error_px = 0, held_out_px = 0, rms_px = 0;
 };
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Medians over the seeds; NaN where no fit came of it.
 Measured Measure(const Truth& truth, const std::string& lens, int images, int seeds) {

@@ -21,6 +21,7 @@
 
 #include "apps/artifact.h"
 #include "apps/line_chart_svg.h"
+#include "calib/median.h"
 #include "calib/mesh_alignment.h"
 #include "calib/registration.h"
 #include "tests/support/feature_room.h"
@@ -34,13 +35,6 @@ using support::FeatureRoom;
 constexpr double kCornerNoisePx = 0.1;
 
 double CpuS() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double ErrorM(const RegisteredView& view, const FeatureRoom& room) {
   const auto v = static_cast<std::size_t>(std::stoi(view.view.substr(1)));
