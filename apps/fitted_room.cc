@@ -21,7 +21,7 @@ using nlohmann::json;
 
 std::string SessionPathOf(const json& result, const std::string& given, const std::string& result_path) {
   if (!given.empty()) return given;
-  const std::string path = result.value("session_file", "");
+  std::string path = result.value("session_file", "");
   if (path.empty())
     throw InputError(
         {result_path, 0}, "session_file",

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/csv_text.h"
 #include "apps/suggest.h"
 
 namespace luxfit {
@@ -106,9 +107,9 @@ std::string PhotoTable(const SessionDraft& draft) {
     return value ? fmt::format("{:.6g}", *value) : "";
   };
   for (const DraftPhoto& photo : draft.photos)
-    text += fmt::format("{},cam{},{},{},{},{},{}\n", photo.name.file, photo.camera, photo.name.view,
-                        photo.name.state, field(photo.exposure.exposure_s), field(photo.exposure.f_number),
-                        field(photo.exposure.iso));
+    text += CsvLine({CsvField(photo.name.file), fmt::format("cam{}", photo.camera), CsvField(photo.name.view),
+                     CsvField(photo.name.state), field(photo.exposure.exposure_s),
+                     field(photo.exposure.f_number), field(photo.exposure.iso)});
   return text;
 }
 

@@ -9,8 +9,6 @@ import { cellCorners } from './data.js';
 
 const kYellow = 0xffd54a, kBlue = 0x4aa8ff, kGreen = 0x35c46a;
 
-// Of the 95 % intervals of the three coordinates.
-
 function cellGeometry(room) {
   const corners = Array.from({ length: room.count }, (_, c) => cellCorners(room, c));
   const vertices = corners.reduce((n, c) => n + c.length, 0);
@@ -113,7 +111,7 @@ export class RoomView {
     this.canvas.setAttribute('tabindex', '0');
     this.canvas.setAttribute('aria-label', 'The room in false colours; drag to turn, wheel to come nearer, click to read a surface');
     container.append(this.canvas);
-    this.camera = new THREE.PerspectiveCamera(42, 1, 0.05, 500);
+    this.camera = new THREE.PerspectiveCamera(42, 1, 0.05, Math.max(100, 10 * this.diagonal));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.screenSpacePanning = true;
@@ -209,21 +207,36 @@ export class RoomView {
     return vec(a).add(vec(b)).multiplyScalar(0.5);
   }
 
+  get diagonal() {
+    return vec(this.room.max_m).distanceTo(vec(this.room.min_m));
+  }
+
+  // From as near as all of the room is in the picture.
+  lookAtWhole(direction) {
+    const { min_m: a, max_m: b } = this.room;
+    const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(i & 1 ? a[0] : b[0], i & 2 ? a[1] : b[1], i & 4 ? a[2] : b[2]));
+    const isInside = (p) => Math.max(Math.abs(p.x), Math.abs(p.y)) < 0.97 && p.z < 1;
+    let near = 0, far = 8 * this.diagonal;
+    for (let step = 0; step < 30; ++step) {
+      const distance = 0.5 * (near + far);
+      this.camera.position.copy(this.centre).addScaledVector(direction.clone().normalize(), distance);
+      this.camera.lookAt(this.centre);
+      this.camera.updateMatrixWorld();
+      if (corners.every((c) => isInside(c.clone().project(this.camera)))) far = distance;
+      else near = distance;
+    }
+  }
+
   // outside | top | the name of a view
   look(from) {
-    const { min_m: a, max_m: b } = this.room, centre = this.centre;
-    const size = vec(b).sub(vec(a)), radius = 0.5 * size.length();
     const view = this.data.cameras.find((c) => c.view === from);
     this.resize();
-    const distance = radius / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
-    this.controls.target.copy(centre);
+    this.controls.target.copy(this.centre);
     if (view) {
       this.camera.position.copy(vec(view.position_m));
-      this.controls.target.copy(vec(view.position_m).add(vec(view.forward).multiplyScalar(0.3 * radius)));
-    } else if (from === 'top') {
-      this.camera.position.copy(centre).add(new THREE.Vector3(0, -0.001, 0.8 * distance));
+      this.controls.target.copy(vec(view.position_m).add(vec(view.forward).multiplyScalar(0.15 * this.diagonal)));
     } else {
-      this.camera.position.copy(centre).add(new THREE.Vector3(-0.42, -0.72, 0.62).normalize().multiplyScalar((this.camera.aspect < 1.3 ? 0.86 : 0.79) * distance));
+      this.lookAtWhole(from === 'top' ? new THREE.Vector3(0, -0.001, 1) : new THREE.Vector3(-0.42, -0.72, 0.62));
     }
     this.controls.update();
     this.camera.updateMatrixWorld();

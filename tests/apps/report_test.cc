@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/support/program.h"
+#include "tests/support/report_data.h"
 #include "tests/support/small_room.h"
 #include "tests/support/temp_folder.h"
 
@@ -30,11 +31,6 @@ class ReportTest : public testing::Test {
   static support::ProgramRun Report(const std::string& options = "") {
     return support::RunProgram("report '" + folder_->Path("out") + "' " + options);
   }
-  static json DataOf(const std::string& page) {
-    const std::string open = "id=\"report-data\">";
-    const size_t from = page.find(open) + open.size();
-    return json::parse(page.substr(from, page.find("</script>", from) - from));
-  }
 
   static TempFolder* folder_;
 };
@@ -46,7 +42,7 @@ TEST_F(ReportTest, IsOneFileThatHoldsTheResult) {
   EXPECT_THAT(run.output, HasSubstr("Work plane, state both"));
   const std::string page = folder_->Read("out/report.html");
   EXPECT_LT(page.size(), 10'000'000U);
-  const json data = DataOf(page);
+  const json data = support::ReportDataOf(page);
   EXPECT_EQ(data["result"]["luminaires"].size(), 2U);
   EXPECT_EQ(data["session"], support::kHostileName);
   EXPECT_EQ(data["luminaires"][0]["id"], support::kHostileName);
@@ -84,7 +80,7 @@ TEST_F(ReportTest, AreasAreThoseOfTheTargets) {
   const support::ProgramRun run = Report("--state half --targets '" + folder_->Path("targets.toml") + "'");
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("left, state half"));
-  const json data = DataOf(folder_->Read("out/report.html"));
+  const json data = support::ReportDataOf(folder_->Read("out/report.html"));
   EXPECT_EQ(data["places"]["planes"][0]["average_lx"], 300);
   EXPECT_EQ(data["state"], "half");
   EXPECT_TRUE(data["places"]["observers"].empty());

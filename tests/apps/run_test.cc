@@ -15,6 +15,7 @@
 
 #include "apps/fitted_room.h"
 #include "tests/support/program.h"
+#include "tests/support/report_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 
@@ -141,6 +142,38 @@ TEST_F(OfficeRun, WritesTheDocumentedKeys) {
     EXPECT_TRUE(std::filesystem::exists(Out() + "/stages/" + stage + ".json")) << stage;
   }
   EXPECT_TRUE(std::filesystem::exists(Out() + "/plan.svg"));
+}
+
+// Photos of an independent renderer beside what the fit predicts of every pixel, states added up from single
+// luminaires.
+TEST_F(OfficeRun, ReportsPhotosOfEveryStateBesideThePrediction) {
+  const json views = support::ReportDataOf(folder_->Read("out/report.html"))["views"];
+  ASSERT_EQ(views["states"].size(), 6U);
+  for (const json& state : views["states"]) {
+    EXPECT_GE(state["views"].size(), 3U) << state["id"];  // of "evening" there are but three
+    for (const json& view : state["views"]) {
+      EXPECT_LT(std::abs(view["median_percent"].get<double>()), 1) << state["id"] << " " << view["view"];
+      EXPECT_LT(view["median_magnitude_percent"], 2) << state["id"] << " " << view["view"];
+    }
+  }
+}
+
+// Its ellipsoid projected onto an axis has the interval of that coordinate.
+TEST_F(OfficeRun, ReportsEllipsoidsOfThePositionsCovariance) {
+  const json page = support::ReportDataOf(folder_->Read("out/report.html"));
+  constexpr double kRadius = 2.7955;  // sigmas
+  for (size_t k = 0; k < page["luminaires"].size(); ++k) {
+    const json& ellipsoid = page["luminaires"][k]["ellipsoid"];
+    for (size_t axis = 0; axis < 3; ++axis) {
+      double squared = 0;
+      for (size_t i = 0; i < 3; ++i) {
+        const double along = ellipsoid["axes"][i][axis], semi_axis_m = ellipsoid["semi_axes_m"][i];
+        squared += std::pow(along * semi_axis_m, 2);
+      }
+      const double sigma_m = result_["luminaires"][k]["position_sigma_m"][axis];
+      EXPECT_NEAR(std::sqrt(squared) / kRadius, sigma_m, 0.01 * sigma_m);
+    }
+  }
 }
 
 TEST_F(OfficeRun, CheckReadsTheResult) {
