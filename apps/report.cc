@@ -129,13 +129,9 @@ json ReportSummary(const json& data) {
 }
 
 std::string WriteReport(const FittedRoom& fitted, const json& data) {
-  const std::string path = fitted.out + "/report.html";
+  std::string path = fitted.out + "/report.html";
   WriteText(path, ReportPage(fitted.session.name, data));
   return path;
-}
-
-std::string WriteReport(const FittedRoom& fitted, const ReportOptions& options) {
-  return WriteReport(fitted, ReportData(fitted, options));
 }
 
 }  // namespace luxfit

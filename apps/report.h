@@ -32,7 +32,6 @@ nlohmann::json ReportSummary(const nlohmann::json& data);
 // Writes OUT/report.html and returns its path. Throws std::runtime_error for targets or a state that do not
 // read.
 std::string WriteReport(const FittedRoom& fitted, const nlohmann::json& data);
-std::string WriteReport(const FittedRoom& fitted, const ReportOptions& options = {});
 
 }  // namespace luxfit
 
