@@ -23,14 +23,13 @@ struct ReportOptions {
 // The state of the session in which the luminaires give the most light.
 std::string BrightestState(const FittedRoom& fitted);
 
-// All that the page holds.
+// All that the page holds. Throws std::runtime_error for targets or a state that do not read.
 nlohmann::json ReportData(const FittedRoom& fitted, const ReportOptions& options);
 
 // Of that: the states, the statistics of the areas and the ratings of the observers by state.
 nlohmann::json ReportSummary(const nlohmann::json& data);
 
-// Writes OUT/report.html and returns its path. Throws std::runtime_error for targets or a state that do not
-// read.
+// Writes OUT/report.html and returns its path.
 std::string WriteReport(const FittedRoom& fitted, const nlohmann::json& data);
 
 }  // namespace luxfit
