@@ -16,7 +16,7 @@ trap leave EXIT
 
 # fresh NAME: a minimal system of that name to work in from then on.
 fresh() {
-  [ -d "$work/bookworm" ] || debootstrap --variant=minbase bookworm "$work/bookworm" http://deb.debian.org/debian
+  [ -d "$work/bookworm" ] || debootstrap --variant=minbase bookworm "$work/bookworm" http://deb.debian.org/debian >"$work/log"
   leave
   root=
   rm -rf "${work:?}/$1"
