@@ -29,6 +29,20 @@ grep -q '/luxfitConfig.cmake$' "$work/dev_files" || fail "libluxfit-dev: no CMak
 grep -qE '/(bin|luxfit_apps)' "$work/dev_files" && fail "libluxfit-dev: holds what belongs to luxfit"
 dpkg-deb -f "$program" Recommends | grep -qw colmap || fail "luxfit: does not recommend colmap"
 dpkg-deb -f "$program" Depends | grep -q 'libopencv-core.*libstdc++6' || fail "luxfit: dependencies are not those of its libraries"
+
+# What luxfitConfig.cmake finds on this machine has to come along with libluxfit-dev.
+dpkg-deb -x "$dev" "$work/dev"
+cmake -S "$source/tests/house/consumer" -B "$work/consumer" -G Ninja -DCMAKE_PREFIX_PATH="$work/dev/usr" >"$work/log" 2>&1 ||
+  { cat "$work/log"; exit 1; }
+# shellcheck disable=SC2046
+apt-cache depends --recurse --installed --no-recommends --no-suggests --no-conflicts --no-breaks --no-replaces --no-enhances \
+  $(dpkg-deb -f "$dev" Depends | sed 's/([^)]*)//g' | tr ',' ' ') | grep '^[a-z0-9]' | sort -u >"$work/come_along"
+sed -nE 's#^[^:]+:[A-Z]*PATH=(/usr/(lib|include|share)/.+)$#\1#p' "$work/consumer/CMakeCache.txt" | while read -r path; do
+  # Debian's records know some libraries by their place before /lib was merged into /usr.
+  real=$(realpath "$path")
+  { dpkg -S "$path" || dpkg -S "$real" || dpkg -S "${real#/usr}"; } 2>/dev/null | sed 's/: .*//' | tr ',' '\n' | sed 's/^ *//; s/:[a-z0-9]*$//' >"$work/owners"
+  grep -qxF -f "$work/owners" "$work/come_along" || fail "libluxfit-dev: $path, of $(head -n 1 "$work/owners"), does not come along"
+done
 if command -v lintian >/dev/null; then
   lintian --fail-on error "$program" "$dev" 2>"$work/lintian" || { cat "$work/lintian" >&2; fail "lintian found errors"; }
 fi
