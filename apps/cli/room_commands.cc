@@ -62,7 +62,7 @@ void AddLuxmap(CLI::App& app, Invocation& invocation) {
   command->add_option("--state", options->state, "what should be on: warns of luminaires that are not so");
   command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/luxmap)");
   Complete(*command, invocation, options, LuxmapCommand);
-  AddExample(*command, "luxfit luxmap out evening.png --view v00 --exposure-s 0.234",
+  AddExample(*command, "luxfit luxmap out evening.png --view v00 --exposure-s 0.206",
              "evening.png : 90 % of the pixels know their illuminance\n"
              "  luminaire A          at 0.30 ± 0.00\n"
              "  ...\n"
