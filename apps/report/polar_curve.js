@@ -23,7 +23,7 @@ function web(top, step, unit) {
   for (let v = step; v <= top * 1.0001; v += step) {
     const r = (v / top) * kRadius;
     rings.push(svg('circle', { cx: kCentre[0], cy: kCentre[1], r, class: 'grid' }));
-    rings.push(svg('text', { x: kCentre[0] + 3, y: kCentre[1] - r - 2, class: 'small' }, digits(v, 2), v + step > top * 1.0001 ? ' ' + unit : ''));
+    rings.push(svg('text', { x: kCentre[0] + 3, y: kCentre[1] - r + 10, class: 'small' }, digits(v, 2), v + step > top * 1.0001 ? ' ' + unit : ''));
   }
   const spokes = [];
   for (let g = 0; g < 360; g += 30) {
@@ -32,6 +32,14 @@ function web(top, step, unit) {
     spokes.push(svg('text', { x: tx, y: ty + 4, 'text-anchor': 'middle', class: 'small' }, shown + '\u00b0'));
   }
   return [rings, spokes];
+}
+
+// Where an intensity first falls below a value as gamma grows from 0, linear between samples; degrees, null: nowhere.
+function halfAngle(values, value) {
+  const below = values.findIndex((v, i) => i > (values.length - 1) / 2 && v < value);
+  if (below < 0) return null;
+  const before = values[below - 1], share = before > value ? (before - value) / (before - values[below]) : 0;
+  return -180 + ((below - 1 + share) * 360) / (values.length - 1);
 }
 
 export function polarCurve(luminaire, result, unit) {
@@ -44,12 +52,11 @@ export function polarCurve(luminaire, result, unit) {
   const key = [h('span', { class: 'key fitted0' }, same ? 'fitted, all C' : 'fitted C0\u2013C180')];
   if (!same) key.push(h('span', { class: 'key fitted90' }, 'fitted C90\u2013C270'));
   if (given) key.push(h('span', { class: 'key given' }, `given: ${given.file}, ${digits(given.flux_lm)} lm`));
-  const half = curves.c0.findIndex((v, i) => i > (curves.c0.length - 1) / 2 && v < 0.5 * highest);
-  const beam = half > 0 ? Math.round(2 * (-180 + (half * 360) / (curves.c0.length - 1))) : null;
+  const peak = Math.max(...curves.c0, ...curves.c90), half = halfAngle(curves.c0, 0.5 * peak);
   return h('figure', { class: 'polar' },
     svg('svg', { viewBox: `0 0 ${kSize} ${kSize}`, class: 'chart', role: 'img', 'aria-label': 'Polar curve of ' + luminaire.id }, web(top, step, unit),
       given ? [curve(given.c0, top, { class: 'given' }), curve(given.c90, top, { class: 'given' })] : null,
       same ? null : curve(curves.c90, top, { class: 'fitted90' }), curve(curves.c0, top, { class: 'fitted0' })),
-    h('figcaption', null, h('b', null, luminaire.id), ' ', h('span', { class: 'interval' }, 'peak ', digits(highest, 3), ' ', unit,
-      isNumber(beam) ? `, half of it at ${Math.round(beam / 2)}\u00b0 in C0` : ''), h('div', { class: 'keys' }, key)));
+    h('figcaption', null, h('b', null, luminaire.id), ' ', h('span', { class: 'interval' }, 'peak ', digits(peak, 3), ' ', unit,
+      isNumber(half) ? `, half of it at ${Math.round(half)}\u00b0 in C0` : ''), h('div', { class: 'keys' }, key)));
 }

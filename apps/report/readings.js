@@ -52,7 +52,8 @@ function scatter(readings) {
 
 // Error of each reading with the interval that it should lie in.
 function errorStrip(readings) {
-  const shown = readings.filter((r) => isNumber(errorPercent(r)) && isNumber(r.z));
+  const names = [...new Set(readings.map((r) => r.state))];
+  const shown = readings.filter((r) => isNumber(errorPercent(r)) && isNumber(r.z)).sort((a, b) => names.indexOf(a.state) - names.indexOf(b.state));
   if (shown.length === 0) return null;
   const width = 720, height = 220, left = 46, right = 8, top = 12, bottom = 40;
   const sigma = (r) => 100 * Math.hypot(r.measured_sigma_lux || 0, r.prediction_sigma_lux || 0) / r.measured_lux;
@@ -61,10 +62,17 @@ function errorStrip(readings) {
   const pitch = (width - left - right) / shown.length, x = (i) => left + (i + 0.5) * pitch;
   const ticks = [];
   for (let t = -Math.floor(limit / step) * step; t <= limit; t += step) ticks.push(t);
+  // A name that would run into the one before it is left out; the point's own text has it.
   const states = [];
-  shown.forEach((r, i) => { if (i === 0 || shown[i - 1].state !== r.state) states.push([i, r.state]); });
+  let free = 0;
+  shown.forEach((r, i) => {
+    if (i > 0 && shown[i - 1].state === r.state) return;
+    const fits = x(i) >= free;
+    states.push([i, fits ? r.state : '']);
+    if (fits) free = x(i) + 8 * (r.state.length + 1);
+  });
   return svg('svg', { viewBox: `0 0 ${width} ${height}`, class: 'chart strip', role: 'img', 'aria-label': 'Error of every reading in percent' },
-    ticks.map((t) => [svg('line', { x1: left, x2: width - right, y1: y(t), y2: y(t), class: t === 0 ? 'agreement' : 'grid' }), svg('text', { x: left - 6, y: y(t) + 4, 'text-anchor': 'end' }, signed(t, step < 1 ? 1 : 0))]),
+    ticks.map((t) => [svg('line', { x1: left, x2: width - right, y1: y(t), y2: y(t), class: t === 0 ? 'agreement' : 'grid' }), svg('text', { x: left - 6, y: y(t) + 4, 'text-anchor': 'end' }, signed(t, Number.isInteger(step) ? 0 : 1))]),
     states.map(([i, name]) => [i > 0 ? svg('line', { x1: x(i) - pitch / 2, x2: x(i) - pitch / 2, y1: top, y2: height - bottom + 6, class: 'grid' }) : null,
       svg('text', { x: x(i) - pitch / 2 + 4, y: height - bottom + 18 }, name)]),
     shown.map((r, i) => svg('g', null,

@@ -9,15 +9,15 @@ import { glare, statistics } from './light.js';
 
 const frame = () => new Promise((done) => { setTimeout(done, 30); });
 
-// Cells whose middle and its neighbourhood are seen from where the view looks.
+// Cells whose middle is seen from where the view looks, and with it the whole pixel that it lies in.
 function* visibleCells(view, wanted) {
-  const step = Math.max(1, Math.floor(view.room.count / (8 * wanted)));
+  const step = Math.max(1, Math.floor(view.room.count / (24 * wanted)));
   let found = 0;
   for (let c = 0; c < view.room.count && found < wanted; c += step) {
     const [x, y] = view.placeOf(c);
     if (!(x > 4 && y > 4 && x < view.width - 4 && y < view.height - 4)) continue;
     const isCell = ([a, b]) => view.pick(x + a, y + b)?.cell === c;
-    if (![[0, 0], [-2, -2], [2, -2], [-2, 2], [2, 2]].every(isCell)) continue;
+    if (![[0, 0], [-1, -1], [1, -1], [-1, 1], [1, 1]].every(isCell)) continue;
     ++found;
     yield [c, x, y];
   }
