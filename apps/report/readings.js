@@ -60,7 +60,7 @@ function errorStrip(readings) {
   const limit = Math.max(...shown.map((r) => Math.max(Math.abs(errorPercent(r)), 1.96 * sigma(r)))) * 1.08;
   const step = niceStep(limit / 3), y = (e) => top + ((limit - e) / (2 * limit)) * (height - top - bottom);
   const pitch = (width - left - right) / shown.length, x = (i) => left + (i + 0.5) * pitch;
-  const ticks = [];
+  const places = [0, 1].find((d) => Number.isInteger(step * 10 ** d)) ?? 2, ticks = [];
   for (let t = -Math.floor(limit / step) * step; t <= limit; t += step) ticks.push(t);
   // A name that would run into the one before it is left out; the point's own text has it.
   const states = [];
@@ -72,7 +72,7 @@ function errorStrip(readings) {
     if (fits) free = x(i) + 8 * (r.state.length + 1);
   });
   return svg('svg', { viewBox: `0 0 ${width} ${height}`, class: 'chart strip', role: 'img', 'aria-label': 'Error of every reading in percent' },
-    ticks.map((t) => [svg('line', { x1: left, x2: width - right, y1: y(t), y2: y(t), class: t === 0 ? 'agreement' : 'grid' }), svg('text', { x: left - 6, y: y(t) + 4, 'text-anchor': 'end' }, signed(t, Number.isInteger(step) ? 0 : 1))]),
+    ticks.map((t) => [svg('line', { x1: left, x2: width - right, y1: y(t), y2: y(t), class: t === 0 ? 'agreement' : 'grid' }), svg('text', { x: left - 6, y: y(t) + 4, 'text-anchor': 'end' }, signed(t, places))]),
     states.map(([i, name]) => [i > 0 ? svg('line', { x1: x(i) - pitch / 2, x2: x(i) - pitch / 2, y1: top, y2: height - bottom + 6, class: 'grid' }) : null,
       svg('text', { x: x(i) - pitch / 2 + 4, y: height - bottom + 18 }, name)]),
     shown.map((r, i) => svg('g', null,
