@@ -46,7 +46,7 @@ add_dependencies(apps_luminaire_files_test luxfit)
 luxfit_test(apps register_on_mesh_test LINK luxfit::calib opencv_core opencv_calib3d fmt::fmt
             nlohmann_json::nlohmann_json)
 add_dependencies(apps_register_on_mesh_test luxfit)
-luxfit_test(apps report_test LINK luxfit_apps nlohmann_json::nlohmann_json)
+luxfit_test(apps report_test WHOLE LINK luxfit_apps nlohmann_json::nlohmann_json)
 add_dependencies(apps_report_test luxfit)
 # Draws the page in a browser.
 find_program(CHROMIUM chromium)
