@@ -42,6 +42,7 @@ for command in board explain doctor init demo formfactors simulate chart run lin
   sed '/^\$ /d' example | shape >shown
   sh -c "$typed" >real.txt 2>&1 || [ $? -eq 1 ] || { cat real.txt >&2; echo "failed: $typed" >&2; exit 1; }
   shape <real.txt >real
+  [ -s real ] && [ -s shown ] || { echo "$typed: no output to compare" >&2; exit 1; }
   # What is shown, line by line, from where the last one was met.
   awk 'FNR == NR { real[++count] = $0; next }
        $0 == "..." || $0 == "" { next }
