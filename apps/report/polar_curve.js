@@ -34,12 +34,13 @@ function web(top, step, unit) {
   return [rings, spokes];
 }
 
-// Where an intensity first falls below a value as gamma grows from 0, linear between samples; degrees, null: nowhere.
+// The gamma beyond which an intensity stays below a value, linear between samples; degrees, null: none up to 180.
 function halfAngle(values, value) {
-  const below = values.findIndex((v, i) => i > (values.length - 1) / 2 && v < value);
-  if (below < 0) return null;
-  const before = values[below - 1], share = before > value ? (before - value) / (before - values[below]) : 0;
-  return -180 + ((below - 1 + share) * 360) / (values.length - 1);
+  const last = values.length - 1, nadir = last / 2;
+  let i = last;
+  while (i >= nadir && values[i] < value) --i;
+  if (i === last || i < nadir) return null;
+  return -180 + ((i + (values[i] - value) / (values[i] - values[i + 1])) * 360) / last;
 }
 
 export function polarCurve(luminaire, result, unit) {
