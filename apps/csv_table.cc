@@ -9,6 +9,7 @@
 
 #include "apps/input_error.h"
 #include "apps/suggest.h"
+#include "forward/one_line.h"
 
 namespace luxfit {
 namespace {
@@ -138,6 +139,14 @@ void CheckFieldCount(const CsvTable& table, const CsvRow& row) {
   throw InputError(place, "", found + "; put a field that holds a comma between double quotes");
 }
 
+void ExpectNoControlCharacters(const CsvTable& table, const CsvRow& row) {
+  for (size_t i = 0; i < row.fields.size(); ++i)
+    if (HasControlCharacter(row.fields[i]))
+      throw CsvError(table, row, table.columns[i],
+                     "expected text without control characters, got " + Quoted(OneLine(row.fields[i])) +
+                         " with one; remove it");
+}
+
 size_t ColumnIndex(const CsvTable& table, const std::string& column) {
   const auto at = std::find(table.columns.begin(), table.columns.end(), column);
   if (at == table.columns.end()) throw std::invalid_argument("CsvTable: no column " + column);
@@ -159,6 +168,7 @@ CsvTable ReadCsvTable(const std::string& path, const CsvColumns& expected) {
       CheckHeader(expected, table, row.line, lines[i]);
     } else {
       CheckFieldCount(table, row);
+      ExpectNoControlCharacters(table, row);
       table.rows.push_back(std::move(row));
     }
   }

@@ -5,8 +5,8 @@
 // CRLF are dropped. Numbers have a decimal point; a decimal comma is recognised and reported as such, for
 // tables come from spreadsheets.
 //
-// Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; mend") for anything else, and for a
-// table without rows.
+// Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; mend") for anything else, for a control
+// character in a field, and for a table without rows.
 //
 // Source: RFC 4180.
 #ifndef LUXFIT_APPS_CSV_TABLE_H_

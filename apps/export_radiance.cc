@@ -9,6 +9,7 @@
 #include "apps/exports.h"
 #include "apps/file_stem.h"
 #include "apps/given_session.h"
+#include "forward/one_line.h"
 #include "forward/radiance_scene.h"
 
 namespace luxfit {
@@ -104,7 +105,7 @@ Illuminance at those points, lx:
 A picture of it (view as you like):
   rpict -vp 1 1 1.6 -vd 1 1 -0.2 -vu 0 0 1 -ab 4 scene.oct > scene.hdr
 )",
-      fitted.session.name, state_stem);
+      OneLine(fitted.session.name), state_stem);
 }
 
 }  // namespace

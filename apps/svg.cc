@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "forward/one_line.h"
+
 namespace luxfit {
 
 std::string XmlEscaped(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : OneLine(text)) {
     switch (c) {
       case '&':
         escaped += "&amp;";

@@ -1,5 +1,7 @@
 #include "calib/colmap_model.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -222,6 +224,13 @@ ColmapModel ReadColmapModel(const std::string& folder) {
 }
 
 std::string ColmapImagesText(const ColmapModel& model) {
+  for (const auto& [id, image] : model.images) {
+    const bool breaks = std::any_of(image.name.begin(), image.name.end(),
+                                    [](unsigned char c) { return std::iscntrl(c) != 0; });
+    if (breaks)
+      throw std::invalid_argument("image " + std::to_string(id) +
+                                  ": expected a name without control characters; rename the photo");
+  }
   std::map<int, std::vector<std::int64_t>> point_of_keypoint;
   for (const auto& [id, image] : model.images) point_of_keypoint[id].assign(image.keypoints_px.size(), -1);
   for (const auto& [id, point] : model.points) {

@@ -7,6 +7,7 @@
 #include "forward/ies_file.h"
 #include "forward/internal/photometry_planes.h"
 #include "forward/ldt_file.h"
+#include "forward/one_line.h"
 
 namespace luxfit {
 namespace {
@@ -121,10 +122,10 @@ double Rounded(double value, double per_unit) { return std::round(value * per_un
 // One line of printable ASCII.
 std::string Label(const std::string& text, size_t longest = kLongestLabel) {
   std::string label;
-  for (const char c : text) {
+  for (const char c : OneLine(text)) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte & 0xC0U) == 0x80U) continue;  // a further byte of a UTF-8 character
-    label += byte < 0x20 || byte == 0x7F ? ' ' : byte < 0x80 ? c : '?';
+    label += byte < 0x80 ? c : '?';
   }
   return label.substr(0, longest);
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "forward/one_line.h"
 #include "forward/photometry_writer.h"
 
 namespace luxfit {
@@ -44,7 +45,7 @@ class LuminaireText {
 
   RadianceLuminaire Text() {
     if (!(dimming_ > 0)) return {};
-    text_ << "# luminaire " << luminaire_.id << ", " << dimming_ * luminaire_.flux_lm << " lm\n";
+    text_ << "# luminaire " << OneLine(luminaire_.id) << ", " << dimming_ * luminaire_.flux_lm << " lm\n";
     if (luminaire_.shape == LuminaireShape::kPoint || luminaire_.shape == LuminaireShape::kSphere) {
       AddSphere();
     } else if (luminaire_.emission.size() > 0) {
@@ -173,9 +174,20 @@ class LuminaireText {
   std::ostringstream text_ = Writer();
 };
 
+// Radiance ends a name at white space, and executes a line that begins with `!`.
+void ExpectIdentifier(const std::string& name) {
+  const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return c > ' ' && c != 0x7F && c != '!' && c != '#' && c != '"' && c != '\'';
+  });
+  if (name.empty() || !is_plain)
+    throw std::invalid_argument("Radiance scene: expected a name without white space, quotes, ! and #, got \"" +
+                                OneLine(name) + "\"");
+}
+
 void ExpectNames(const std::vector<std::string>& names, Eigen::Index materials) {
   if (static_cast<Eigen::Index>(names.size()) != materials)
     throw std::invalid_argument("Radiance scene: expected one name a material");
+  for (const std::string& name : names) ExpectIdentifier(name);
 }
 
 }  // namespace
@@ -206,6 +218,7 @@ std::string RadianceSurfaces(const Scene& scene, const std::vector<std::string>&
 
 RadianceLuminaire RadianceSceneOf(const Luminaire& luminaire, const std::string& stem, double dimming,
                                   bool is_opaque) {
+  ExpectIdentifier(stem);
   return LuminaireText(luminaire, stem, dimming, is_opaque).Text();
 }
 

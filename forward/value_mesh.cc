@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "forward/one_line.h"
+
 namespace luxfit {
 namespace {
 
@@ -68,7 +70,7 @@ void AddPolygons(const ValueMesh& mesh, std::ostream& text) {
 
 std::string XmlName(const std::string& name) {
   std::string out;
-  for (const char c : name) {
+  for (const char c : OneLine(name)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {
@@ -159,7 +161,7 @@ std::string PlyText(const ValueMesh& mesh, const Eigen::Matrix3Xi& rgb) {
   text.precision(kDigits);
   text << "ply\nformat ascii 1.0\n";
   for (size_t m = 0; m < mesh.materials.size(); ++m)
-    text << "comment material " << m << " " << mesh.materials[m] << "\n";
+    text << "comment material " << m << " " << OneLine(mesh.materials[m]) << "\n";
   text << "element vertex " << CornerCount(mesh)
        << "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\nproperty uchar "
           "green\nproperty uchar blue\nelement face "

@@ -9,9 +9,13 @@
 #include <utility>
 
 #include "apps/suggest.h"
+#include "forward/one_line.h"
 
 namespace luxfit {
 namespace {
+
+constexpr char kControlCharacter[] =
+    "expected a name of one line without control characters, got one with a line break or the like; remove it";
 
 std::string ShownNumber(double number) {
   std::ostringstream text;
@@ -59,6 +63,8 @@ std::vector<TomlCursor::Member> TomlCursor::Members() const {
     const std::string member_key = (key_.empty() ? "" : key_ + ".") + std::string(name.str());
     const toml::source_position position = name.source().begin;
     const SourcePlace place{place_.file, static_cast<int>(position.line)};
+    if (HasControlCharacter(std::string(name.str())))
+      throw InputError(place, OneLine(member_key), kControlCharacter);
     placed.push_back({position, {std::string(name.str()), TomlCursor(node, place, member_key)}});
   }
   // The parser sorts keys by name; the user's order is that of the file.
@@ -86,6 +92,7 @@ std::string TomlCursor::Text(const std::string& expected) const {
   const toml::value<std::string>* text = node_->as_string();
   if (!text) throw Error("expected " + expected + ", got " + Shown() + "; write it between double quotes");
   if (text->get().empty()) throw Error("expected " + expected + ", got \"\"; fill it in or remove the key");
+  if (HasControlCharacter(text->get())) throw Error(kControlCharacter);
   return text->get();
 }
 

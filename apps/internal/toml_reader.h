@@ -44,7 +44,7 @@ class TomlCursor {
   // Values. `expected` completes "expected ..." where the type is wrong.
   bool IsText() const { return node_->is_string(); }
   bool IsArray() const { return node_->is_array(); }
-  std::string Text(const std::string& expected) const;  // not empty
+  std::string Text(const std::string& expected) const;  // not empty, one line
   std::string OneOf(const std::vector<std::string>& names) const;
   double Number(const std::string& expected) const;                   // finite; an integer will do
   double NumberAbove(double limit, const std::string& unit) const;    // > limit

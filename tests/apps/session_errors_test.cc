@@ -156,6 +156,22 @@ TEST_F(SessionErrorsTest, StatesAreChecked) {
               HasSubstr("states.Z: expected a table, got \"on\""));
 }
 
+// Exporters write names into files whose lines other programs execute or parse.
+TEST_F(SessionErrorsTest, NamesWithControlCharactersAreRefused) {
+  const std::string expected = "without control characters";
+  EXPECT_THAT(ErrorAfter("id = \"B\"", "id = \"B\\n!touch pwned\""),
+              Holds(At("id = \"B\"") + "luminaire[0].id: ", expected, "remove it"));
+  EXPECT_THAT(ErrorAfter("name = \"tiny\"", "name = \"ti\\u0085ny\""),
+              Holds(At("name =") + "name: ", expected));
+  EXPECT_THAT(ErrorAfter("Z = { Z = 1.0 }", "\"Z\\r\" = { Z = 1.0 }"),
+              Holds(At("Z = { Z") + "states.Z : ", expected));
+  EXPECT_THAT(ErrorAfter("all = { A", "all = { \"A\\n!touch pwned\""),
+              Holds(At("all = {") + "states.all.A !touch pwned: ", expected));
+  EXPECT_THAT(ErrorAfter("photos.csv", "cam0,v0,Z", "cam0,v\x1b[31m0,Z"),
+              Holds("photos.csv:2: view: ", expected, "remove it"));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "L1,", "L\r1,"), Holds("luxmeter.csv:2: id: ", expected));
+}
+
 TEST_F(SessionErrorsTest, LuminairesAreChecked) {
   EXPECT_THAT(ErrorAfter("flux_lm = 3600.0", "flux_lm = -3"),
               HasSubstr(At("flux_lm") + "luminaire[0].flux_lm: expected > 0, got -3"));

@@ -125,6 +125,13 @@ TEST_F(ColmapModelTest, WritesWhatItReads) {
   ExpectTheModel(ReadColmapModel(folder_.Path("w")));
 }
 
+TEST_F(ColmapModelTest, NamesThatWouldBreakALineAreRefused) {
+  WriteText(kCameras, kImages, kPoints);
+  ColmapModel model = ReadColmapModel(folder_.Path("m"));
+  model.images.begin()->second.name = "a\n1 1 0 0 0 0 0 0 1 b";
+  EXPECT_THROW(ColmapImagesText(model), std::invalid_argument);
+}
+
 TEST_F(ColmapModelTest, ColmapReadsItAndItsBinaryIsRead) {
   LUXFIT_SKIP_WITHOUT_COLMAP();
   WriteText(kCameras, kImages, kPoints);

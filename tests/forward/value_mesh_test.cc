@@ -14,6 +14,7 @@ namespace luxfit {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -75,6 +76,12 @@ TEST_F(Values, WhatNoFileCanHoldIsRefused) {
   EXPECT_THROW(VtpText(mesh_), std::invalid_argument);
 }
 
+TEST_F(Values, NamesOfMaterialsStayOnTheirLine) {
+  mesh_.materials[0] = "paint\nelement face 0";
+  const Eigen::Matrix3Xi rgb = Eigen::Matrix3Xi::Zero(3, static_cast<Eigen::Index>(mesh_.faces.size()));
+  EXPECT_THAT(PlyText(mesh_, rgb), HasSubstr("comment material 0 paint element face 0\n"));
+}
+
 TEST_F(Values, PatchMeansKeepTheSum) {
   const Eigen::VectorXd means = PatchMeans(patches_, mesh_.values[0].values);
   double elements = 0, patches = 0;
@@ -117,6 +124,23 @@ TEST(RadianceScene, APanelFacesItsAim) {
   for (Eigen::Vector3d& p : corners) numbers >> p.x() >> p.y() >> p.z();
   const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[1]);
   EXPECT_NEAR((normal - 2 * panel.aim).norm(), 0, 1e-9);
+}
+
+// oconv executes a line that begins with `!`.
+TEST(RadianceScene, NamesBringNoLinesOfTheirOwn) {
+  Luminaire panel;
+  panel.id = "A\n!touch pwned\r\n!touch pwned";
+  for (const LuminaireShape shape : {LuminaireShape::kPoint, LuminaireShape::kDisc}) {
+    panel.shape = shape;
+    panel.size_m = {0.2, 0.2};
+    const std::string scene = RadianceSceneOf(panel, "lamp").scene;
+    EXPECT_THAT(scene, HasSubstr("# luminaire A !touch pwned  !touch pwned, "));
+    EXPECT_THAT(scene, Not(HasSubstr("\n!")));
+  }
+  for (const char* stem : {"", "a b", "a\n!b", "!b", "a#"}) {
+    EXPECT_THROW(RadianceSceneOf(panel, stem), std::invalid_argument) << stem;
+    EXPECT_THROW(RadianceMaterials({stem}, Eigen::Matrix3Xd::Zero(3, 1)), std::invalid_argument) << stem;
+  }
 }
 
 TEST(RadianceScene, NamesAreOneAMaterial) {
