@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
-#include "apps/commands.h"
-#include "apps/form_factors_command.h"
-#include "forward/form_factors.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/form_factors_command.h"
+#include "forward/factors/form_factors.h"
 
 namespace luxfit {
 namespace {

@@ -9,10 +9,10 @@
 #include "apps/cli/cli.h"
 #include "apps/cli/parse_error.h"
 #include "apps/cli/shell_commands.h"
-#include "apps/process.h"
-#include "apps/terminal.h"
+#include "apps/text/process.h"
+#include "apps/text/terminal.h"
 #include "apps/version.h"
-#include "forward/threads.h"
+#include "forward/room/threads.h"
 
 namespace {
 

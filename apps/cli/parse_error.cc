@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/suggest.h"
+#include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {

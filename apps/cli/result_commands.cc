@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
-#include "apps/commands.h"
-#include "apps/report_command.h"
+#include "apps/commands/commands.h"
+#include "apps/commands/report_command.h"
 
 namespace luxfit {
 namespace {

@@ -3,11 +3,11 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
-#include "apps/commission_command.h"
-#include "apps/dim_command.h"
-#include "apps/export_command.h"
-#include "apps/luxmap_command.h"
-#include "apps/suggest.h"
+#include "apps/commands/commission_command.h"
+#include "apps/commands/dim_command.h"
+#include "apps/commands/export_command.h"
+#include "apps/commands/luxmap_command.h"
+#include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {

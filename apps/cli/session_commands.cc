@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
-#include "apps/commands.h"
+#include "apps/commands/commands.h"
 
 namespace luxfit {
 namespace {

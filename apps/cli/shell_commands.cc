@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "apps/artifact.h"
 #include "apps/cli/describe.h"
-#include "apps/suggest.h"
+#include "apps/text/artifact.h"
+#include "apps/text/suggest.h"
 #include "apps/version.h"
 
 namespace luxfit {

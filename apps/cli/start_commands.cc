@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/board_command.h"
 #include "apps/cli/cli.h"
-#include "apps/demo_command.h"
-#include "apps/doctor_command.h"
-#include "apps/explain_command.h"
-#include "apps/init_command.h"
+#include "apps/commands/board_command.h"
+#include "apps/commands/demo_command.h"
+#include "apps/commands/doctor_command.h"
+#include "apps/commands/explain_command.h"
+#include "apps/commands/init_command.h"
 
 namespace luxfit {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "forward/patches.h"
-#include "forward/sensor.h"
+#include "forward/direct/sensor.h"
+#include "forward/room/patches.h"
 
 namespace luxfit {
 

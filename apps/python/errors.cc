@@ -2,8 +2,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/process.h"
 #include "apps/python/bindings.h"
+#include "apps/text/process.h"
 
 namespace luxfit {
 namespace {

@@ -6,14 +6,14 @@
 #include <filesystem>
 #include <optional>
 
-#include "apps/artifact.h"
-#include "apps/given_luminaire.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "apps/suggest.h"
+#include "apps/stages/given_luminaire.h"
+#include "apps/text/artifact.h"
+#include "apps/text/suggest.h"
 #include "apps/version.h"
-#include "forward/photometry_file.h"
-#include "forward/photometry_writer.h"
+#include "forward/luminaire/photometry_file.h"
+#include "forward/luminaire/photometry_writer.h"
 
 namespace luxfit {
 namespace {

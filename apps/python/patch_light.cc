@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "forward/colour_illuminance.h"
-#include "forward/transport.h"
+#include "forward/light/colour_illuminance.h"
+#include "forward/radiosity/transport.h"
 
 namespace luxfit {
 

@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "forward/luminaire.h"
-#include "forward/room.h"
+#include "forward/light/room.h"
+#include "forward/luminaire/luminaire.h"
 
 namespace luxfit {
 

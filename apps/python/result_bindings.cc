@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/artifact.h"
-#include "apps/commands.h"
-#include "apps/fit_uncertainty.h"
+#include "apps/commands/commands.h"
+#include "apps/export/fit_uncertainty.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "apps/suggest.h"
-#include "forward/threads.h"
+#include "apps/text/artifact.h"
+#include "apps/text/suggest.h"
+#include "forward/room/threads.h"
 
 namespace luxfit {
 namespace {

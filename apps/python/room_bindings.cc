@@ -6,14 +6,14 @@
 #include <memory>
 #include <optional>
 
-#include "apps/internal/session_scene.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/patch_light.h"
-#include "apps/suggest.h"
-#include "forward/illuminance.h"
-#include "forward/mesh_file.h"
-#include "forward/room.h"
+#include "apps/session/session_scene.h"
+#include "apps/text/suggest.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
+#include "forward/room/mesh_file.h"
 
 namespace luxfit {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "apps/earlier_result.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "apps/session.h"
+#include "apps/session/earlier_result.h"
+#include "apps/session/session.h"
 
 namespace luxfit {
 namespace {

@@ -5,12 +5,12 @@
 #include <optional>
 #include <utility>
 
-#include "apps/given_session.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/patch_light.h"
-#include "forward/choose_accuracy.h"
-#include "forward/threads.h"
+#include "apps/stages/given_session.h"
+#include "forward/light/choose_accuracy.h"
+#include "forward/room/threads.h"
 
 namespace luxfit {
 namespace {

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/light_data.h"
-#include "apps/prepared_session.h"
-#include "inverse/fit_luminaires.h"
+#include "apps/stages/internal/light_data.h"
+#include "apps/stages/prepared_session.h"
+#include "inverse/model/fit_luminaires.h"
 
 namespace luxfit {
 namespace {

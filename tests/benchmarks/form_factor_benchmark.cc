@@ -17,8 +17,8 @@
 #include <random>
 #include <vector>
 
-#include "forward/form_factors.h"
-#include "forward/mesh_file.h"
+#include "forward/factors/form_factors.h"
+#include "forward/room/mesh_file.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <random>
 
-#include "forward/direct_light.h"
-#include "forward/illuminance.h"
-#include "forward/mesh_file.h"
-#include "forward/room.h"
+#include "forward/direct/direct_light.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
+#include "forward/room/mesh_file.h"
 
 namespace luxfit {
 namespace {

@@ -21,11 +21,11 @@
 #include <random>
 #include <vector>
 
-#include "forward/choose_accuracy.h"
-#include "forward/hierarchical.h"
-#include "forward/light_tracer.h"
-#include "forward/room.h"
-#include "forward/shadowed_light.h"
+#include "forward/direct/internal/shadowed_light.h"
+#include "forward/light/choose_accuracy.h"
+#include "forward/light/light_tracer.h"
+#include "forward/light/room.h"
+#include "forward/radiosity/hierarchical.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

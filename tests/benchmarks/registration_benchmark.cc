@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-#include "calib/registration.h"
+#include "calib/register/registration.h"
 #include "tests/support/colmap_files.h"
 #include "tests/support/feature_room.h"
 

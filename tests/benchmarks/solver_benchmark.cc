@@ -12,11 +12,11 @@
 #include <functional>
 #include <map>
 
-#include "forward/dense_product.h"
-#include "forward/mesh_file.h"
-#include "forward/room.h"
-#include "forward/solvers.h"
-#include "forward/sparse_transport.h"
+#include "forward/factors/dense_product.h"
+#include "forward/light/room.h"
+#include "forward/radiosity/solvers.h"
+#include "forward/radiosity/sparse_transport.h"
+#include "forward/room/mesh_file.h"
 
 namespace luxfit {
 namespace {

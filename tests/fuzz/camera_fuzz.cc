@@ -14,8 +14,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "calib/camera_file.h"
-#include "calib/colmap_model.h"
+#include "calib/lens/camera_file.h"
+#include "calib/register/colmap_model.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "forward/ies_file.h"
+#include "forward/luminaire/internal/ies_file.h"
 #include "tests/fuzz/use_photometry.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "forward/photometry.h"
-#include "forward/photometry_file.h"
+#include "forward/luminaire/photometry.h"
+#include "forward/luminaire/photometry_file.h"
 
 namespace luxfit {
 

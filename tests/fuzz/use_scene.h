@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "forward/mesh_check.h"
-#include "forward/overlaps.h"
-#include "forward/patches.h"
-#include "forward/scene.h"
-#include "forward/visibility.h"
+#include "forward/room/mesh_check.h"
+#include "forward/room/overlaps.h"
+#include "forward/room/patches.h"
+#include "forward/room/scene.h"
+#include "forward/room/visibility.h"
 
 namespace luxfit {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/image.h"
+#include "calib/luminance/image.h"
 
 namespace luxfit::support {
 

@@ -11,9 +11,9 @@
 #include <random>
 #include <vector>
 
-#include "calib/board_drawing.h"
-#include "calib/camera.h"
-#include "calib/image.h"
+#include "calib/lens/camera.h"
+#include "calib/luminance/image.h"
+#include "calib/targets/board_drawing.h"
 #include "tests/support/blur.h"
 
 namespace luxfit::support {

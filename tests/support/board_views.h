@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/calibration_input.h"
-#include "calib/camera.h"
+#include "calib/calibrate/calibration_input.h"
+#include "calib/lens/camera.h"
 
 namespace luxfit::support {
 

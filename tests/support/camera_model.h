@@ -12,7 +12,7 @@
 #include <functional>
 #include <random>
 
-#include "calib/image.h"
+#include "calib/luminance/image.h"
 
 namespace luxfit::support {
 

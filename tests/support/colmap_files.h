@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "calib/colmap_cameras.h"
-#include "calib/colmap_model.h"
-#include "calib/feature_model.h"
+#include "calib/lens/colmap_cameras.h"
+#include "calib/register/colmap_model.h"
+#include "calib/register/feature_model.h"
 
 namespace luxfit::support {
 

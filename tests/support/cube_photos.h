@@ -10,8 +10,8 @@
 #include <cmath>
 #include <vector>
 
-#include "forward/room.h"
-#include "inverse/observe.h"
+#include "forward/light/room.h"
+#include "inverse/observe/observe.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 

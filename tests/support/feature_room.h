@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "calib/feature_model.h"
-#include "calib/registration.h"
-#include "calib/tags.h"
+#include "calib/register/feature_model.h"
+#include "calib/register/registration.h"
+#include "calib/targets/tags.h"
 #include "tests/support/look_at.h"
 #include "tests/support/office_camera.h"
 

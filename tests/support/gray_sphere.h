@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "calib/image.h"
-#include "calib/luminance.h"
-#include "inverse/mirror_sphere.h"
-#include "inverse/photometric_stereo.h"
+#include "calib/luminance/image.h"
+#include "calib/luminance/luminance.h"
+#include "inverse/albedo/mirror_sphere.h"
+#include "inverse/albedo/photometric_stereo.h"
 
 namespace luxfit::support {
 

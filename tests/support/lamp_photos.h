@@ -15,9 +15,9 @@
 #include <optional>
 #include <vector>
 
-#include "calib/camera.h"
-#include "calib/luminance.h"
-#include "inverse/observe.h"
+#include "calib/lens/camera.h"
+#include "calib/luminance/luminance.h"
+#include "inverse/observe/observe.h"
 
 namespace luxfit::support {
 

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "calib/camera.h"
+#include "calib/lens/camera.h"
 
 namespace luxfit {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "forward/luminaire.h"
-#include "forward/room.h"
+#include "forward/light/room.h"
+#include "forward/luminaire/luminaire.h"
 
 namespace luxfit::support {
 

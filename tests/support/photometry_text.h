@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "forward/photometry_file.h"
+#include "forward/luminaire/photometry_file.h"
 
 namespace luxfit::support {
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "inverse/light_model.h"
+#include "inverse/model/light_model.h"
 
 namespace luxfit::support {
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "forward/light_tracer.h"
-#include "inverse/light_model.h"
+#include "forward/light/light_tracer.h"
+#include "inverse/model/light_model.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit::support {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/scene.h"
+#include "forward/room/scene.h"
 
 namespace luxfit::support {
 

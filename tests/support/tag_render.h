@@ -10,9 +10,9 @@
 #include <random>
 #include <vector>
 
-#include "calib/camera.h"
-#include "calib/image.h"
-#include "calib/tags.h"
+#include "calib/lens/camera.h"
+#include "calib/luminance/image.h"
+#include "calib/targets/tags.h"
 
 namespace luxfit::support {
 

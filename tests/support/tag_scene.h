@@ -6,8 +6,8 @@
 #include <array>
 #include <random>
 
-#include "calib/camera.h"
-#include "calib/tags.h"
+#include "calib/lens/camera.h"
+#include "calib/targets/tags.h"
 
 namespace luxfit::support {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "forward/direct_light.h"
-#include "forward/photometry.h"
+#include "forward/direct/direct_light.h"
+#include "forward/luminaire/photometry.h"
 #include "tests/support/closed_forms.h"
 
 namespace luxfit::support {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "apps/session.h"
+#include "apps/session/session.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "forward/direct_light.h"
-#include "forward/illuminance.h"
-#include "forward/polygon_factor.h"
-#include "forward/room.h"
+#include "forward/direct/direct_light.h"
+#include "forward/factors/internal/polygon_factor.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "forward/illuminance.h"
-#include "forward/room.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "forward/direct_light.h"
-#include "forward/ies_file.h"
-#include "forward/illuminance.h"
-#include "forward/photometry.h"
-#include "forward/photometry_file.h"
-#include "forward/room.h"
-#include "forward/sensor.h"
+#include "forward/direct/direct_light.h"
+#include "forward/direct/sensor.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
+#include "forward/luminaire/internal/ies_file.h"
+#include "forward/luminaire/photometry.h"
+#include "forward/luminaire/photometry_file.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
@@ -64,7 +64,7 @@ TEST(LuminaireFlux, ABlackRoomReceivesAllOfIt) {
   const Eigen::VectorXd received_lm = light.total.cast<double>().transpose() * area_m2;
   for (size_t k = 0; k < luminaires.size(); ++k) {
     // Midpoint rule on elements of 0.1 m, 1.5 m away or more: (h / d)^2 / 24 = 0.02 %, times a curvature of a
-    // few; 0.1 % of the luminaire's own quadrature (forward/direct_light.h).
+    // few; 0.1 % of the luminaire's own quadrature (forward/direct/direct_light.h).
     EXPECT_NEAR(received_lm[static_cast<Eigen::Index>(k)], 1, 0.002) << luminaires[k].id;
   }
 }

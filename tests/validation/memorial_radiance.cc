@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/bracket.h"
-#include "calib/estimate_response.h"
+#include "calib/luminance/bracket.h"
+#include "calib/luminance/estimate_response.h"
 
 namespace {
 

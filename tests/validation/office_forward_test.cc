@@ -11,9 +11,9 @@
 #include <cstdio>
 #include <string>
 
-#include "forward/illuminance.h"
-#include "forward/mesh_file.h"
-#include "forward/room.h"
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
+#include "forward/room/mesh_file.h"
 #include "tests/support/office_truth.h"
 
 namespace luxfit {

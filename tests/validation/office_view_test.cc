@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "calib/camera_file.h"
-#include "calib/image.h"
-#include "calib/luminance.h"
-#include "forward/mesh_file.h"
-#include "forward/surface_view.h"
+#include "calib/lens/camera_file.h"
+#include "calib/luminance/image.h"
+#include "calib/luminance/luminance.h"
+#include "forward/room/mesh_file.h"
+#include "forward/views/surface_view.h"
 
 namespace luxfit {
 namespace {

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/line_chart_svg.h"
-#include "inverse/fit_luminaires.h"
-#include "inverse/simulated_light.h"
+#include "apps/charts/line_chart_svg.h"
+#include "inverse/model/fit_luminaires.h"
+#include "inverse/study/simulated_light.h"
 #include "tests/support/poster_room.h"
 #include "tests/support/study_options.h"
 

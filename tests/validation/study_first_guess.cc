@@ -18,12 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/artifact.h"
-#include "apps/light_data.h"
-#include "apps/line_chart_svg.h"
-#include "apps/prepared_session.h"
-#include "inverse/first_guess.h"
-#include "inverse/measured_indirect.h"
+#include "apps/charts/line_chart_svg.h"
+#include "apps/stages/internal/light_data.h"
+#include "apps/stages/prepared_session.h"
+#include "apps/text/artifact.h"
+#include "inverse/model/first_guess.h"
+#include "inverse/model/measured_indirect.h"
 #include "tests/support/study_options.h"
 
 namespace luxfit {

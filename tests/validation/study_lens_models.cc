@@ -19,10 +19,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/artifact.h"
-#include "apps/line_chart_svg.h"
-#include "calib/calibration.h"
-#include "calib/median.h"
+#include "apps/charts/line_chart_svg.h"
+#include "apps/text/artifact.h"
+#include "calib/calibrate/calibration.h"
+#include "calib/luminance/median.h"
 #include "tests/support/board_views.h"
 #include "tests/support/study_options.h"
 

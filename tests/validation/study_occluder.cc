@@ -18,10 +18,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/artifact.h"
-#include "forward/direct_light.h"
-#include "inverse/first_guess.h"
-#include "inverse/fit_luminaires.h"
+#include "apps/text/artifact.h"
+#include "forward/direct/direct_light.h"
+#include "inverse/model/first_guess.h"
+#include "inverse/model/fit_luminaires.h"
 #include "tests/support/partition_readings.h"
 #include "tests/support/plane_readings.h"
 #include "tests/support/study_options.h"

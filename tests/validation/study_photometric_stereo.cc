@@ -21,10 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "apps/line_chart_svg.h"
-#include "inverse/fit_luminaires.h"
-#include "inverse/patch_albedo.h"
-#include "inverse/photometric_stereo.h"
+#include "apps/charts/line_chart_svg.h"
+#include "inverse/albedo/patch_albedo.h"
+#include "inverse/albedo/photometric_stereo.h"
+#include "inverse/model/fit_luminaires.h"
 #include "tests/support/gray_sphere.h"
 #include "tests/support/poster_room.h"
 #include "tests/support/stereo_scene.h"

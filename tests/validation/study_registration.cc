@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/artifact.h"
-#include "apps/line_chart_svg.h"
-#include "calib/median.h"
-#include "calib/mesh_alignment.h"
-#include "calib/registration.h"
+#include "apps/charts/line_chart_svg.h"
+#include "apps/text/artifact.h"
+#include "calib/luminance/median.h"
+#include "calib/register/mesh_alignment.h"
+#include "calib/register/registration.h"
 #include "tests/support/feature_room.h"
 #include "tests/support/study_options.h"
 

@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/line_chart_svg.h"
-#include "calib/estimate_response.h"
+#include "apps/charts/line_chart_svg.h"
+#include "calib/luminance/estimate_response.h"
 #include "tests/support/camera_model.h"
 #include "tests/support/study_options.h"
 

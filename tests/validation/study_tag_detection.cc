@@ -17,12 +17,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/artifact.h"
-#include "apps/line_chart_svg.h"
-#include "calib/board.h"
-#include "calib/board_drawing.h"
-#include "calib/tag_refine.h"
-#include "calib/tags.h"
+#include "apps/charts/line_chart_svg.h"
+#include "apps/text/artifact.h"
+#include "calib/targets/board.h"
+#include "calib/targets/board_drawing.h"
+#include "calib/targets/tag_refine.h"
+#include "calib/targets/tags.h"
 #include "tests/support/board_render.h"
 #include "tests/support/study_options.h"
 #include "tests/support/tag_scene.h"

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "calib/camera.h"
-#include "calib/camera_file.h"
+#include "calib/lens/camera.h"
+#include "calib/lens/camera_file.h"
 
 int main() {
   luxfit::Camera camera;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "forward/direct_light.h"
-#include "forward/photometry_file.h"
-#include "forward/photometry_writer.h"
+#include "forward/direct/direct_light.h"
+#include "forward/luminaire/photometry_file.h"
+#include "forward/luminaire/photometry_writer.h"
 
 int main() {
   luxfit::Luminaire luminaire;

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "inverse/fit_luminaires.h"
-#include "inverse/luxmeter_check.h"
+#include "inverse/check/luxmeter_check.h"
+#include "inverse/model/fit_luminaires.h"
 
 int main() {
   const luxfit::LuxmeterSummary summary = luxfit::SummarizeLuxmeter({{100, 101, 0, 0}, {300, 303, 0, 0}});

@@ -1,0 +1,165 @@
+#include "apps/charts/chart_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/charts/chart_axis.h"
+#include "apps/charts/svg.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kWidthPx = 980, kHeightPx = 640;
+constexpr double kLeftPx = 76, kRightPx = 770, kTopPx = 64, kBottomPx = 570;
+constexpr double kLeastPercent = 1e-3;  // of a logarithmic axis: nothing is 0
+
+// A tenth of a decade free on either side.
+ChartAxis AxisFor(double least, double most, double from_px, double to_px) {
+  return {least / 1.3, most * 1.3, from_px, to_px, true};
+}
+
+struct Style {
+  const char* colour;
+  SvgMarkShape mark;
+};
+
+// Colours of Okabe and Ito, told apart with any colour vision; marks for those who see none.
+Style StyleOf(FormFactorMethod method) {
+  switch (method) {
+    case FormFactorMethod::kHybrid:
+      return {"#d55e00", SvgMarkShape::kDisc};
+    case FormFactorMethod::kAnalytic:
+      return {"#0072b2", SvgMarkShape::kSquare};
+    case FormFactorMethod::kMalley:
+      return {"#009e73", SvgMarkShape::kDiamond};
+    case FormFactorMethod::kMalleyStratified:
+      return {"#009e73", SvgMarkShape::kTriangle};
+    case FormFactorMethod::kIsocell:
+      return {"#56b4e9", SvgMarkShape::kDiamond};
+    case FormFactorMethod::kMonteCarlo:
+      return {"#cc79a7", SvgMarkShape::kCross};
+    case FormFactorMethod::kHemicube:
+      return {"#b09a00", SvgMarkShape::kSquare};
+    case FormFactorMethod::kSinglePlane:
+      return {"#888888", SvgMarkShape::kTriangle};
+    case FormFactorMethod::kWallace:
+      return {"#000000", SvgMarkShape::kCross};
+  }
+  return {"#000000", SvgMarkShape::kDisc};
+}
+
+std::string Mark(const Style& style, double x, double y, double r) {
+  return SvgMark(style.mark, style.colour, x, y, r);
+}
+
+std::string Axes(const ChartAxis& x, const ChartAxis& y) {
+  std::string text;
+  const std::string grid = " stroke=\"#e4e4e4\"", centred = " text-anchor=\"middle\"",
+                    right = " text-anchor=\"end\"";
+  for (const double value : x.Ticks())
+    text += SvgLine(x(value), kTopPx, x(value), kBottomPx, grid) +
+            SvgText(x(value), kBottomPx + 18, fmt::format("{:g}", value), centred);
+  for (const double value : y.Ticks())
+    text += SvgLine(kLeftPx, y(value), kRightPx, y(value), grid) +
+            SvgText(kLeftPx - 8, y(value) + 4, fmt::format("{:g}", value), right);
+  const std::string frame = " stroke=\"#333\"";
+  text += SvgLine(kLeftPx, kBottomPx, kRightPx, kBottomPx, frame) +
+          SvgLine(kLeftPx, kTopPx, kLeftPx, kBottomPx, frame);
+  text += SvgText((kLeftPx + kRightPx) / 2, kBottomPx + 44, "time for the whole prediction, s", centred);
+  const double middle = (kTopPx + kBottomPx) / 2;
+  text += SvgText(20, middle, "error of the illuminance, rms over sensors and luminaires, %",
+                  fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 20 {:.1f})\"", middle));
+  return text;
+}
+
+// Right and down: what each time buys.
+std::string Front(const std::vector<ChartPoint>& points, const ChartAxis& x, const ChartAxis& y) {
+  std::vector<ChartPoint> front;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(front),
+               [](const ChartPoint& p) { return p.on_front; });
+  if (front.empty()) return "";
+  std::sort(front.begin(), front.end(),
+            [](const ChartPoint& a, const ChartPoint& b) { return a.time_s < b.time_s; });
+  std::string path = fmt::format("M{:.1f} {:.1f}", x(front[0].time_s), y(front[0].error_percent));
+  for (const ChartPoint& point : front)
+    path += fmt::format("H{:.1f}V{:.1f}", x(point.time_s), y(point.error_percent));
+  path += fmt::format("H{:.1f}", kRightPx);
+  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
+}
+
+std::string Automatic(const ChartPoint& point, const ChartAxis& x, const ChartAxis& y) {
+  const double px = x(point.time_s), py = y(point.error_percent);
+  const std::string bounces = point.bounces ? fmt::format("{} bounces", *point.bounces) : "all bounces";
+  const std::string label = fmt::format("automatic: {} {:g} to {:g} m, {} rays, {}", ToString(point.method),
+                                        point.patch_size_m, point.element_size_m, point.rays, bounces);
+  const std::string figures = fmt::format("{:.2g} s, error {:.2g} %, estimated {:.2g} %", point.time_s,
+                                          point.error_percent, point.estimated_error_percent.value_or(0));
+  // At the lower left, under the front, where no point can lie.
+  const double tx = kLeftPx + 12, ty = kBottomPx - 34;
+  const std::string style =
+      " font-weight=\"bold\" stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\"";
+  return SvgCircle(px, py, 11, " fill=\"none\" stroke=\"#d00000\" stroke-width=\"2.5\"") +
+         SvgLine(px, py + 11, tx + 60, ty - 18, " stroke=\"#d00000\"") + SvgText(tx, ty - 4, label, style) +
+         SvgText(tx, ty + 13, figures, style);
+}
+
+std::string Legend(const Chart& chart) {
+  std::string text;
+  double y = kTopPx + 8;
+  const double x = kRightPx + 24;
+  for (const FormFactorMethod method : AllFormFactorMethods()) {
+    const bool shown = std::any_of(chart.points.begin(), chart.points.end(),
+                                   [&](const ChartPoint& p) { return p.method == method; });
+    if (!shown) continue;
+    text += Mark(StyleOf(method), x, y, 5) + SvgText(x + 14, y + 4, ToString(method));
+    y += 22;
+  }
+  text += Mark(StyleOf(chart.points.front().method), x, y, 2.5) + SvgText(x + 14, y + 4, "bounces, solvers");
+  text += SvgLine(x - 8, y + 22, x + 8, y + 22, " stroke=\"#333\" stroke-width=\"1.5\"") +
+          SvgText(x + 14, y + 26, "Pareto front");
+  text += SvgLine(x - 8, y + 44, x + 8, y + 44, " stroke=\"#777\" stroke-dasharray=\"5 4\"") +
+          SvgText(x + 14, y + 48, "noise of the reference");
+  text += SvgCircle(x, y + 66, 7, " fill=\"none\" stroke=\"#d00000\" stroke-width=\"2.5\"") +
+          SvgText(x + 14, y + 70, "automatic choice");
+  return text;
+}
+
+}  // namespace
+
+std::string ChartSvg(const Chart& chart, const std::string& title) {
+  if (chart.points.empty()) return "";
+  double least_s = 1e9, most_s = 0, least = chart.reference.sigma_percent, most = 0;
+  for (const ChartPoint& point : chart.points) {
+    least_s = std::min(least_s, point.time_s);
+    most_s = std::max(most_s, point.time_s);
+    least = std::min(least, point.error_percent);
+    most = std::max(most, point.error_percent);
+  }
+  least = std::max(least, kLeastPercent);
+  const ChartAxis x = AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kLeftPx, kRightPx);
+  constexpr double kRoomForLabel = 3;  // below the least error
+  const ChartAxis y = AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kBottomPx, kTopPx);
+  std::string body =
+      SvgText(kLeftPx, 26, title, " font-size=\"17\" font-weight=\"bold\"") +
+      SvgText(kLeftPx, 46,
+              fmt::format("each point one way to compute the same illuminance; reference: light "
+                          "tracer, {} paths a sensor, ± {:.2g} %",
+                          chart.reference.paths_per_sensor, chart.reference.sigma_percent),
+              " fill=\"#555\"") +
+      Axes(x, y);
+  const double floor = y(chart.reference.sigma_percent);
+  body += SvgLine(kLeftPx, floor, kRightPx, floor, " stroke=\"#777\" stroke-dasharray=\"5 4\"");
+  body += Front(chart.points, x, y);
+  for (const ChartPoint& point : chart.points) {
+    const bool small = point.factor == "bounces" || point.factor == "solver";
+    body += Mark(StyleOf(point.method), x(point.time_s), y(point.error_percent), small ? 2.5 : 4.5);
+  }
+  for (const ChartPoint& point : chart.points) {
+    if (point.automatic) body += Automatic(point, x, y);
+  }
+  return SvgDocument(kWidthPx, kHeightPx, body + Legend(chart));
+}
+
+}  // namespace luxfit

@@ -1,0 +1,139 @@
+#include "apps/charts/plan_svg.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/charts/svg.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kWidthPx = 900, kMarginPx = 30, kLegendPx = 56;
+
+// World metres to picture pixels, y upwards.
+struct Plan {
+  Eigen::AlignedBox3d box;
+  double scale = 1;
+  double X(double x) const { return kMarginPx + scale * (x - box.min().x()); }
+  double Y(double y) const { return kMarginPx + scale * (box.max().y() - y); }
+};
+
+std::string Outlines(const Plan& plan, const Scene& scene) {
+  std::string text;
+  for (const Facet& facet : scene.facets) {
+    // What faces up, furniture and floor; walls appear as the floor's edge.
+    if (facet.Normal().z() < 0.5) continue;
+    std::string points;
+    const bool triangle = facet.kind == FacetKind::kTriangle;
+    for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+      if (triangle && u + v > 1) continue;
+      const Eigen::Vector3d p = facet.PointAt(u, v);
+      points += fmt::format("{:.1f},{:.1f} ", plan.X(p.x()), plan.Y(p.y()));
+    }
+    text += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#888\"/>\n", points,
+                        facet.origin.z() < plan.box.min().z() + 0.01 ? "#f4f2ee" : "#e2d6c4");
+  }
+  return text;
+}
+
+std::string Cameras(const Plan& plan, const json& views) {
+  std::string text;
+  for (const json& view : views) {
+    const double x = plan.X(view["position_m"][0].get<double>()),
+                 y = plan.Y(view["position_m"][1].get<double>());
+    // Third column of the rotation: the viewing direction.
+    const double dx = view["R_scene_from_camera"][0][2].get<double>(),
+                 dy = view["R_scene_from_camera"][1][2].get<double>();
+    const double angle = std::atan2(-dy, dx), spread = 0.35, length = 34;
+    text += fmt::format(
+        "<path d=\"M{0:.1f} {1:.1f} L{2:.1f} {3:.1f} L{4:.1f} {5:.1f} Z\" fill=\"#3b6fb6\" "
+        "fill-opacity=\"0.25\" "
+        "stroke=\"#3b6fb6\"/>",
+        x, y, x + length * std::cos(angle - spread), y + length * std::sin(angle - spread),
+        x + length * std::cos(angle + spread), y + length * std::sin(angle + spread));
+    text += SvgText(x, y - 5, view["view"].get<std::string>(), " fill=\"#3b6fb6\"");
+  }
+  return text;
+}
+
+std::string Luminaires(const Plan& plan, const json& luminaires) {
+  std::string text;
+  for (const json& l : luminaires) {
+    const double x = plan.X(l["position_m"][0].get<double>()), y = plan.Y(l["position_m"][1].get<double>());
+    const json& size = l["size_m"];
+    const std::string style = " fill=\"#ffd84d\" stroke=\"#a67c00\" stroke-width=\"1.5\"";
+    if (l["shape"] == "rectangle") {
+      const double w = plan.scale * size[0].get<double>(), h = plan.scale * size[1].get<double>();
+      text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"{}/>\n",
+                          x - w / 2, y - h / 2, w, h, style);
+    } else {
+      const double radius = size.empty() ? 0 : 0.5 * plan.scale * size[0].get<double>();
+      text += SvgCircle(x, y, std::max(6.0, radius), style);
+    }
+    const std::string flux =
+        l["flux_lm"].is_number()
+            ? fmt::format("{:.0f} ± {:.0f} lm", l["flux_lm"].get<double>(), l["flux_sigma_lm"].get<double>())
+            : "flux undetermined";
+    text += SvgText(x + 8, y - 8, l["id"].get<std::string>() + ": " + flux, " font-weight=\"bold\"");
+  }
+  return text;
+}
+
+std::string LuxmeterPoints(const Plan& plan, const Session& session, const json& luxmeter) {
+  struct Point {
+    double x = 0, y = 0, worst_percent = 0;
+  };
+  std::map<std::string, Point> points;
+  for (size_t i = 0; i < session.luxmeter.readings.size() && i < luxmeter.size(); ++i) {
+    const SessionReading& reading = session.luxmeter.readings[i];
+    Point& point = points[reading.id];
+    point.x = plan.X(reading.position_m.x());
+    point.y = plan.Y(reading.position_m.y());
+    if (luxmeter[i]["predicted_lux"].is_number() && reading.illuminance_lx > 0) {
+      const double error = 100 * (luxmeter[i]["predicted_lux"].get<double>() / reading.illuminance_lx - 1);
+      if (std::abs(error) > std::abs(point.worst_percent)) point.worst_percent = error;
+    }
+  }
+  std::string text;
+  for (const auto& [id, point] : points) {
+    const double error = std::abs(point.worst_percent);
+    const char* colour = error < 2 ? "#2e8b57" : (error < 5 ? "#e08a00" : "#c62828");
+    const std::string fill = fmt::format(" fill=\"{}\"", colour);
+    text += SvgCircle(point.x, point.y, 5, fill);
+    text += SvgText(point.x + 8, point.y + 4, fmt::format("{} {:+.1f} %", id, point.worst_percent), fill);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string PlanSvg(const Session& session, const Scene& scene, const json& result) {
+  Plan plan;
+  plan.box = scene.Bounds();
+  if (plan.box.isEmpty()) return "";
+  plan.scale = (kWidthPx - 2 * kMarginPx) / plan.box.sizes().x();
+  const double height = plan.scale * plan.box.sizes().y() + 2 * kMarginPx;
+  const json& summary = result["summary"];
+  std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
+                     LuxmeterPoints(plan, session, result["luxmeter"]) +
+                     Luminaires(plan, result["luminaires"]);
+  text +=
+      SvgText(kMarginPx, height + 8,
+              fmt::format("{}: {:.1f} m x {:.1f} m. Yellow: fitted luminaires, ± 1 sigma. Blue: registered "
+                          "views.",
+                          session.name, plan.box.sizes().x(), plan.box.sizes().y()));
+  text += SvgText(
+      kMarginPx, height + 28,
+      fmt::format(
+          "Dots: luxmeter points with the worst error of their states (green below 2 %, orange below 5 "
+          "%); mean {:.2f} % over {} readings.",
+          summary["mean_abs_error_percent"].get<double>(), summary["readings_checked"].get<int>()));
+  return SvgDocument(kWidthPx, height + kLegendPx, text);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,165 @@
+#include "apps/commands/commands.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/commands/internal/room_run.h"
+#include "apps/session/earlier_result.h"
+#include "apps/stages/check_report.h"
+#include "apps/stages/prepared_session.h"
+#include "apps/stages/stage_calibrate.h"
+#include "apps/stages/stage_stereo.h"
+#include "apps/stages/stages.h"
+#include "apps/text/input_error.h"
+#include "apps/text/terminal.h"
+
+namespace luxfit {
+namespace {
+
+// The session of a command that asks for a room.
+Session ReadRoomSession(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  if (session.lights)
+    throw InputError({session.path, session.lights->line}, "lights",
+                     "expected the session of a room, got one of an object; run luxfit albedo on it");
+  return session;
+}
+
+// How much the fit of a session stands; exit status 1 where there is no fit to begin with.
+int ChartStability(const CommandOptions& options, const Session& session) {
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
+  PrintText(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/stability.csv").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int ChartWholeFit(const CommandOptions& options, const Session& session) {
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = FitChartOfSession(
+      session, {options.stability_options.elements, options.stability_options.truth_path}, context);
+  PrintText(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/fit.csv").c_str());
+  return 0;
+}
+
+}  // namespace
+
+int RunCommand(const CommandOptions& options) {
+  return RunRoom(ReadRoomSession(options), options, RoomRun::kAll);
+}
+
+int FitCommand(const CommandOptions& options) {
+  return RunRoom(ReadRoomSession(options), options, RoomRun::kFit);
+}
+
+int AlbedoCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  if (!session.lights) {
+    if (session.photos.empty())
+      throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
+    return RunRoom(std::move(session), options, RoomRun::kFitAndAlbedo);
+  }
+  RunContext context = MakeContext(options, session);
+  nlohmann::json result;
+  {
+    const StageTimer total(context, "total", "");
+    session = LinearizeSession(std::move(session), context);
+    result = StereoResultJson(session, StereoSession(session, context), context);
+  }
+  result["timing_s"] = context.timing_s;
+  WriteJson(context.out + "/result.json", result);
+  PrintText(options.json ? result.dump(2) + "\n" : StereoTable(result));
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"],
+               (context.out + "/result.json").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int SimulateCommand(const CommandOptions& options) {
+  const Session session = ReadRoomSession(options);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
+  PrintText(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/illuminance.csv").c_str());
+  return 0;
+}
+
+int ChartCommand(const CommandOptions& options) {
+  Session session = ReadRoomSession(options);
+  if (options.stability) return ChartStability(options, session);
+  if (options.whole_fit) return ChartWholeFit(options, session);
+  if (!options.earlier_result.empty()) session = WithResult(std::move(session), options.earlier_result);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact =
+      ChartSession(session, {options.error_percent, options.budget_s, options.threads}, context);
+  PrintText(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/chart.svg").c_str());
+  return 0;
+}
+
+int LinearizeCommand(const CommandOptions& options) {
+  Session session = ReadSession(options.session);
+  RunContext context = MakeContext(options, session);
+  if (session.photos.empty())
+    throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
+  session = LinearizeSession(std::move(session), context);
+  const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
+  PrintText(options.json ? artifact.dump(2) + "\n"
+                         : LinearizeTable(session, artifact) + WarningText(artifact));
+  return 0;
+}
+
+int CalibrateCommand(const CommandOptions& options) {
+  const Session session = ReadRoomSession(options);
+  RunContext context = MakeContext(options, session);
+  const nlohmann::json artifact = CalibrateSession(session, context);
+  PrintText(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
+  std::fprintf(stderr, "done      %s\n", (context.out + "/stages/calibrate.json").c_str());
+  return context.undetermined ? 1 : 0;
+}
+
+int RegisterCommand(const CommandOptions& options) {
+  Session session = ReadRoomSession(options);
+  RunContext context = MakeContext(options, session);
+  LoadRoom(session, context);
+  const SessionInputs inputs = InputsOfStages(session, "");
+  session = LinearizeKept(std::move(session), inputs, context);
+  RegisterKept(session, inputs, context);
+  nlohmann::json result = ReadJson(context.out + "/stages/register.json");
+  if (options.json) {
+    PrintText(result.dump(2) + "\n");
+    return context.undetermined ? 1 : 0;
+  }
+  for (const nlohmann::json& view : result["views"]) {
+    const nlohmann::json& sigma = view["position_sigma_m"];
+    std::printf("%-8s %d tags, reprojection RMS %.3f px, camera centre ± %.1f %.1f %.1f mm\n",
+                view["view"].get<std::string>().c_str(), view["tags_used"].get<int>(),
+                view["reprojection_rms_px"].get<double>(), 1e3 * sigma[0].get<double>(),
+                1e3 * sigma[1].get<double>(), 1e3 * sigma[2].get<double>());
+  }
+  nlohmann::json warnings;
+  warnings["warnings"] = nlohmann::json::array();
+  for (const Warning& w : context.warnings)
+    warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
+  PrintText(WarningText(warnings));
+  return context.undetermined ? 1 : 0;
+}
+
+int CheckCommand(const CommandOptions& options) {
+  const nlohmann::json result = ReadResult(options.out + "/result.json");
+  const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
+  if (options.json) {
+    PrintText(
+        nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}
+            .dump(2) +
+        "\n");
+  } else {
+    PrintText(LuxmeterTable(result) + CheckText(check));
+  }
+  return result["status"] == "done" ? 0 : 1;
+}
+
+}  // namespace luxfit

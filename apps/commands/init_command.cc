@@ -1,0 +1,199 @@
+#include "apps/commands/init_command.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+
+#include "apps/session/session.h"
+#include "apps/session/session_draft.h"
+#include "apps/session/tag_map.h"
+#include "apps/text/artifact.h"
+#include "apps/text/suggest.h"
+#include "apps/text/terminal.h"
+#include "calib/lens/camera_file.h"
+#include "calib/luminance/image.h"
+#include "calib/targets/tags.h"
+#include "forward/room/mesh_file.h"
+#include "inverse/check/survey_check.h"
+
+namespace luxfit {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kPhotosForTags = 8;  // looked at for tags
+
+std::string LowerExtension(const fs::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::vector<std::string> PhotosIn(const std::string& folder) {
+  const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".dng", ".cr2",
+                                         ".cr3", ".nef", ".arw",  ".raf", ".orf", ".rw2",  ".pef"};
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && endings.count(LowerExtension(entry.path())) > 0)
+      files.push_back(fs::relative(entry.path(), folder).string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty())
+    throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, RAW), found none");
+  return files;
+}
+
+// A room is some metres wide: the first unit in which it is.
+void GuessUnit(const Eigen::Vector3d& size, const std::vector<SurveyedTag>& survey, const Scene& scene,
+               SessionDraft& draft) {
+  const std::vector<std::pair<std::string, double>> units = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
+  std::vector<Eigen::Vector3d> centers;
+  centers.reserve(survey.size());
+  for (const SurveyedTag& tag : survey) centers.push_back(tag.center_in_world);
+  const SurveyCheck check = CheckSurvey(scene, centers, 1);
+  for (const auto& [unit, metres] : units) {
+    const double largest = size.maxCoeff() * metres;
+    const bool by_tags = !centers.empty() && (check.fits ? unit == "m" : unit == check.better_unit);
+    if (!by_tags && (!centers.empty() || largest > 50)) continue;
+    draft.unit = unit;
+    draft.unit_because = by_tags ? "the surveyed tags then lie on the mesh" : "a room is some metres wide";
+    draft.size_m = size * metres;
+    return;
+  }
+  draft.unit = "m";
+  draft.unit_because = "nothing tells";
+  draft.size_m = size;
+}
+
+void LookAtMesh(const InitCommandOptions& options, SessionDraft& draft) {
+  const Scene scene = ReadScene(options.mesh);
+  const std::vector<SurveyedTag> survey =
+      options.tags.empty() ? std::vector<SurveyedTag>{} : ReadTagMap(options.tags);
+  GuessUnit(scene.Bounds().sizes(), survey, scene, draft);
+  const double scale =
+      scene.Bounds().sizes().maxCoeff() > 0 ? draft.size_m.maxCoeff() / scene.Bounds().sizes().maxCoeff() : 1;
+  for (const Facet& facet : scene.facets)
+    draft.material_area_m2[scene.materials[static_cast<size_t>(facet.material)]] +=
+        facet.AreaM2() * scale * scale;
+}
+
+void LookAtPhotos(const InitCommandOptions& options, SessionDraft& draft) {
+  const PhotoNames names = GuessViewsAndStates(PhotosIn(options.photos));
+  draft.names_because = names.because;
+  draft.states = GuessStates(names);
+  draft.photos.resize(names.photos.size());
+  tbb::parallel_for(size_t{0}, names.photos.size(), [&](size_t i) {
+    const std::string path = (fs::path(options.photos) / names.photos[i].file).string();
+    const Photo photo = ReadPhoto(path);
+    draft.photos[i] = {names.photos[i],   ReadExposureMetadata(path), photo.width_px(),
+                       photo.height_px(), photo.bits_per_channel,     0};
+    draft.photos[i].name.file = fs::relative(path, options.out).string();
+  });
+  std::vector<std::pair<int, int>> sizes;
+  for (DraftPhoto& photo : draft.photos) {
+    const std::pair<int, int> size(photo.width_px, photo.height_px);
+    const auto known = std::find(sizes.begin(), sizes.end(), size);
+    photo.camera = static_cast<int>(known - sizes.begin());
+    if (known == sizes.end()) sizes.push_back(size);
+  }
+  draft.cameras = static_cast<int>(sizes.size());
+}
+
+// Files of intrinsics beside the photos, the mesh or the session, of the photos' size.
+void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
+  std::set<fs::path> folders = {fs::absolute(options.photos).lexically_normal(),
+                                fs::absolute(options.photos).lexically_normal().parent_path(),
+                                fs::absolute(options.mesh).parent_path(), fs::absolute(options.out)};
+  for (const fs::path& folder : folders) {
+    if (!fs::is_directory(folder)) continue;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string ending = LowerExtension(entry.path());
+      if (ending != ".yaml" && ending != ".yml" && ending != ".cameramodel" && ending != ".xml") continue;
+      try {
+        const Camera camera = ReadCamera(entry.path().string());
+        for (const DraftPhoto& photo : draft.photos) {
+          if (photo.width_px == camera.width_px && photo.height_px == camera.height_px)
+            draft.intrinsics[photo.camera] = fs::relative(entry.path(), options.out).string();
+        }
+      } catch (const std::runtime_error&) {
+        continue;  // another YAML
+      }
+    }
+  }
+}
+
+void LookForTags(const InitCommandOptions& options, SessionDraft& draft) {
+  std::set<int> seen;
+  draft.family = "tag36h11";
+  draft.family_because = "what `luxfit board tags` prints";
+  std::vector<std::string> files;
+  std::set<std::string> views;
+  for (const DraftPhoto& photo : draft.photos) {
+    if (files.size() < kPhotosForTags && views.insert(photo.name.view).second)
+      files.push_back((fs::path(options.out) / photo.name.file).string());
+  }
+  for (const std::string family : {"tag36h11", "tagStandard41h12", "tag25h9", "tag16h5"}) {
+    for (const std::string& file : files) {
+      DetectTagsOptions detect;
+      detect.family = family;
+      for (const TagDetection& tag : DetectTags(ReadPhoto(file).rgb_counts[1], detect)) seen.insert(tag.id);
+    }
+    if (seen.empty()) continue;
+    draft.family = family;
+    draft.family_because =
+        fmt::format("{} of them are seen in {} photos that were looked at", seen.size(), files.size());
+    break;
+  }
+  draft.seen_tags.assign(seen.begin(), seen.end());
+}
+
+void ExpectNew(const std::string& folder) {
+  for (const char* name : {"session.toml", "photos.csv", "luxmeter.csv"}) {
+    if (fs::exists(fs::path(folder) / name))
+      throw std::runtime_error(
+          (fs::path(folder) / name).string() +
+          ": expected a new file, found one; init writes over nothing: give another folder by -o");
+  }
+}
+
+}  // namespace
+
+int InitCommand(const InitCommandOptions& options) {
+  if (!fs::is_directory(options.photos))
+    throw std::runtime_error("--photos: expected a folder, got " + Quoted(options.photos));
+  ExpectNew(options.out);
+  fs::create_directories(options.out);
+  SessionDraft draft;
+  draft.name = fs::absolute(options.out).lexically_normal().filename().string();
+  if (draft.name.empty())
+    draft.name = fs::absolute(options.out).lexically_normal().parent_path().filename().string();
+  draft.mesh = fs::relative(options.mesh, options.out).string();
+  draft.tags = options.tags.empty() ? "" : fs::relative(options.tags, options.out).string();
+  LookAtMesh(options, draft);
+  LookAtPhotos(options, draft);
+  LookForIntrinsics(options, draft);
+  LookForTags(options, draft);
+  const fs::path folder(options.out);
+  WriteText((folder / "photos.csv").string(), PhotoTable(draft));
+  WriteText((folder / "luxmeter.csv").string(), ReadingsTemplate());
+  WriteText((folder / "session.toml").string(), SessionText(draft));
+  const std::vector<std::string> to_do = ToDo(draft);
+  std::string text =
+      fmt::format("{}: {} photos, {} states, {} materials, tags {}\n", (folder / "session.toml").string(),
+                  draft.photos.size(), draft.states.size(), draft.material_area_m2.size(),
+                  draft.seen_tags.empty() ? "none seen" : fmt::format("{}", fmt::join(draft.seen_tags, " ")));
+  text += "check the lines that end in GUESS; then:\n";
+  for (const std::string& item : to_do) text += "- " + item + "\n";
+  if (options.json)
+    text = nlohmann::json{{"session", (folder / "session.toml").string()}, {"to_do", to_do}}.dump(2) + "\n";
+  PrintText(text);
+  return 0;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,208 @@
+#include "apps/commands/internal/examine_session.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "apps/stages/stages.h"
+#include "apps/text/file_stem.h"
+#include "apps/text/suggest.h"
+#include "calib/lens/camera_file.h"
+#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/image.h"
+#include "calib/targets/tags.h"
+
+namespace luxfit {
+namespace {
+
+constexpr int kNamedFiles = 3;
+
+using Findings = std::vector<DoctorFinding>;
+
+void ExamineMesh(const Session& session, Findings& findings) {
+  if (!session.scene) {
+    findings.push_back(
+        {Health::kNote, "no [scene]: all light is taken as direct", "give the mesh of the room"});
+    return;
+  }
+  try {
+    const LoadedMesh mesh = LoadMesh(session);
+    const Eigen::Vector3d size = mesh.scene.Bounds().sizes();
+    findings.push_back(
+        {Health::kGood,
+         fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials", size.x(), size.y(),
+                     size.z(), mesh.scene.facets.size(), mesh.scene.materials.size()),
+         ""});
+    for (const MeshFinding& finding : mesh.findings) {
+      if (finding.affects_light)
+        findings.push_back({Health::kNote, finding.message + "; " + finding.effect, finding.remedy});
+    }
+  } catch (const std::runtime_error& e) {
+    findings.push_back({Health::kBad, e.what(), ""});
+  }
+}
+
+struct LookedAt {
+  std::string problem, mend;
+  std::vector<int> tags;
+};
+
+LookedAt LookAt(const Session& session, const SessionPhoto& photo, const std::optional<Camera>& camera,
+                bool for_tags) {
+  LookedAt look;
+  try {
+    const Photo counts = ReadPhoto(photo.file);
+    const SessionCamera& settings = session.cameras[static_cast<size_t>(photo.camera)];
+    if (counts.bits_per_channel == 8 && settings.response == "linear") {
+      look.problem = "has 8 bits, camera " + Quoted(settings.id) + " is declared linear";
+      look.mend = "give 16-bit or RAW photos, or response = \"estimate\" with brackets of three exposures";
+    } else if (camera && (counts.width_px() != camera->width_px || counts.height_px() != camera->height_px)) {
+      look.problem = fmt::format("is {} x {}, the intrinsics are of {} x {}", counts.width_px(),
+                                 counts.height_px(), camera->width_px, camera->height_px);
+      look.mend = "give the intrinsics of this resolution";
+    } else if (!(photo.exposure_s > 0) && !ReadExposureMetadata(photo.file).exposure_s) {
+      look.problem = "has no exposure, in the table or of its own";
+      look.mend = "fill in exposure_s";
+    }
+    if (!for_tags) return look;
+    DetectTagsOptions options;
+    options.family = session.tags.family;
+    for (const TagDetection& tag : DetectTags(counts.rgb_counts[1], options)) look.tags.push_back(tag.id);
+  } catch (const std::runtime_error& e) {
+    look.problem = e.what();
+  }
+  return look;
+}
+
+void ExamineTags(const Session& session, const std::map<std::string, std::vector<int>>& tags_of_view,
+                 Findings& findings) {
+  std::vector<std::string> without;
+  std::set<int> unknown;
+  for (const auto& [view, tags] : tags_of_view) {
+    bool has_surveyed = false;
+    for (const int id : tags) {
+      const bool is_surveyed = std::any_of(session.tags.survey.begin(), session.tags.survey.end(),
+                                           [&](const SurveyedTag& tag) { return tag.id == id; });
+      has_surveyed = has_surveyed || is_surveyed || session.tags.survey.empty();
+      if (!is_surveyed && !session.tags.survey.empty()) unknown.insert(id);
+    }
+    if (!has_surveyed) without.push_back(view);
+  }
+  if (without.size() < tags_of_view.size())
+    findings.push_back(
+        {Health::kGood,
+         fmt::format("{} of {} views show tags", tags_of_view.size() - without.size(), tags_of_view.size()),
+         ""});
+  if (!without.empty())
+    findings.push_back(
+        {without.size() == tags_of_view.size() ? Health::kBad : Health::kNote,
+         "no surveyed tag is seen in " + ListNames(without),
+         "hang one there, 40 pixels a side and more, or let COLMAP place these views by features"});
+  if (!unknown.empty())
+    findings.push_back({Health::kNote,
+                        fmt::format("tags {} are seen and not in the map", fmt::join(unknown, " ")),
+                        "survey them too"});
+}
+
+void ExaminePhotos(const Session& session, Findings& findings) {
+  if (session.photos.empty()) {
+    findings.push_back({Health::kNote, "no [photos]: the fit is to readings alone", ""});
+    return;
+  }
+  std::vector<std::optional<Camera>> cameras;
+  for (const SessionCamera& camera : session.cameras)
+    cameras.push_back(camera.intrinsics.empty() ? std::nullopt
+                                                : std::optional(ReadCamera(camera.intrinsics, camera.id)));
+  std::set<std::string> views;
+  std::vector<bool> for_tags;
+  for (const SessionPhoto& photo : session.photos) for_tags.push_back(views.insert(photo.view).second);
+  std::vector<LookedAt> looks(session.photos.size());
+  tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
+    const SessionPhoto& photo = session.photos[i];
+    looks[i] = LookAt(session, photo, cameras[static_cast<size_t>(photo.camera)], for_tags[i]);
+  });
+  std::map<std::string, std::vector<int>> tags_of_view;
+  size_t problems = 0;
+  std::map<std::pair<std::string, std::string>, std::vector<std::string>> files_of_problem;
+  for (size_t i = 0; i < looks.size(); ++i) {
+    if (for_tags[i]) tags_of_view[session.photos[i].view] = looks[i].tags;
+    if (looks[i].problem.empty()) continue;
+    ++problems;
+    files_of_problem[{looks[i].problem, looks[i].mend}].push_back(FileName(session.photos[i].file));
+  }
+  for (const auto& [problem, files] : files_of_problem)
+    findings.push_back({Health::kBad, ListNames(files, kNamedFiles) + ": " + problem.first, problem.second});
+  findings.push_back({problems == 0 ? Health::kGood : Health::kNote,
+                      fmt::format("{} of {} photos can be used, {} views", looks.size() - problems,
+                                  looks.size(), views.size()),
+                      ""});
+  ExamineTags(session, tags_of_view, findings);
+}
+
+// States that tell luminaires apart: as many independent ones as there are luminaires.
+void ExamineStates(const Session& session, Findings& findings) {
+  if (session.luminaires.empty()) return;
+  Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(session.states.size()),
+                                                  static_cast<Eigen::Index>(session.luminaires.size()));
+  for (size_t s = 0; s < session.states.size(); ++s) {
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = session.states[s].dimming.find(session.luminaires[k].id);
+      if (on != session.states[s].dimming.end())
+        dimming(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(k)) = on->second;
+    }
+  }
+  const Eigen::Index rank = dimming.fullPivLu().rank();
+  if (rank == dimming.cols()) {
+    findings.push_back(
+        {Health::kGood, fmt::format("{} states tell {} luminaires apart", session.states.size(), rank), ""});
+  } else {
+    findings.push_back({Health::kNote,
+                        fmt::format("{} luminaires, {} independent states: some are always on together",
+                                    dimming.cols(), rank),
+                        "photograph each alone, or give position_m of those"});
+  }
+}
+
+void ExamineReadings(const Session& session, Findings& findings) {
+  const auto& readings = session.luxmeter.readings;
+  const auto count = [&](ReadingRole role) {
+    return std::count_if(readings.begin(), readings.end(),
+                         [&](const SessionReading& r) { return r.role == role && r.is_measured; });
+  };
+  const bool has_flux = std::any_of(session.luminaires.begin(), session.luminaires.end(),
+                                    [](const SessionLuminaire& l) { return l.flux_lm.has_value(); });
+  const bool has_camera = std::any_of(session.cameras.begin(), session.cameras.end(),
+                                      [](const SessionCamera& c) { return c.cdm2_per_count_s > 0; });
+  if (count(ReadingRole::kScale) + count(ReadingRole::kFit) > 0 || has_flux || has_camera) {
+    findings.push_back(
+        {Health::kGood,
+         fmt::format("{} readings, {} of them only check", readings.size(), count(ReadingRole::kCheck)), ""});
+  } else {
+    findings.push_back({Health::kNote, "nothing fixes the absolute scale: fluxes will be relative",
+                        "name one reading in luxmeter.scale, or give one flux_lm with flux_sigma_lm"});
+  }
+  if (count(ReadingRole::kCheck) == 0)
+    findings.push_back(
+        {Health::kNote, "no reading is left to check the result", "read the meter at a few more places"});
+}
+
+}  // namespace
+
+std::vector<DoctorFinding> ExamineSession(const Session& session) {
+  Findings findings;
+  ExamineMesh(session, findings);
+  ExaminePhotos(session, findings);
+  if (!session.lights) {
+    ExamineStates(session, findings);
+    ExamineReadings(session, findings);
+  }
+  return findings;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,18 @@
+// What a session lacks, told without running it: mesh, photos, tags, states, readings.
+//
+// Looks at every photo once, for its size, depth and exposure, and at one of each view for tags.
+#ifndef LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
+#define LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
+
+#include <vector>
+
+#include "apps/commands/doctor_command.h"
+#include "apps/session/session.h"
+
+namespace luxfit {
+
+std::vector<DoctorFinding> ExamineSession(const Session& session);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_

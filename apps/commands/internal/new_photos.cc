@@ -1,0 +1,185 @@
+#include "apps/commands/internal/new_photos.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "apps/session/session_files.h"
+#include "apps/stages/view_tags.h"
+#include "apps/text/csv_table.h"
+#include "apps/text/input_error.h"
+#include "apps/text/suggest.h"
+
+namespace luxfit {
+namespace {
+
+// The states of the new photos: one a photo or bracket, so that no two are taken for exposures of one.
+constexpr char kNewState[] = "(new) ";
+
+struct Row {
+  std::string file, camera, view, time;
+  double exposure_s = 0;
+  std::optional<double> f_number, iso;
+  SourcePlace place;
+};
+
+std::optional<double> Optional(const CsvTable& table, const CsvRow& row, const std::string& column) {
+  if (!HasColumn(table, column) || CsvText(table, row, column).empty()) return std::nullopt;
+  const double value = CsvNumber(table, row, column);
+  if (!(value > 0))
+    throw CsvError(table, row, column, "expected > 0, got " + CsvText(table, row, column) + "; correct it");
+  return value;
+}
+
+std::vector<Row> RowsOfTable(const std::string& path) {
+  const CsvTable table =
+      ReadCsvTable(path, {{"file", "camera", "view"}, {"exposure_s", "time", "aperture", "iso"}});
+  const std::string folder = std::filesystem::absolute(path).parent_path().string();
+  std::vector<Row> rows;
+  for (const CsvRow& row : table.rows) {
+    const SourcePlace place{path, row.line};
+    Row read{AbsolutePath(FindFile(place, "file", folder, CsvText(table, row, "file"))),
+             CsvText(table, row, "camera"),
+             CsvText(table, row, "view"),
+             HasColumn(table, "time") ? CsvText(table, row, "time") : "",
+             Optional(table, row, "exposure_s").value_or(0),
+             Optional(table, row, "aperture"),
+             Optional(table, row, "iso"),
+             place};
+    rows.push_back(std::move(read));
+  }
+  return rows;
+}
+
+std::vector<Row> RowsOf(const LuxmapCommandOptions& options) {
+  if (options.photos.empty())
+    throw std::runtime_error("PHOTO: expected photos or a table of them, got nothing; name at least one");
+  if (options.photos.size() == 1 && ExtensionOf(options.photos[0]) == ".csv")
+    return RowsOfTable(options.photos[0]);
+  std::vector<Row> rows;
+  for (const std::string& file : options.photos)
+    rows.push_back({AbsolutePath(FindFile({file, 0}, "", "", file)),
+                    options.camera,
+                    options.view,
+                    "",
+                    options.exposure_s,
+                    std::nullopt,
+                    std::nullopt,
+                    {file, 0}});
+  return rows;
+}
+
+int CameraOf(const Session& session, const Row& row) {
+  std::vector<std::string> ids;
+  for (const SessionCamera& camera : session.cameras) ids.push_back(camera.id);
+  if (row.camera.empty() && ids.size() == 1) return 0;
+  const auto at = std::find(ids.begin(), ids.end(), row.camera);
+  if (at == ids.end()) throw InputError(row.place, "camera", ExpectedOneOf(ids, row.camera));
+  return static_cast<int>(at - ids.begin());
+}
+
+const RegisteredView& ViewOf(const FittedRoom& fitted, const Row& row) {
+  std::vector<std::string> names;
+  for (const RegisteredView& view : fitted.registered.registration.views) {
+    if (view.view == row.view) return view;
+    names.push_back(view.view);
+  }
+  if (row.view.empty())
+    throw InputError(row.place, "view",
+                     "expected the view from which the photo was taken, got nothing; give --view, one of " +
+                         ListNames(names) + ", or --pose tags");
+  throw InputError(row.place, "view", ExpectedOneOf(names, row.view));
+}
+
+// The response that the run estimated, which new photos need not determine again.
+void KeepResponses(const FittedRoom& fitted, Session& session) {
+  for (SessionCamera& camera : session.cameras) {
+    if (camera.response != "estimate") continue;
+    camera.response = "file";
+    camera.response_path = fitted.out + "/response_" + camera.id + ".csv";
+  }
+}
+
+// The session with its first photo of each camera, to which exposures are relative, and the new ones.
+Session WithRows(const FittedRoom& fitted, const std::vector<Row>& rows, bool pose_from_tags) {
+  Session session = fitted.session;
+  session.photos.clear();
+  for (size_t c = 0; c < session.cameras.size(); ++c) {
+    const auto first =
+        std::find_if(fitted.session.photos.begin(), fitted.session.photos.end(),
+                     [&](const SessionPhoto& p) { return static_cast<size_t>(p.camera) == c; });
+    if (first != fitted.session.photos.end()) session.photos.push_back(*first);
+  }
+  std::map<std::string, double> all_on;
+  for (const Luminaire& luminaire : fitted.luminaires) all_on[luminaire.id] = 1;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    SessionPhoto photo;
+    photo.file = row.file;
+    photo.camera = CameraOf(session, row);
+    photo.state = kNewState + (row.time.empty() ? std::to_string(i) : row.time);
+    photo.view = row.view;
+    if (pose_from_tags && photo.view.empty()) photo.view = photo.state;
+    photo.exposure_s = row.exposure_s;
+    photo.f_number = row.f_number;
+    photo.iso = row.iso;
+    photo.line = row.place.line;
+    session.photos.push_back(photo);
+    const auto known = std::find_if(session.states.begin(), session.states.end(),
+                                    [&](const SessionState& s) { return s.id == photo.state; });
+    if (known == session.states.end()) session.states.push_back({photo.state, all_on});
+  }
+  KeepResponses(fitted, session);
+  return session;
+}
+
+bool IsNew(const SessionPhoto& photo) { return photo.state.rfind(kNewState, 0) == 0; }
+
+// Poses by the room's tags, which hang where the run had them.
+std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, Session session,
+                                                     RunContext& context) {
+  session.photos.erase(std::remove_if(session.photos.begin(), session.photos.end(),
+                                      [](const SessionPhoto& p) { return !IsNew(p); }),
+                       session.photos.end());
+  const std::vector<SurveyedTag>& tags =
+      session.tags.survey.empty() ? fitted.registered.registration.placed_tags : session.tags.survey;
+  if (tags.empty())
+    throw std::runtime_error("--pose tags: expected a session with tags, got one without; give --view");
+  const std::vector<Camera>& cameras = fitted.registered.cameras;
+  const Registration registration =
+      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session), context));
+  for (const RegistrationNote& note : registration.notes)
+    context.warnings.push_back({note.code, note.message, note.remedy});
+  std::map<std::string, Eigen::Isometry3d> poses;
+  for (const RegisteredView& view : registration.views) poses[view.view] = view.cam_from_world;
+  return poses;
+}
+
+}  // namespace
+
+NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& options, RunContext& context) {
+  const std::vector<Row> rows = RowsOf(options);
+  std::map<std::string, Eigen::Isometry3d> poses;
+  for (const Row& row : rows) {
+    if (!options.pose_from_tags) poses[row.view] = ViewOf(fitted, row).cam_from_world;
+  }
+  std::map<std::string, std::string> time_of;
+  for (const Row& row : rows) time_of[row.file] = row.time;
+  NewPhotos read;
+  read.session = LinearizeSession(WithRows(fitted, rows, options.pose_from_tags), context);
+  if (options.pose_from_tags) poses = PosesByTags(fitted, read.session, context);
+  for (const SessionPhoto& photo : read.session.photos) {
+    if (!IsNew(photo)) continue;
+    const auto pose = poses.find(photo.view);
+    if (pose == poses.end()) {
+      context.undetermined = true;
+      continue;
+    }
+    read.photos.push_back({photo, time_of[photo.file], pose->second});
+  }
+  return read;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,33 @@
+// Photos taken after a run, as photos of its session: camera, pose, exposure.
+//
+// Rows of a table that share view and time are an exposure bracket. ISO and aperture count against those of
+// the session's first photo of the camera, as in the run. A response that the run estimated is that of its
+// OUT/response_CAMERA.csv.
+//
+// Throws std::runtime_error("FILE:LINE: column: ...") or naming the flag.
+#ifndef LUXFIT_APPS_COMMANDS_INTERNAL_NEW_PHOTOS_H_
+#define LUXFIT_APPS_COMMANDS_INTERNAL_NEW_PHOTOS_H_
+
+#include <string>
+#include <vector>
+
+#include "apps/commands/luxmap_command.h"
+#include "apps/export/fitted_room.h"
+
+namespace luxfit {
+
+struct NewPhoto {
+  SessionPhoto photo;  // linearized
+  std::string time;    // as given; empty: not given
+  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+};
+struct NewPhotos {
+  Session session;  // linearized, with the new photos
+  std::vector<NewPhoto> photos;
+};
+// `context` takes warnings; photos whose pose the tags do not determine are left out with one.
+NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& options, RunContext& context);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_COMMANDS_INTERNAL_NEW_PHOTOS_H_

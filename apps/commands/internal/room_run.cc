@@ -1,0 +1,142 @@
+#include "apps/commands/internal/room_run.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "apps/charts/plan_svg.h"
+#include "apps/commands/internal/run_plan.h"
+#include "apps/export/fitted_room.h"
+#include "apps/export/luminaire_files.h"
+#include "apps/report/report.h"
+#include "apps/session/earlier_result.h"
+#include "apps/stages/count_luminaires.h"
+#include "apps/stages/prepared_session.h"
+#include "apps/stages/stage_albedo.h"
+#include "apps/stages/stage_cache.h"
+#include "apps/text/artifact.h"
+#include "apps/text/terminal.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+// The run's own files count as inputs of what it left: one that was changed or removed is made again.
+StageInputs WithOutputs(StageInputs inputs, const std::string& out) {
+  for (const char* name : {"result.json", "plan.svg"}) {
+    const std::string path = out + "/" + name;
+    inputs[name] = std::filesystem::exists(path) ? HashFile(path) : "";
+  }
+  return inputs;
+}
+
+int Show(const json& result, const CommandOptions& options, RoomRun what) {
+  const std::string text =
+      options.json ? result.dump(2) + "\n"
+                   : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
+  if (options.prints) PrintText(text);
+  return result.at("status") == "done" ? 0 : 1;
+}
+
+struct RoomResult {
+  json result;
+  std::string plan_svg;
+  RegisteredSession registered;
+  Room room;
+};
+
+RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
+  const StageTimer total(context, "total", "");
+  PreparedSession prepared = PrepareSession(std::move(session), inputs, context);
+  session = WithCountedLuminaires(std::move(prepared.session), prepared.room, prepared.observations, context);
+  const SessionFit fit = FitSession(session, prepared.room, {prepared.observations, prepared.seen}, context);
+  const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
+  json result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
+  if (what == RoomRun::kFitAndAlbedo) {
+    const json albedo = AlbedoOfRoom(session, prepared.room, fit, result, context);
+    result = WithAlbedo(std::move(result), albedo, context);
+  }
+  std::string plan_svg = PlanSvg(session, prepared.room.scene, result);
+  return {std::move(result), std::move(plan_svg), std::move(prepared.registered), std::move(prepared.room)};
+}
+
+// What the stages of the last run into a folder took; nothing where there was none.
+std::map<std::string, double> LastTimes(const std::string& out) {
+  std::map<std::string, double> times_s;
+  try {
+    const json result = ReadResult(out + "/result.json");
+    for (const auto& [stage, time_s] : result.at("timing_s").items()) times_s[stage] = time_s.get<double>();
+  } catch (const std::exception&) {
+    times_s.clear();  // a first run, or a folder of something else
+  }
+  return times_s;
+}
+
+// The page on what was found. Seconds that it took.
+double MakeReport(const RunContext& context, const std::function<FittedRoom()>& fitted_room) {
+  RunContext own;
+  own.expected_s = context.expected_s;
+  {
+    const StageTimer timer(own, "report", context.out + "/report.html");
+    const FittedRoom fitted = fitted_room();
+    WriteReport(fitted, ReportData(fitted, {"", "", context.provenance.command_line}));
+  }
+  return own.timing_s.at("report");
+}
+
+}  // namespace
+
+RunContext MakeContext(const CommandOptions& options, const Session& session) {
+  RunContext context;
+  context.out = std::filesystem::absolute(options.out).lexically_normal().string();
+  context.provenance = {options.command_line, session.input_files};
+  context.expected_s = LastTimes(context.out);
+  return context;
+}
+
+int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
+  SessionInputs inputs = InputsOfStages(session, options.earlier_luminaires);
+  inputs.result["what is asked for"] = what == RoomRun::kFitAndAlbedo ? "albedo" : "fit";
+  RunContext context = MakeContext(options, session);
+  const std::string path = context.out + "/result.json";
+  const RunPlan plan = PlanOf(inputs, WithOutputs(inputs.result, context.out), context.out);
+  if (options.dry_run) {
+    PrintText(options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan));
+    return 0;
+  }
+  // A fit without luminaires has no report, and its warnings say why.
+  const auto has_report = [&](const json& result) {
+    return what == RoomRun::kAll && !result.at("luminaires").empty();
+  };
+  if (plan.is_up_to_date && !options.fresh) {
+    std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",
+                 path.c_str());
+    const json result = ReadResult(path);
+    if (has_report(result) && !std::filesystem::exists(context.out + "/report.html"))
+      MakeReport(context, [&] { return ReadFittedRoom(context.out); });
+    return Show(result, options, what);
+  }
+  if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
+  if (!options.earlier_luminaires.empty())
+    session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
+  RoomResult made = FitRoom(std::move(session), inputs, what, context);
+  made.result["timing_s"] = context.timing_s;
+  made.result["reused_stages"] = context.reused_stages;
+  if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);
+  WriteJson(path, made.result);
+  double report_s = 0;
+  if (has_report(made.result)) {
+    report_s = MakeReport(
+        context, [&] { return FittedRoomOf(context.out, std::move(made.registered), std::move(made.room)); });
+  }
+  KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
+  const int status = Show(made.result, options, what);
+  std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"] + report_s,
+               report_s > 0 ? (context.out + "/report.html").c_str() : path.c_str());
+  return status;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/stages/stages.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+std::string Number(const json& value, const char* format) {
+  return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "-";
+}
+
+std::string PlusMinus(const json& value, const json& sigma, const char* format) {
+  return Number(value, format) + " ± " + Number(sigma, format);
+}
+
+std::string Interval(const json& reading) {
+  if (!reading.contains("interval95_lux")) return "-";
+  const json& interval = reading["interval95_lux"];
+  return Number(interval[0], "{:.2f}") + " to " + Number(interval[1], "{:.2f}");
+}
+
+std::string SizeText(const json& size) {
+  std::string text;
+  for (const json& side : size) text += (text.empty() ? "" : " x ") + Number(side, "{:.2f}");
+  return text.empty() ? "" : text + " m";
+}
+
+std::string LuminaireTable(const json& result) {
+  std::string text =
+      "\nluminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n";
+  for (const json& l : result["luminaires"]) {
+    const json &p = l["position_m"], &s = l["position_sigma_m"];
+    std::string lobe = l["photometry"].get<std::string>();
+    if (l.contains("cosine_exponent")) lobe += " " + Number(l["cosine_exponent"], "{:.2f}");
+    text += fmt::format("{:<10} {:6.3f} {:6.3f} {:6.3f}  ± {:.1f} {:.1f} {:.1f}{:<12} {:<17} {} {} {}\n",
+                        l["id"].get<std::string>(), p[0].get<double>(), p[1].get<double>(),
+                        p[2].get<double>(), 1e3 * s[0].get<double>(), 1e3 * s[1].get<double>(),
+                        1e3 * s[2].get<double>(), "", PlusMinus(l["flux_lm"], l["flux_sigma_lm"], "{:.0f}"),
+                        lobe, l["shape"].get<std::string>(), SizeText(l["size_m"]));
+  }
+  return text;
+}
+
+std::string MaterialTable(const json& result) {
+  std::string text = "\nmaterial         albedo            source\n";
+  for (const json& m : result["materials"]) {
+    text += fmt::format("{:<16} {:<18} {}\n", m["name"].get<std::string>(),
+                        m["albedo"].is_null() ? "-" : PlusMinus(m["albedo"], m["sigma"], "{:.4f}"),
+                        m["source"].get<std::string>());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string LuxmeterTable(const json& result) {
+  std::string text =
+      "\nreading      state        measured lx   predicted lx       95 % interval       error %     z  "
+      "role\n";
+  for (const json& r : result["luxmeter"]) {
+    const bool both = r["measured_lux"].is_number() && r["predicted_lux"].is_number();
+    const double measured = both ? r["measured_lux"].get<double>() : 0;
+    const std::string error =
+        measured > 0 ? fmt::format("{:+.2f}", 100 * (r["predicted_lux"].get<double>() / measured - 1)) : "-";
+    text += fmt::format("{:<12} {:<10} {:>12}   {:<18} {:<19} {:>7} {:>5}  {}\n", r["id"].get<std::string>(),
+                        r["state"].get<std::string>(), Number(r["measured_lux"], "{:.2f}"),
+                        PlusMinus(r["predicted_lux"], r["sigma_lux"], "{:.2f}"), Interval(r), error,
+                        r.contains("z") ? Number(r["z"], "{:.1f}") : "-", r["role"].get<std::string>());
+  }
+  const json& s = result["summary"];
+  text += fmt::format(
+      "checked {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest {:.2f} %\n",
+      s["readings_checked"].get<int>(), s["mean_abs_error_lux"].get<double>(),
+      s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
+  return text;
+}
+
+std::string SimulationTable(const json& artifact) {
+  std::string text = fmt::format("session {}: simulated\n", artifact["session"].get<std::string>());
+  text += "\nreading      state               lx      direct    indirect  measured lx  error %\n";
+  for (const json& r : artifact["luxmeter"]) {
+    const double predicted = r["predicted_lux"].get<double>();
+    const double measured = r["measured_lux"].is_number() ? r["measured_lux"].get<double>() : 0;
+    text +=
+        fmt::format("{:<12} {:<10} {:>11.2f} {:>11.2f} {:>11.2f} {:>12} {:>8}\n", r["id"].get<std::string>(),
+                    r["state"].get<std::string>(), predicted, r["direct_lux"].get<double>(),
+                    r["indirect_lux"].get<double>(), Number(r["measured_lux"], "{:.2f}"),
+                    measured > 0 ? fmt::format("{:+.2f}", 100 * (predicted / measured - 1)) : "-");
+  }
+  const json& s = artifact["summary"];
+  if (s["readings_checked"].get<int>() > 0) {
+    text += fmt::format(
+        "compared with {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest "
+        "{:.2f} %\n",
+        s["readings_checked"].get<int>(), s["mean_abs_error_lux"].get<double>(),
+        s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
+  }
+  return text + WarningText(artifact);
+}
+
+std::string LinearizeTable(const Session& session, const json& artifact) {
+  std::string text =
+      fmt::format("session {}: {} views and states\n", session.name, artifact["photos"].size());
+  for (const json& camera : artifact["cameras"]) {
+    text += fmt::format("camera {}: response {}", camera["camera"].get<std::string>(),
+                        camera["response"].get<std::string>());
+    if (camera.contains("file")) text += fmt::format(", written to {}", camera["file"].get<std::string>());
+    text += "\n";
+  }
+  for (const json& choice : artifact["choices"])
+    text += fmt::format("{}: {} ({})\n", choice["what"].get<std::string>(),
+                        choice["chosen"].get<std::string>(), choice["because"].get<std::string>());
+  for (const json& gain : artifact["exposure_gains"])
+    text += fmt::format("{:<40} exposure x {:.4f} +- {:.4f}\n", gain["file"].get<std::string>(),
+                        gain["factor"].get<double>(), gain["relative_sigma"].get<double>());
+  return text;
+}
+
+std::string WarningText(const json& result) {
+  std::string text;
+  for (const json& w : result["warnings"]) {
+    text += fmt::format("warning: {}\n         remedy: {}\n", w["message"].get<std::string>(),
+                        w["remedy"].get<std::string>());
+  }
+  return text.empty() ? text : "\n" + text;
+}
+
+std::string ResultTables(const json& result) {
+  std::string text = fmt::format("session {}: {}\n", result["session"].get<std::string>(),
+                                 result["status"].get<std::string>());
+  if (!result["views"].empty()) {
+    text += fmt::format("{} views registered, reprojection RMS {:.3f} px\n", result["views"].size(),
+                        result["reprojection_rms_px"].get<double>());
+  }
+  text += LuminaireTable(result);
+  if (!result["materials"].empty()) text += MaterialTable(result);
+  // Hundreds of readings would bury the rest; `luxfit check` lists them all.
+  constexpr size_t kMaxReadings = 64;
+  if (!result["luxmeter"].empty() && result["luxmeter"].size() <= kMaxReadings) text += LuxmeterTable(result);
+  return text + WarningText(result);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,174 @@
+#include "apps/export/fitted_room.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "apps/session/earlier_result.h"
+#include "apps/stages/given_session.h"
+#include "apps/stages/registration_json.h"
+#include "apps/text/artifact.h"
+#include "apps/text/input_error.h"
+#include "apps/text/suggest.h"
+#include "forward/light/illuminance.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+std::string SessionPathOf(const json& result, const std::string& given, const std::string& result_path) {
+  if (!given.empty()) return given;
+  std::string path = result.value("session_file", "");
+  if (path.empty())
+    throw InputError(
+        {result_path, 0}, "session_file",
+        "expected the path of the session, got nothing; run `luxfit run` again, or give --session");
+  if (!std::filesystem::exists(path))
+    throw InputError(
+        {result_path, 0}, "session_file",
+        "expected " + path + " to be there still, found none; give --session FILE where it is now");
+  return path;
+}
+
+// A mesh or session that changed since describes another room than the result.
+void ExpectSameRoom(const json& result, const Session& session, const std::string& result_path) {
+  for (const std::string& file : {session.path, session.scene ? session.scene->mesh : session.path}) {
+    const auto known = result.at("inputs").find(file);
+    if (known == result.at("inputs").end() || *known == HashFile(file)) continue;
+    throw InputError(
+        {result_path, 0}, "inputs",
+        "expected " + file + " as it was in the run, but it has changed; run `luxfit run` again");
+  }
+}
+
+void KeepFound(const json& result, Session& session) {
+  const auto is_found = [&](const SessionLuminaire& l) {
+    return std::any_of(result.at("luminaires").begin(), result.at("luminaires").end(),
+                       [&](const json& entry) { return entry.at("id") == l.id; });
+  };
+  session.luminaires.erase(std::remove_if(session.luminaires.begin(), session.luminaires.end(),
+                                          [&](const SessionLuminaire& l) { return !is_found(l); }),
+                           session.luminaires.end());
+}
+
+Eigen::VectorXd AlbedoOf(const json& result, const Scene& scene) {
+  Eigen::VectorXd albedo = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(scene.materials.size()));
+  for (const json& material : result.at("materials")) {
+    const auto at = std::find(scene.materials.begin(), scene.materials.end(), material.at("name"));
+    if (at != scene.materials.end()) albedo[at - scene.materials.begin()] = material.at("albedo_in_model");
+  }
+  return albedo;
+}
+
+// Receivers x luminaires, lx.
+PlaceLight LightOf(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                   const Eigen::VectorXd& albedo) {
+  const Illuminance light =
+      ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, luminaires), luminaires, albedo);
+  PlaceLight at{light.total.cast<double>(), light.direct.cast<double>()};
+  for (size_t k = 0; k < luminaires.size(); ++k) {
+    at.total_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
+    at.direct_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
+  }
+  return at;
+}
+
+PlaceLight LightOfElements(const Room& room, const std::vector<Luminaire>& luminaires,
+                           const Eigen::VectorXd& albedo) {
+  std::vector<int> elements(room.patches.elements.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  return LightOf(room, MakeReceivers(room, elements, {}), luminaires, albedo);
+}
+
+Session FittedSession(const json& result, const std::string& given, const std::string& path) {
+  if (result.at("luminaires").empty())
+    throw InputError({path, 0}, "luminaires",
+                     "expected the luminaires of a fit, got none; its warnings say what the data lack");
+  Session session = ReadSession(SessionPathOf(result, given, path));
+  ExpectSameRoom(result, session, path);
+  if (session.count_is_estimated)
+    session = WithMoreLuminaires(std::move(session), static_cast<int>(result.at("luminaires").size()));
+  session = WithResult(std::move(session), path, FluxUnit::kAny);
+  KeepFound(result, session);
+  return session;
+}
+
+FittedRoom Assemble(const std::string& out, const json& result, Session session, RegisteredSession registered,
+                    Room room) {
+  RunContext context;
+  context.is_quiet = true;
+  std::vector<Luminaire> luminaires = GivenLuminaires(session, "report", context);
+  Eigen::VectorXd albedo = AlbedoOf(result, room.scene);
+  PlaceLight light = LightOfElements(room, luminaires, albedo);
+  return {out,
+          std::make_shared<const json>(result),
+          std::move(session),
+          std::move(registered),
+          std::move(room),
+          std::move(luminaires),
+          std::move(albedo),
+          result.at("luminaires").at(0).at("flux_lm").is_number(),
+          result.value("camera_scale", 0.0),
+          std::move(light.total_lx),
+          std::move(light.direct_lx)};
+}
+
+template <typename Make>
+FittedRoom WithResultOf(const std::string& out, const Make& make) {
+  const json result = ReadResult(out + "/result.json");
+  try {
+    return make(result);
+  } catch (const json::exception& e) {
+    throw InputError(
+        {out + "/result.json", 0}, "",
+        std::string("expected a whole result of this version; run `luxfit run` again; ") + e.what());
+  }
+}
+
+}  // namespace
+
+FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path) {
+  const std::string folder = std::filesystem::absolute(out).lexically_normal().string();
+  return WithResultOf(folder, [&](const json& result) {
+    Session session = FittedSession(result, session_path, folder + "/result.json");
+    RegisteredSession registered;
+    if (!result.at("views").empty())
+      registered = RegistrationFromJson(ReadJson(folder + "/stages/register.json"));
+    RunContext context;
+    context.is_quiet = true;
+    Room room = LoadRoom(session, context);
+    return Assemble(folder, result, std::move(session), std::move(registered), std::move(room));
+  });
+}
+
+FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room) {
+  return WithResultOf(out, [&](const json& result) {
+    return Assemble(out, result, FittedSession(result, "", out + "/result.json"), std::move(registered),
+                    std::move(room));
+  });
+}
+
+PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors, int rays_per_sensor) {
+  return LightOf(fitted.room, MakeReceivers(fitted.room, {}, sensors, rays_per_sensor), fitted.luminaires,
+                 fitted.albedo);
+}
+
+Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state) {
+  std::vector<std::string> known;
+  for (const SessionState& s : fitted.session.states) {
+    known.push_back(s.id);
+    if (s.id != state) continue;
+    Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fitted.luminaires.size()));
+    for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
+      const auto on = s.dimming.find(fitted.luminaires[k].id);
+      if (on != s.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
+    }
+    return dimming;
+  }
+  throw std::runtime_error(fitted.session.path + ": states: " + ExpectedOneOf(known, state));
+}
+
+}  // namespace luxfit

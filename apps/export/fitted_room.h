@@ -1,0 +1,63 @@
+// A room with the light that an earlier run found in it: what report, exports, luxmap, commission and dim
+// use.
+//
+// Read from OUT (result.json, stages/register.json) and the session that it was made from. Geometry, patches
+// and reflectances are those of the fit, luminaires those it found, so that what is predicted here is what
+// the result predicts. Light is one column a luminaire, fully on by itself: states and dimming are sums of
+// columns.
+//
+//   E_e(state) = sum_k d_k(state) element_lx(e, k)
+//
+// Where the fit has no absolute scale (`is_absolute` false) fluxes and illuminances are relative, in the unit
+// of result.json's flux_relative.
+//
+// Throws std::runtime_error naming the file: no result of luxfit, one without luminaires, a session that is
+// no longer there or no longer that of the result.
+#ifndef LUXFIT_APPS_EXPORT_FITTED_ROOM_H_
+#define LUXFIT_APPS_EXPORT_FITTED_ROOM_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/session/session.h"
+#include "apps/stages/stages.h"
+#include "forward/light/room.h"
+
+namespace luxfit {
+
+struct FittedRoom {
+  std::string out;                               // absolute path of the folder
+  std::shared_ptr<const nlohmann::json> result;  // result.json
+  Session session;                               // as written; its luminaires are those the fit found
+  RegisteredSession registered;                  // empty: a fit to readings alone
+  Room room;
+  std::vector<Luminaire> luminaires;
+  Eigen::VectorXd albedo;             // by material of the room, as the fit took it
+  bool is_absolute = true;            // lm and lx
+  double camera_scale = 0;            // relative luminance per cd/m2; 0: not known
+  Eigen::MatrixXd element_lx;         // elements x luminaires
+  Eigen::MatrixXd element_direct_lx;  // the direct part
+};
+
+// `session_path` in place of the one that result.json names; empty: that one.
+FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "");
+
+// Of a run that holds its room still and has written its result into `out`, an absolute path.
+FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);
+
+// At any places, sensors x luminaires, lx; indirect light by so many rays a place.
+struct PlaceLight {
+  Eigen::MatrixXd total_lx, direct_lx;
+};
+PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors,
+                   int rays_per_sensor = kSensorRays);
+
+// Dimming of the luminaires in a state of the session. Throws std::runtime_error naming the known states.
+Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_EXPORT_FITTED_ROOM_H_

@@ -1,0 +1,137 @@
+#include "apps/report/report.h"
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "apps/report/report_page.h"
+#include "apps/report/report_room.h"
+#include "apps/report/report_views.h"
+#include "apps/text/artifact.h"
+#include "apps/version.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+std::string NowUtc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts)};
+}
+
+json StatesJson(const FittedRoom& fitted) {
+  json states = json::array();
+  for (const SessionState& state : fitted.session.states) {
+    const Eigen::VectorXd dimming = DimmingOf(fitted, state.id);
+    states.push_back({{"id", state.id}, {"dimming", std::vector<double>(dimming.begin(), dimming.end())}});
+  }
+  return states;
+}
+
+// Under what conditions it was measured.
+json ConditionsJson(const FittedRoom& fitted) {
+  const Session& session = fitted.session;
+  json photos = json::array();
+  for (const SessionPhoto& photo : session.photos)
+    photos.push_back({{"view", photo.view},
+                      {"state", photo.state},
+                      {"camera", session.cameras[static_cast<size_t>(photo.camera)].id},
+                      {"exposure_s", photo.exposure_s}});
+  json cameras = json::array();
+  for (size_t c = 0; c < session.cameras.size(); ++c) {
+    const SessionCamera& camera = session.cameras[c];
+    json entry = {{"id", camera.id}, {"response", camera.response}, {"vignetting", camera.vignetting}};
+    if (c < fitted.registered.cameras.size())
+      entry["size_px"] = {fitted.registered.cameras[c].width_px, fitted.registered.cameras[c].height_px};
+    cameras.push_back(entry);
+  }
+  double largest_ambient_lx = 0;
+  bool has_ambient = false;
+  for (const SessionReading& reading : session.luxmeter.readings) {
+    largest_ambient_lx = std::max(largest_ambient_lx, reading.ambient_lx);
+    has_ambient = has_ambient || reading.ambient_lx > 0;
+  }
+  return {{"photos", photos},
+          {"cameras", cameras},
+          {"meter_class", session.luxmeter.meter_class},
+          {"sensitivity",
+           session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
+          {"ambient_lx", has_ambient ? json(largest_ambient_lx) : json()},
+          {"mesh", session.scene ? json(session.scene->mesh) : json()},
+          {"unit", session.scene ? json(session.scene->unit) : json()},
+          {"tags", session.tags.survey.size()},
+          {"tag_family", session.tags.family}};
+}
+
+json TasksJson() {
+  json tasks = json::array();
+  for (const LightingTask& task : LightingTasks())
+    tasks.push_back({{"key", task.key},
+                     {"name", task.name},
+                     {"average_lx", task.average_lx},
+                     {"uniformity", task.uniformity},
+                     {"ugr", task.ugr}});
+  return tasks;
+}
+
+}  // namespace
+
+std::string BrightestState(const FittedRoom& fitted) {
+  std::string brightest;
+  double largest = -1;
+  for (const SessionState& state : fitted.session.states) {
+    const Eigen::VectorXd dimming = DimmingOf(fitted, state.id);
+    double flux = 0;
+    for (size_t k = 0; k < fitted.luminaires.size(); ++k)
+      flux += dimming[static_cast<Eigen::Index>(k)] * fitted.luminaires[k].flux_lm;
+    if (flux <= largest) continue;
+    largest = flux;
+    brightest = state.id;
+  }
+  return brightest;
+}
+
+json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
+  const ReportTargets targets =
+      options.targets_path.empty() ? DefaultTargets(fitted.room.scene) : ReadTargets(options.targets_path);
+  const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
+  DimmingOf(fitted, state);  // names the known ones where it is not one
+  json data = {{"format", "luxfit-report-1"},    {"luxfit_version", kVersion},        {"date", NowUtc()},
+               {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
+  data["result"] = *fitted.result;
+  data["states"] = StatesJson(fitted);
+  data["luminaires"] = ReportLuminairesJson(fitted);
+  data["room"] = ReportRoomJson(fitted);
+  data["cameras"] = ReportCamerasJson(fitted);
+  data["tags"] = ReportTagsJson(fitted);
+  data["places"] = PlacesJson(fitted, PlacesOf(fitted, targets));
+  data["views"] = ReportViewsJson(fitted);
+  data["conditions"] = ConditionsJson(fitted);
+  data["tasks"] = TasksJson();
+  data["targets"] = {{"path", targets.path}, {"toml", TargetsToml(targets)}};
+  data["command"] = options.command_line;
+  return data;
+}
+
+json ReportSummary(const json& data) {
+  json summary = {
+      {"session", data.at("session")}, {"state", data.at("state")}, {"is_absolute", data.at("is_absolute")},
+      {"states", json::array()},       {"areas", json::array()},    {"observers", json::array()}};
+  for (const json& state : data.at("states")) summary["states"].push_back(state.at("id"));
+  for (const json& plane : data.at("places").at("planes"))
+    summary["areas"].push_back({{"id", plane.at("id")}, {"statistics", plane.at("statistics")}});
+  for (const json& observer : data.at("places").at("observers"))
+    summary["observers"].push_back({{"id", observer.at("id")}, {"ugr", observer.at("rating")}});
+  return summary;
+}
+
+std::string WriteReport(const FittedRoom& fitted, const json& data) {
+  std::string path = fitted.out + "/report.html";
+  WriteText(path, ReportPage(fitted.session.name, data));
+  return path;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,37 @@
+// The report of a run: OUT/report.html, one file that opens from disk with no network.
+//
+// The light is that of the fitted room (apps/export/fitted_room.h): one column a luminaire, so that the page's
+// sliders recombine it. docs/report.md says what each part means.
+#ifndef LUXFIT_APPS_REPORT_REPORT_H_
+#define LUXFIT_APPS_REPORT_REPORT_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "apps/export/fitted_room.h"
+#include "apps/report/report_places.h"
+#include "apps/session/report_targets.h"
+
+namespace luxfit {
+
+struct ReportOptions {
+  std::string targets_path;  // empty: DefaultTargets
+  std::string state;         // shown first, and of the photos; empty: the brightest
+  std::string command_line;
+};
+
+// The state of the session in which the luminaires give the most light.
+std::string BrightestState(const FittedRoom& fitted);
+
+// All that the page holds. Throws std::runtime_error for targets or a state that do not read.
+nlohmann::json ReportData(const FittedRoom& fitted, const ReportOptions& options);
+
+// Of that: the states, the statistics of the areas and the ratings of the observers by state.
+nlohmann::json ReportSummary(const nlohmann::json& data);
+
+// Writes OUT/report.html and returns its path.
+std::string WriteReport(const FittedRoom& fitted, const nlohmann::json& data);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_REPORT_REPORT_H_

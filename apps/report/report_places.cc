@@ -1,0 +1,256 @@
+#include "apps/report/report_places.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/export/fit_uncertainty.h"
+#include "apps/text/base64.h"
+#include "apps/text/json_vectors.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+// Odd, so that the standard's points are among the fine ones.
+void Refine(const FittedRoom& fitted, ReportPlane& plane) {
+  constexpr Eigen::Index kMaxFinePoints = 800;
+  for (Eigen::Index side = 3; side * side * plane.grid.points.cols() <= kMaxFinePoints; side += 2)
+    plane.refined = static_cast<int>(side);
+  plane.fine_grid =
+      GridOf(plane.plane, plane.refined * plane.grid.count_u, plane.refined * plane.grid.count_v);
+  plane.fine_kinds = ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);
+}
+
+// One call for all planes: the luminaires' shadows are looked for once.
+void LightFinePoints(const FittedRoom& fitted, std::vector<ReportPlane>& planes) {
+  constexpr int kRays = 2048;
+  std::vector<Sensor> sensors;
+  for (const ReportPlane& plane : planes) {
+    sensors.reserve(sensors.size() + static_cast<size_t>(plane.fine_grid.points.cols()));
+    for (const auto& point : plane.fine_grid.points.colwise())
+      sensors.push_back({point, plane.fine_grid.normal, {}});
+  }
+  if (sensors.empty()) return;
+  const Eigen::MatrixXd total_lx = LightAt(fitted, sensors, kRays).total_lx;
+  Eigen::Index first = 0;
+  for (ReportPlane& plane : planes) {
+    plane.fine_lx = total_lx.middleRows(first, plane.fine_grid.points.cols());
+    first += plane.fine_grid.points.cols();
+  }
+}
+
+std::vector<ReportPlane> PlanesOf(const FittedRoom& fitted, const std::vector<TargetArea>& areas) {
+  std::vector<ReportPlane> planes;
+  for (const TargetArea& area : areas) {
+    ReportPlane plane;
+    plane.area = area;
+    if (area.plane) {
+      plane.plane = *area.plane;
+    } else {
+      const std::optional<IlluminancePlane> floor =
+          FloorPlane(fitted.room.scene, area.height_m, area.margin_m);
+      if (!area.polygon_m.empty()) {
+        const auto whole = FloorPlane(fitted.room.scene, area.height_m, 0);
+        plane.plane = PlaneOverOutline(area.polygon_m, whole ? whole->origin.z() : area.height_m);
+      } else if (floor) {
+        plane.plane = *floor;
+      } else {
+        continue;
+      }
+    }
+    plane.plane.spacing_m = area.spacing_m;
+    plane.grid = GridOf(plane.plane);
+    plane.kinds = ClassifyPoints(fitted.room, plane.grid, area.polygon_m, !area.plane);
+    Refine(fitted, plane);
+    planes.push_back(std::move(plane));
+  }
+  return planes;
+}
+
+std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
+                                        const std::vector<TargetObserver>& targets) {
+  std::vector<ReportObserver> observers;
+  for (const TargetObserver& target : targets) {
+    ReportObserver observer{target, false, {}, 0};
+    PlaneGrid eye;
+    eye.normal = target.looking;
+    eye.points = target.eye_m;
+    observer.is_inside = ClassifyPoints(fitted.room, eye, {}, false).front() == GridPointKind::kInSolid;
+    for (const Luminaire& luminaire : fitted.luminaires)
+      observer.sources.push_back(GlareOf(fitted.room.rays, luminaire, {target.eye_m, target.looking}));
+    observers.push_back(std::move(observer));
+  }
+  return observers;
+}
+
+// The vertical plane at the eye: a meter that looks where the observer looks.
+Sensor EyeOf(const TargetObserver& target) { return {target.eye_m, target.looking, {}}; }
+
+// A file's or a table's numbers, not those of a page: rows of a place are its luminaires.
+json LightJson(const PredictedPlaces& light, Eigen::Index first, Eigen::Index count) {
+  const Eigen::Index lamps = light.total_lx.cols();
+  json block = {{"total", Base64Floats(light.total_lx.middleRows(first, count))}};
+  block["modes"] = light.factor.cols();
+  if (light.factor.size() > 0)
+    block["factor"] = Base64Floats(light.factor.middleRows(first * lamps, count * lamps));
+  return block;
+}
+
+json OptionalJson(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
+json StatisticsJson(const PlaneStatistics& s, bool has_sigma) {
+  json entry = {{"points", s.points},         {"average_lx", s.average_lx}, {"least_lx", s.least_lx},
+                {"largest_lx", s.largest_lx}, {"uniformity", s.uniformity}, {"diversity", s.diversity}};
+  entry["average_sigma_lx"] = has_sigma ? json(s.average_sigma_lx) : json();
+  entry["least_sigma_lx"] = has_sigma ? json(s.least_sigma_lx) : json();
+  entry["uniformity_sigma"] = has_sigma ? json(s.uniformity_sigma) : json();
+  return entry;
+}
+
+json KindsJson(const std::vector<GridPointKind>& kinds) {
+  json list = json::array();
+  for (const GridPointKind kind : kinds) list.push_back(static_cast<int>(kind));
+  return list;
+}
+
+json PlaneJson(const FittedRoom& fitted, const ReportPlaces& places, const ReportPlane& plane) {
+  json entry = {{"id", plane.area.id},
+                {"task", plane.area.task},
+                {"average_lx", OptionalJson(plane.area.average_lx)},
+                {"uniformity", OptionalJson(plane.area.uniformity)},
+                {"ugr", OptionalJson(plane.area.ugr)},
+                {"origin_m", VectorJson(plane.plane.origin)},
+                {"edge_u_m", VectorJson(plane.plane.edge_u)},
+                {"edge_v_m", VectorJson(plane.plane.edge_v)},
+                {"normal", VectorJson(plane.grid.normal)},
+                {"count_u", plane.grid.count_u},
+                {"count_v", plane.grid.count_v},
+                {"light", LightJson(places.light, plane.first_place, plane.grid.points.cols())},
+                {"statistics", json::array()}};
+  entry["kinds"] = KindsJson(plane.kinds);
+  entry["fine"] = {{"refined", plane.refined},
+                   {"kinds", KindsJson(plane.fine_kinds)},
+                   {"total", Base64Floats(plane.fine_lx)}};
+  for (const SessionState& state : fitted.session.states)
+    entry["statistics"].push_back(StatisticsJson(StatisticsUnder(places, plane, DimmingOf(fitted, state.id)),
+                                                 places.light.factor.size() > 0));
+  return entry;
+}
+
+json ObserverJson(const FittedRoom& fitted, const ReportPlaces& places, const ReportObserver& observer) {
+  json entry = {{"id", observer.target.id},
+                {"eye_m", VectorJson(observer.target.eye_m)},
+                {"looking", VectorJson(observer.target.looking)},
+                {"ugr", OptionalJson(observer.target.ugr)},
+                {"is_inside", observer.is_inside},
+                {"sources", json::array()},
+                {"rating", json::array()}};
+  const Eigen::RowVectorXd indirect =
+      places.light.total_lx.row(observer.place) - places.light.direct_lx.row(observer.place);
+  entry["indirect_lx"] = VectorJson(indirect.transpose());
+  for (const GlareSource& source : observer.sources)
+    entry["sources"].push_back({{"is_defined", source.is_defined},
+                                {"sum", source.sum},
+                                {"solid_angle_sr", source.solid_angle_sr},
+                                {"luminance_cd_m2", source.luminance_cd_m2},
+                                {"least_index", source.least_index}});
+  for (const SessionState& state : fitted.session.states) {
+    const double rating = GlareUnder(places, observer, DimmingOf(fitted, state.id));
+    entry["rating"].push_back(std::isfinite(rating) ? json(rating) : json());
+  }
+  return entry;
+}
+
+}  // namespace
+
+ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
+  ReportPlaces places;
+  places.readings = PlacesOfReadings(fitted.session);
+  std::vector<Sensor> sensors = places.readings.sensors;
+  if (!fitted.room.scene.facets.empty()) {
+    places.planes = PlanesOf(fitted, targets.areas);
+    LightFinePoints(fitted, places.planes);
+    places.observers = ObserversOf(fitted, targets.observers);
+  }
+  for (ReportPlane& plane : places.planes) {
+    plane.first_place = static_cast<Eigen::Index>(sensors.size());
+    sensors.reserve(sensors.size() + static_cast<size_t>(plane.grid.points.cols()));
+    for (const auto& point : plane.grid.points.colwise()) sensors.push_back({point, plane.grid.normal, {}});
+  }
+  for (ReportObserver& observer : places.observers) {
+    observer.place = static_cast<Eigen::Index>(sensors.size());
+    sensors.push_back(EyeOf(observer.target));
+  }
+  const FitUncertainty fit = ReadFitUncertainty(fitted.out);
+  places.relative_model_error = fit.relative_model_sigma;
+  places.undetermined = fit.undetermined;
+  places.light = PredictPlaces(
+      fitted.room, fitted.luminaires, fitted.albedo, sensors,
+      fit.covariance.size() > 0 ? NamedCovariance{fit.parameters, fit.covariance} : NamedCovariance{});
+  // Sigmas would be confident where a parameter is not known at all.
+  if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
+  return places;
+}
+
+Eigen::VectorXd IlluminanceUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming,
+                                 Eigen::Index first, Eigen::Index count) {
+  return light.total_lx.middleRows(first, count) * dimming;
+}
+
+Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming, Eigen::Index first,
+                            Eigen::Index count) {
+  if (light.factor.size() == 0) return {};
+  const Eigen::Index lamps = dimming.size();
+  Eigen::MatrixXd factor(count, light.factor.cols());
+  for (Eigen::Index i = 0; i < count; ++i)
+    factor.row(i) = dimming.transpose() * light.factor.middleRows((first + i) * lamps, lamps);
+  return factor;
+}
+
+PlaneStatistics StatisticsUnder(const ReportPlaces& places, const ReportPlane& plane,
+                                const Eigen::VectorXd& dimming) {
+  const Eigen::Index count = plane.grid.points.cols();
+  std::vector<bool> counts;
+  counts.reserve(plane.kinds.size());
+  for (const GridPointKind kind : plane.kinds) counts.push_back(kind == GridPointKind::kCounts);
+  return StatisticsOf(IlluminanceUnder(places.light, dimming, plane.first_place, count), counts,
+                      FactorUnder(places.light, dimming, plane.first_place, count),
+                      places.relative_model_error);
+}
+
+double GlareUnder(const ReportPlaces& places, const ReportObserver& observer,
+                  const Eigen::VectorXd& dimming) {
+  constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
+  if (observer.is_inside) return kNotDefined;
+  double sum = 0, indirect_lx = 0;
+  for (Eigen::Index k = 0; k < dimming.size(); ++k) {
+    const GlareSource& source = observer.sources[static_cast<size_t>(k)];
+    if (dimming[k] > 0 && !source.is_defined) return kNotDefined;
+    sum += dimming[k] * dimming[k] * source.sum;
+    indirect_lx +=
+        dimming[k] * (places.light.total_lx(observer.place, k) - places.light.direct_lx(observer.place, k));
+  }
+  return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / M_PI) : kNotDefined;
+}
+
+json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places) {
+  json page = {{"planes", json::array()}, {"observers", json::array()}};
+  const Eigen::Index count = static_cast<Eigen::Index>(places.readings.sensors.size());
+  page["points"] = json::array();
+  for (const Sensor& sensor : places.readings.sensors)
+    page["points"].push_back(
+        {{"position_m", VectorJson(sensor.position)}, {"normal", VectorJson(sensor.normal)}});
+  page["point_of_reading"] = places.readings.sensor_of_reading;
+  page["point_light"] = LightJson(places.light, 0, count);
+  page["relative_model_error"] = places.relative_model_error;
+  page["undetermined"] = places.undetermined;
+  page["left_out"] = places.light.left_out;
+  for (const ReportPlane& plane : places.planes) page["planes"].push_back(PlaneJson(fitted, places, plane));
+  for (const ReportObserver& observer : places.observers)
+    page["observers"].push_back(ObserverJson(fitted, places, observer));
+  return page;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,99 @@
+#include "apps/session/internal/session_camera.h"
+
+#include <algorithm>
+
+#include "apps/session/internal/session_board.h"
+#include "apps/session/session_files.h"
+
+namespace luxfit {
+namespace {
+
+std::string ReadIntrinsics(const TomlCursor& value, const std::string& folder) {
+  const std::string expected = ExpectedIntrinsics();
+  const std::string extension = ExtensionOf(value.Text(expected));
+  const std::vector<std::string> known = {".yaml", ".yml", ".xml", ".cameramodel", ".txt", ".bin"};
+  if (std::find(known.begin(), known.end(), extension) == known.end())
+    throw value.Error("expected " + expected + ", got " + value.Shown());
+  return AbsolutePath(FindFile(value, folder));
+}
+
+Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
+  Eigen::Vector3d weights = value.Vector("three weights [r, g, b]");
+  if (weights.sum() <= 0)
+    throw value.Error("expected weights of a sum > 0, got " + value.Shown() +
+                      "; the default is [0.265, 0.670, 0.065]");
+  return weights;
+}
+
+// `none`, "estimate" or the name of a file, whose absolute path goes with it.
+struct NameOrFile {
+  std::string name, path;
+};
+NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key, const std::string& none,
+                          const std::string& folder) {
+  const auto value = table.Find(key);
+  if (!value) return {none, ""};
+  const std::string name = value->Text("\"" + none + "\", \"estimate\" or a file");
+  if (name == none || name == "estimate") return {name, ""};
+  // A word without an extension is a misspelt name rather than a missing file.
+  if (ExtensionOf(name).empty()) value->OneOf({none, "estimate"});
+  return {name, AbsolutePath(FindFile(*value, folder))};
+}
+
+Eigen::Array2i ReadImageSize(const TomlCursor& value) {
+  const std::vector<double> size = value.Numbers("[width, height] in pixels");
+  constexpr double kMostPx = 1e6;
+  for (const double side : size) {
+    if (size.size() != 2 || !(side >= 1 && side <= kMostPx) || side != static_cast<int>(side))
+      throw value.Error("expected [width, height] in whole pixels, got " + value.Shown());
+  }
+  if (size.empty()) throw value.Error("expected [width, height] in whole pixels, got none");
+  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+}
+
+SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
+  table.ExpectKeys({"id", "intrinsics", "calibration_images", "calibration_corners", "image_size", "board",
+                    "response", "vignetting", "black_level", "cdm2_per_count_s", "luminance_weights"});
+  SessionCamera camera;
+  if (const auto board = table.Find("board")) camera.board = ReadBoard(*board);
+  if (const auto images = table.Find("calibration_images"))
+    camera.calibration_images = FindFiles(*images, folder);
+  if (const auto corners = table.Find("calibration_corners"))
+    camera.calibration_corners = AbsolutePath(FindFile(*corners, folder));
+  if (const auto size = table.Find("image_size")) camera.image_size_px = ReadImageSize(*size);
+  if (const auto intrinsics = table.Find("intrinsics"))
+    camera.intrinsics = ReadIntrinsics(*intrinsics, folder);
+  const NameOrFile response = ReadNameOrFile(table, "response", "linear", folder);
+  camera.response = response.name;
+  camera.response_path = response.path;
+  const NameOrFile vignetting = ReadNameOrFile(table, "vignetting", "none", folder);
+  camera.vignetting = vignetting.name;
+  camera.vignetting_path = vignetting.path;
+  camera.line = table.place().line;
+  if (const auto black = table.Find("black_level"))
+    camera.black_level_counts = black->NumberAtLeast(0, "counts");
+  if (const auto scale = table.Find("cdm2_per_count_s"))
+    camera.cdm2_per_count_s = scale->NumberAtLeast(0, "cd/m2 per (count / s); 0: unknown");
+  if (const auto weights = table.Find("luminance_weights"))
+    camera.luminance_weights = ReadLuminanceWeights(*weights);
+  return camera;
+}
+
+}  // namespace
+
+std::string ExpectedIntrinsics() {
+  return "a file of intrinsics (OpenCV YAML or XML, mrcal .cameramodel, COLMAP cameras.txt or .bin, Kalibr "
+         "camchain), or calibration_images";
+}
+
+std::vector<SessionCamera> ReadCameras(const TomlCursor& list, const std::string& folder) {
+  const std::vector<TomlCursor> tables = list.Elements("a list of tables [[camera]]");
+  std::vector<SessionCamera> cameras;
+  cameras.reserve(tables.size());
+  for (const TomlCursor& table : tables) cameras.push_back(ReadCamera(table, folder));
+  const std::vector<std::string> ids = UniqueIds(tables);
+  for (size_t i = 0; i < cameras.size(); ++i) cameras[i].id = ids[i];
+  return cameras;
+}
+
+}  // namespace luxfit

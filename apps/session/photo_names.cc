@@ -1,0 +1,127 @@
+#include "apps/session/photo_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace luxfit {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool IsEverything(const std::string& state) {
+  const std::set<std::string> words = {"all", "on", "full"};
+  return words.count(Lower(state)) > 0;
+}
+
+bool IsNothing(const std::string& state) {
+  const std::set<std::string> words = {"off", "dark", "ambient", "none", "black"};
+  return words.count(Lower(state)) > 0;
+}
+
+// A, B2, lamp1, desk_spot: names of things rather than of occasions.
+bool IsLuminaireName(const std::string& state) {
+  const std::string lower = Lower(state);
+  const bool has_digit = lower.find_first_of("0123456789") != std::string::npos;
+  const std::vector<std::string> words = {"lamp", "light", "lum", "spot", "panel", "downlight", "tube"};
+  return lower.size() <= 3 || has_digit ||
+         std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return lower.find(word) != std::string::npos; });
+}
+
+struct Split {
+  std::string first, last;
+};
+
+// At the last _ or -.
+Split SplitName(const std::string& stem) {
+  const size_t at = stem.find_last_of("_-");
+  if (at == std::string::npos || at == 0 || at + 1 == stem.size()) return {stem, ""};
+  return {stem.substr(0, at), stem.substr(at + 1)};
+}
+
+std::string StemOf(const std::string& file) { return fs::path(file).stem().string(); }
+
+bool IsNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// Half of the photos and more share their view with another, and no two share both.
+bool IsOfSharedViews(const std::vector<NamedPhoto>& photos) {
+  std::map<std::string, size_t> of_view;
+  std::set<std::pair<std::string, std::string>> pairs;
+  for (const NamedPhoto& photo : photos) {
+    if (photo.state.empty() || IsNumber(photo.state)) return false;
+    ++of_view[photo.view];
+    if (!pairs.insert({photo.view, photo.state}).second) return false;
+  }
+  size_t sharing = 0;
+  for (const auto& [view, count] : of_view) sharing += count > 1 ? count : 0;
+  return 2 * sharing >= photos.size() && sharing > 0;
+}
+
+std::vector<NamedPhoto> ByFolder(const std::vector<std::string>& files) {
+  std::vector<NamedPhoto> photos;
+  photos.reserve(files.size());
+  for (const std::string& file : files)
+    photos.push_back({file, StemOf(file), fs::path(file).parent_path().filename().string()});
+  return photos;
+}
+
+std::vector<NamedPhoto> ByName(const std::vector<std::string>& files) {
+  std::vector<NamedPhoto> photos;
+  bool is_state_first = true;
+  for (const std::string& file : files) {
+    const Split split = SplitName(StemOf(file));
+    photos.push_back({file, split.first, split.last});
+  }
+  is_state_first = std::any_of(photos.begin(), photos.end(),
+                               [](const NamedPhoto& p) { return IsEverything(p.view) || IsNothing(p.view); });
+  for (NamedPhoto& photo : photos) {
+    if (is_state_first) std::swap(photo.view, photo.state);
+  }
+  return photos;
+}
+
+}  // namespace
+
+PhotoNames GuessViewsAndStates(const std::vector<std::string>& files) {
+  PhotoNames names{ByFolder(files), "the folder names the state, the file the view"};
+  if (IsOfSharedViews(names.photos)) return names;
+  names = {ByName(files), "names are VIEW_STATE"};
+  if (IsOfSharedViews(names.photos)) return names;
+  names = {{}, "nothing in the names tells views from states: each photo a view, all in one state"};
+  names.photos.reserve(files.size());
+  for (const std::string& file : files) names.photos.push_back({file, StemOf(file), "all"});
+  return names;
+}
+
+std::vector<GuessedState> GuessStates(const PhotoNames& names) {
+  std::set<std::string> ids, luminaires, occasions;
+  for (const NamedPhoto& photo : names.photos) ids.insert(photo.state);
+  for (const std::string& id : ids) {
+    if (!IsEverything(id) && !IsNothing(id)) (IsLuminaireName(id) ? luminaires : occasions).insert(id);
+  }
+  if (luminaires.empty()) luminaires.swap(occasions);
+  std::vector<GuessedState> states;
+  states.reserve(ids.size());
+  for (const std::string& id : ids) {
+    if (luminaires.count(id) > 0) {
+      states.push_back({id, {id}});
+    } else if (IsNothing(id)) {
+      states.push_back({id, {}});
+    } else {
+      states.push_back({id, {luminaires.begin(), luminaires.end()}});
+    }
+  }
+  return states;
+}
+
+}  // namespace luxfit

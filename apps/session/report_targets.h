@@ -1,0 +1,68 @@
+// What the light of a room is held against: areas and observers of a TOML that the user edits.
+//
+//   [[area]]    id, task | average_lx, uniformity, ugr; height_m, polygon_m | origin_m, edge_u_m, edge_v_m;
+//               margin_m, spacing_m
+//   [[observer]] id, eye_m, looking; ugr
+//
+// A `task` is a row of EN 12464-1:2021, table 34 (offices) or 9 (traffic zones); keys beside it go before it.
+// Without a polygon or edges an area is the whole floor, at height_m, less margin_m. Absent requirements are
+// empty optionals: statistics are given, and nothing is held against them.
+//
+// Throws std::runtime_error("FILE:LINE: key: expected X, got Y; mend").
+// Source: docs/report.md, "Targets".
+#ifndef LUXFIT_APPS_SESSION_REPORT_TARGETS_H_
+#define LUXFIT_APPS_SESSION_REPORT_TARGETS_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forward/views/illuminance_plane.h"
+#include "forward/views/work_plane.h"
+
+namespace luxfit {
+
+// A row of the standard.
+struct LightingTask {
+  std::string key, name;
+  double average_lx = 0, uniformity = 0, ugr = 0;
+};
+const std::vector<LightingTask>& LightingTasks();
+
+struct TargetArea {
+  std::string id;
+  std::string task;  // key of a row; empty: none
+  std::optional<double> average_lx, uniformity, ugr;
+  double height_m = 0.75;
+  double margin_m = kStandardMargin;
+  double spacing_m = 0;                    // 0: EN 12464-1
+  std::vector<Eigen::Vector2d> polygon_m;  // empty: none
+  std::optional<IlluminancePlane> plane;   // of edges that were given
+};
+
+struct TargetObserver {
+  std::string id;
+  Eigen::Vector3d eye_m;
+  Eigen::Vector3d looking;  // unit
+  std::optional<double> ugr;
+};
+
+struct ReportTargets {
+  std::string path;  // empty: the default
+  std::vector<TargetArea> areas;
+  std::vector<TargetObserver> observers;
+};
+
+ReportTargets ReadTargets(const std::string& path);
+
+// The floor at 0.75 m held against office work (writing, typing, reading), seen by seated observers in the
+// middle of each side of it. Nothing where the scene has no floor.
+ReportTargets DefaultTargets(const Scene& scene);
+
+// As a file that ReadTargets reads.
+std::string TargetsToml(const ReportTargets& targets);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_SESSION_REPORT_TARGETS_H_

@@ -1,0 +1,205 @@
+// The session: one TOML file and the tables it names, read, checked and resolved to absolute paths.
+//
+// Units are those of the format: m, s, lm, lx; `scene.unit` is turned into metres per mesh unit. What the
+// file leaves out is an empty optional or an empty list, never a made-up value.
+//
+// Throws std::runtime_error("FILE:LINE: key: expected ..., got ...") for anything malformed: unknown keys
+// (with the nearest known one), missing files, wrong headers, decimal commas, unknown camera, state or
+// luminaire names, duplicate ids.
+//
+// Source: docs/session-format.md.
+#ifndef LUXFIT_APPS_SESSION_SESSION_H_
+#define LUXFIT_APPS_SESSION_SESSION_H_
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/lens/lens_kind.h"
+#include "calib/luminance/response.h"
+#include "calib/luminance/vignetting.h"
+#include "calib/targets/board.h"
+#include "calib/targets/tags.h"
+#include "forward/direct/sensor.h"
+
+namespace luxfit {
+
+struct SessionScene {
+  std::string mesh;  // absolute path
+  double metres_per_unit = 1;
+  std::string unit = "m";
+  std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance, in [0, 1)
+  int line = 0;                                             // of [scene.albedo], else of [scene]
+};
+
+struct SessionTags {
+  std::string family = "tag36h11";
+  std::string map_path;  // empty: no map was given
+  std::vector<SurveyedTag> survey;
+  double size_m = 0;  // of every tag, where there is no map; 0: not given
+};
+
+struct SessionRegistration {
+  std::string method = "auto";  // tags | colmap | both | auto
+  std::string colmap_model;     // absolute path of a folder; empty: none
+  // Roughly where the camera of each of these views stood, in the scene's frame; empty or three and more.
+  std::map<std::string, Eigen::Vector3d> start_positions_m;
+};
+
+struct SessionCamera {
+  std::string id;
+  std::string intrinsics;  // absolute path; empty: to be had from the calibration images
+  std::optional<Board> board;
+  std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
+  std::string response = "linear";              // linear | estimate | file
+  std::string response_path;                    // absolute path of that file
+  std::string vignetting = "none";              // none | estimate | file
+  std::string vignetting_path;
+  std::string calibration_corners;              // absolute path of a corners.vnl; empty: corners are found
+  std::optional<Eigen::Array2i> image_size_px;  // of cameras whose corners come without images
+  double black_level_counts = 0;
+  double cdm2_per_count_s = 0;  // 0: unknown
+  Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
+  int line = 0;  // of its [[camera]]
+  // Filled in by the linearize stage.
+  std::optional<CameraResponse> response_curve;  // none: linear
+  std::optional<Vignetting> vignetting_model;    // of a flat field; none: V = 1, or estimated from surfaces
+  double full_scale_counts = 65535;              // of its photos, above black for RAW
+};
+
+// One file of a bracket.
+struct SessionExposure {
+  std::string file;
+  // exposure_s * (iso / iso of the camera's first photo) * (f-number of that / f-number)^2, as corrected.
+  double relative_exposure_s = 0;
+  int line = 0;
+};
+
+struct SessionPhoto {
+  std::string file;  // absolute path, checked to exist
+  int camera = 0;    // index into cameras
+  std::string view;
+  std::string state;
+  double exposure_s = 0;  // 0: the table leaves it to the file
+  std::optional<double> f_number, iso;
+  int line = 0;  // in the photo table
+  // Filled in by the linearize stage, which makes one photo of the rows of one view, state and camera:
+  // longest exposure first.
+  std::vector<SessionExposure> bracket;
+};
+
+struct SessionState {
+  std::string id;
+  std::map<std::string, double> dimming;  // luminaire id -> 0..1
+};
+
+// An object under distant lights switched in turn, seen from one place: photometric stereo.
+struct SessionLights {
+  struct Light {
+    Eigen::Vector3d to_light = Eigen::Vector3d::UnitZ();  // unit; x right, y up, z towards the camera
+    double strength = 1;
+  };
+  std::string view, mask;                       // of the object; the mask's absolute path
+  std::string directions_path;                  // of the table; empty: from the mirror sphere
+  std::map<std::string, Light> light_of_state;  // empty likewise
+  double direction_sigma_deg = 0;               // of the table; 0: exact
+  std::string mirror_view, mirror_mask;         // empty: no mirror sphere
+  bool strengths_known = true;                  // alike, or as in the table
+  std::string ambient_state;                    // all lights off; empty: none
+  std::string reference_mask;                   // pixels of known albedo; empty: none
+  double reference_albedo = 0;
+  int line = 0;
+};
+
+struct SessionLuminaire {
+  std::string id;
+  std::string photometry =
+      "auto";  // isotropic | lambertian | cosine_power | table | auto | a file as the session has it
+  std::string photometry_path;  // absolute path of that .ies or .ldt; empty: none
+  std::optional<double> cosine_exponent;
+  std::vector<double> gamma_deg, cd_per_klm;  // of a given table; empty: to be estimated
+  Eigen::ArrayXXd emission;                   // cells along the heading x across; empty: even
+  std::optional<std::string> shape;           // point | disc | rectangle | sphere
+  std::vector<double> size_m;
+  std::optional<Eigen::Vector3d> position_m;
+  std::optional<double> position_sigma_m;
+  std::optional<Eigen::Vector3d> aim;      // unit
+  std::optional<Eigen::Vector3d> heading;  // unit
+  std::optional<double> flux_lm;
+  std::optional<double> flux_sigma_lm;
+  bool is_held = false;  // an earlier fit's: nothing of it is estimated
+  int line = 0;          // of its [[luminaire]]; 0: only named in [states]
+};
+
+enum class ReadingRole { kFit, kScale, kCheck };
+
+struct SessionReading {
+  std::string id;
+  Eigen::Vector3d position_m;
+  Eigen::Vector3d normal;  // unit
+  std::string state;
+  bool is_measured = true;    // false: the lux field is empty, to be predicted only
+  double illuminance_lx = 0;  // 0 where not measured; without ambient light after the linearize stage
+  double ambient_lx = 0;      // measured there with all luminaires off, and subtracted
+  ReadingRole role = ReadingRole::kCheck;
+  std::string sensor;  // of several of one meter, each with a gain of its own; empty: the meter's only one
+  int line = 0;        // in the readings table
+};
+
+struct SessionLuxmeter {
+  std::string readings_path;  // empty: no [luxmeter] section
+  std::vector<SessionReading> readings;
+  SensorResponse response;       // of every reading
+  std::string sensitivity_path;  // of its table; empty: cosine
+  std::string meter_class;       // "", L, A, B, C
+  // Relative standard uncertainty of one reading that all readings share (calibration), from the class; 0 if
+  // none given.
+  double common_sigma = 0;
+  double sensor_sigma = 0.03;  // relative, of the gains of sensors that the table names
+};
+
+// How cameras without intrinsics are calibrated.
+struct SessionCalibration {
+  std::optional<LensKind> lens;    // absent: chosen
+  std::string back_end = "mrcal";  // mrcal | opencv
+  std::string rig = "auto";        // auto | numbers | order | none: what makes a set of images
+  double focal_start_px = 0;       // 0: scanned
+};
+
+struct Session {
+  std::string name;
+  std::string path;  // absolute path of the session file
+  std::optional<SessionScene> scene;
+  SessionTags tags;
+  SessionRegistration registration;
+  std::vector<SessionCamera> cameras;
+  SessionCalibration calibration;
+  std::string photos_path;  // empty: no [photos] section
+  std::vector<SessionPhoto> photos;
+  std::vector<SessionState>
+      states;  // in file order; absent in the file: one state named by the tables, all on
+  std::vector<SessionLuminaire>
+      luminaires;                   // [[luminaire]], completed by those that [states] names, in that order
+  bool count_is_estimated = false;  // there may be more luminaires than those, all on in the only state
+  int max_luminaires = 12;
+  SessionLuxmeter luxmeter;
+  std::optional<SessionLights> lights;   // an object instead of a room
+  std::vector<std::string> input_files;  // every file read or referred to, for hashing
+};
+
+Session ReadSession(const std::string& path);
+
+// With luminaires "lamp1", "lamp2", ... until there are `count`, on in every state.
+Session WithMoreLuminaires(Session session, int count);
+
+// Among session.states; -1: none of that name.
+int StateIndex(const Session& session, const std::string& id);
+
+// Of its first camera; the format's own where there is none.
+Eigen::Vector3d LuminanceWeights(const Session& session);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_SESSION_SESSION_H_

@@ -1,0 +1,135 @@
+#include "apps/session/session_draft.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/text/csv_text.h"
+#include "apps/text/suggest.h"
+
+namespace luxfit {
+namespace {
+
+std::string SceneText(const SessionDraft& draft) {
+  std::string text = fmt::format(
+      "[scene]\nmesh = {}\nunit = \"{}\"   # GUESS: {}: the room is then {:.2f} x {:.2f} x {:.2f} m\n\n"
+      "# Reflectances that you know; those not named are estimated from the photos. The mesh has:\n"
+      "[scene.albedo]\n",
+      Quoted(draft.mesh), draft.unit, draft.unit_because, draft.size_m.x(), draft.size_m.y(),
+      draft.size_m.z());
+  for (const auto& [material, area_m2] : draft.material_area_m2)
+    text += fmt::format("# \"{}\" = 0.5   # {:.1f} m2\n", material, area_m2);
+  return text + "\n";
+}
+
+std::string TagsText(const SessionDraft& draft) {
+  std::string text =
+      fmt::format("[tags]\nfamily = \"{}\"   # GUESS: {}\n", draft.family, draft.family_because);
+  if (!draft.tags.empty()) return text + fmt::format("map = {}\n\n", Quoted(draft.tags));
+  return text +
+         "# Where each tag hangs: [{\"id\": 0, \"size_m\": 0.158, \"center_m\": [x, y, z], \"normal\": [out "
+         "of the "
+         "wall],\n# \"up\": [along the arrow]}]. Without a map the poses are those of one tag.\n"
+         "# map = \"tags.json\"\nsize_m = 0.158   # GUESS: side of the black squares as `luxfit board tags` "
+         "prints "
+         "them on A4; measure one\n\n";
+}
+
+bool HasEightBits(const SessionDraft& draft, int camera) {
+  return std::any_of(draft.photos.begin(), draft.photos.end(), [&](const DraftPhoto& photo) {
+    return photo.camera == camera && photo.bits_per_channel == 8;
+  });
+}
+
+std::string CameraText(const SessionDraft& draft, int camera) {
+  std::string text = fmt::format("[[camera]]\nid = \"cam{}\"\n", camera);
+  const auto file = draft.intrinsics.find(camera);
+  if (file != draft.intrinsics.end()) {
+    text += fmt::format("intrinsics = {}   # GUESS: it lies beside the photos and has their size\n",
+                        Quoted(file->second));
+  } else if (!draft.tags.empty()) {
+    text += "# intrinsics = \"cam0.yaml\"   # absent: calibrated from the room's own tags\n";
+  } else {
+    text +=
+        "# Photos of a board (`luxfit board aprilgrid -o board.pdf` prints one and the line to write), or a "
+        "file:\n"
+        "# calibration_images = \"board/*.png\"\n# intrinsics = \"cam0.yaml\"\n";
+  }
+  text +=
+      HasEightBits(draft, camera)
+          ? "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; three exposures of a view "
+            "tell it\n"
+          : "response = \"linear\"   # GUESS: 16-bit, float or RAW photos, developed without a tone curve\n";
+  return text +
+         "vignetting = \"estimate\"   # GUESS: from surfaces seen at several places of the pictures\n"
+         "black_level = 0   # GUESS: counts of a black photo; RAW files state their own\n\n";
+}
+
+std::string StatesText(const SessionDraft& draft) {
+  if (draft.states.size() < 2)
+    return "# One state, all on: the luminaires are counted and found. Photos of each alone tell more.\n"
+           "[luminaires]\ncount = \"estimate\"   # GUESS: or their number\n\n";
+  std::string text = "# What was on in each state, with its dimming from 0 to 1.\n[states]\n";
+  for (const GuessedState& state : draft.states) {
+    std::string on;
+    for (const std::string& luminaire : state.luminaires)
+      on += fmt::format("{}{} = 1.0", on.empty() ? "" : ", ", Quoted(luminaire));
+    text += fmt::format("{} = {{ {} }}   # GUESS: by its name\n", Quoted(state.id), on);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string SessionText(const SessionDraft& draft) {
+  std::string text =
+      "# A draft by `luxfit init`. Lines that end in GUESS are to be checked; `luxfit explain KEY` tells "
+      "what a key "
+      "means,\n# `luxfit doctor " +
+      std::string("session.toml` what is still missing.\n\nname = ") + Quoted(draft.name) + "\n\n" +
+      SceneText(draft) + TagsText(draft);
+  for (int camera = 0; camera < draft.cameras; ++camera) text += CameraText(draft, camera);
+  text += "[photos]\ntable = \"photos.csv\"   # GUESS: views and states, " + draft.names_because + "\n\n";
+  text += StatesText(draft);
+  return text +
+         "# What is known of a luminaire; all but the id may be absent. Everything else is found.\n"
+         "# [[luminaire]]\n# id = \"A\"\n# photometry = \"downlight.ies\"\n# position_m = [1.5, 2.0, 2.8]\n"
+         "# position_sigma_m = 0.5\n\n"
+         "# Readings of a luxmeter: one fixes the absolute scale, the others check the result. Fill "
+         "luxmeter.csv and\n"
+         "# uncomment.\n# [luxmeter]\n# readings = \"luxmeter.csv\"\n# scale = [\"L1@all\"]\n# class = "
+         "\"B\"\n";
+}
+
+std::string PhotoTable(const SessionDraft& draft) {
+  std::string text = "file,camera,view,state,exposure_s,aperture,iso\n";
+  const auto field = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.6g}", *value) : "";
+  };
+  for (const DraftPhoto& photo : draft.photos)
+    text += CsvLine({CsvField(photo.name.file), fmt::format("cam{}", photo.camera), CsvField(photo.name.view),
+                     CsvField(photo.name.state), field(photo.exposure.exposure_s),
+                     field(photo.exposure.f_number), field(photo.exposure.iso)});
+  return text;
+}
+
+std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,lux\n"; }
+
+std::vector<std::string> ToDo(const SessionDraft& draft) {
+  std::vector<std::string> list;
+  const auto count = std::count_if(draft.photos.begin(), draft.photos.end(),
+                                   [](const DraftPhoto& photo) { return !photo.exposure.exposure_s; });
+  if (count > 0)
+    list.push_back(fmt::format("photos.csv: exposure_s of {} photos: they do not say it themselves", count));
+  if (draft.tags.empty())
+    list.push_back(
+        "[tags]: survey where the tags hang, and give the map: without it the scene's frame is not known");
+  if (draft.intrinsics.empty() && draft.tags.empty())
+    list.push_back("[[camera]]: intrinsics, or photos of a board: nothing calibrates the camera yet");
+  if (draft.states.size() < 2)
+    list.push_back("photos of each luminaire alone would tell more than one state does (not required)");
+  list.push_back("luxmeter.csv: one reading at least, for lumens and lux; more to check the result");
+  return list;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,48 @@
+// A session file as `luxfit init` writes it: from what was found, with every guess marked.
+#ifndef LUXFIT_APPS_SESSION_SESSION_DRAFT_H_
+#define LUXFIT_APPS_SESSION_SESSION_DRAFT_H_
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/session/photo_names.h"
+#include "calib/luminance/exposure_metadata.h"
+
+namespace luxfit {
+
+struct DraftPhoto {
+  NamedPhoto name;  // file relative to the session
+  ExposureMetadata exposure;
+  int width_px = 0, height_px = 0;
+  int bits_per_channel = 16;
+  int camera = 0;  // photos of one size are of one camera
+};
+
+struct SessionDraft {
+  std::string name;
+  std::string mesh;  // relative to the session, as all files
+  std::string unit, unit_because;
+  Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  std::map<std::string, double> material_area_m2;
+  std::string tags;  // empty: none
+  std::string family, family_because;
+  std::vector<int> seen_tags;
+  std::vector<DraftPhoto> photos;
+  std::string names_because;
+  std::vector<GuessedState> states;
+  std::map<int, std::string> intrinsics;  // by camera: a file that lies beside the photos
+  int cameras = 1;
+};
+
+std::string SessionText(const SessionDraft& draft);
+std::string PhotoTable(const SessionDraft& draft);
+std::string ReadingsTemplate();
+
+// What is left to do before `luxfit run`, in the order of its weight.
+std::vector<std::string> ToDo(const SessionDraft& draft);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_SESSION_SESSION_DRAFT_H_

@@ -1,0 +1,100 @@
+#include "apps/session/session_scene.h"
+
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "apps/session/session_files.h"
+#include "apps/session/tag_map.h"
+#include "apps/text/suggest.h"
+
+namespace luxfit {
+namespace {
+
+Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
+  Eigen::Vector3d albedo_rgb =
+      value.IsArray() ? value.Vector("a reflectance: a number or [r, g, b]")
+                      : Eigen::Vector3d::Constant(value.Number("a reflectance: a number or [r, g, b]"));
+  if (albedo_rgb.minCoeff() < 0 || albedo_rgb.maxCoeff() > 1)
+    throw value.Error("expected a reflectance in 0..1, got " + value.Shown() + "; 25 % is written 0.25");
+  if (albedo_rgb.maxCoeff() == 1)
+    throw value.Error(
+        "expected a reflectance below 1, got " + value.Shown() +
+        ": a closed room that absorbs nothing has no solution; white paint reflects 0.85 to 0.9");
+  return albedo_rgb;
+}
+
+}  // namespace
+
+const std::map<std::string, double>& MetresPerUnit() {
+  static const std::map<std::string, double> metres{
+      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+  return metres;
+}
+
+SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
+  section.ExpectKeys({"mesh", "unit", "albedo"});
+  SessionScene scene;
+  scene.mesh = AbsolutePath(FindFile(section.Require("mesh", "a mesh file (OBJ, PLY, glTF)"), folder));
+  if (const auto unit = section.Find("unit")) {
+    scene.unit = unit->OneOf({"m", "cm", "mm", "in", "ft"});
+    scene.metres_per_unit = MetresPerUnit().at(scene.unit);
+  }
+  scene.line = section.place().line;
+  if (const auto albedo = section.Find("albedo")) {
+    scene.line = albedo->place().line;
+    for (const auto& [material, value] : albedo->Members())
+      scene.known_albedo_rgb[material] = ReadAlbedo(value);
+  }
+  return scene;
+}
+
+SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder) {
+  section.ExpectKeys({"family", "map", "size_m"});
+  SessionTags tags;
+  if (const auto family = section.Find("family"))
+    tags.family = family->OneOf({"tag36h11", "tag36h10", "tag25h9", "tag16h5", "tagStandard41h12"});
+  if (const auto size = section.Find("size_m")) tags.size_m = size->NumberAbove(0, "m");
+  const auto map = section.Find("map");
+  if (!map && tags.size_m == 0)
+    throw InputError(
+        section.place(), "tags.map",
+        "expected a tag map, or the tags' size so that their places can be estimated, got neither; add "
+        "map = \"tags.json\" or size_m = ...");
+  if (!map) return tags;
+  const std::string map_path = FindFile(*map, folder);
+  tags.survey = ReadTagMap(map_path);
+  tags.map_path = AbsolutePath(map_path);
+  return tags;
+}
+
+SessionRegistration ReadRegistrationSection(const TomlCursor& section, const std::string& folder) {
+  section.ExpectKeys({"method", "colmap", "start"});
+  SessionRegistration registration;
+  if (const auto method = section.Find("method"))
+    registration.method = method->OneOf({"auto", "tags", "colmap", "both"});
+  if (const auto model = section.Find("colmap")) {
+    const std::string name = model->Text("the folder of a COLMAP model");
+    const std::filesystem::path path = std::filesystem::path(folder) / name;
+    std::error_code error;
+    if (!std::filesystem::is_directory(path, error))
+      throw model->Error("expected the folder of a COLMAP model, found none at " + Quoted(path.string()) +
+                         "; name it, or remove the key to have COLMAP run");
+    if (registration.method == "tags")
+      throw model->Error("expected no COLMAP model beside method = \"tags\", got " + model->Shown() +
+                         "; method = \"both\" uses it");
+    registration.colmap_model = AbsolutePath(path.string());
+  }
+  if (const auto start = section.Find("start")) {
+    for (const auto& [view, position] : start->Members())
+      registration.start_positions_m[view] =
+          position.Vector("where the camera roughly stood, [x, y, z] in m");
+    if (registration.start_positions_m.size() < 3)
+      throw start->Error("expected the rough places of three views or more, got " +
+                         std::to_string(registration.start_positions_m.size()) +
+                         "; write start = { v00 = [x, y, z], ... }");
+  }
+  return registration;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,180 @@
+#include "apps/session/tag_map.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/text/input_error.h"
+#include "apps/text/suggest.h"
+
+namespace luxfit {
+namespace {
+
+using Json = nlohmann::json;
+
+// Rounded figures of a survey (0.71 for sqrt(1/2)) stay inside; a vector given in other units or a wrong axis
+// does not.
+constexpr double kUnitTolerance = 0.02;
+constexpr double kPerpendicularTolerance = 0.02;
+
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw InputError({path}, "",
+                     "expected a tag map that can be read, got none; check the path and its rights");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+int LineOf(const std::string& text, size_t byte) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::min(byte, text.size()), '\n'));
+}
+
+// Where each element of the outermost list begins: the parser keeps no lines.
+std::vector<int> ElementLines(const std::string& text) {
+  std::vector<int> lines;
+  int depth = 0, line = 1;
+  bool in_string = false, awaiting = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') ++line;
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+      continue;
+    }
+    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    if (awaiting && depth == 1 && !blank && c != ']') {
+      lines.push_back(line);
+      awaiting = false;
+    }
+    if (c == '"') in_string = true;
+    if (c == '[' || c == '{') awaiting = ++depth == 1;
+    if (c == ']' || c == '}') --depth;
+    if (c == ',' && depth == 1) awaiting = true;
+  }
+  return lines;
+}
+
+// One entry of the list, with the place that its errors name.
+struct TagEntry {
+  const Json& json;
+  SourcePlace place;
+  std::string key;  // "tag[3]"
+
+  std::runtime_error Error(const std::string& name, const std::string& message) const {
+    return InputError(place, key + (name.empty() ? "" : "." + name), message);
+  }
+};
+
+const Json& Member(const TagEntry& entry, const std::string& name, const std::string& expected) {
+  const auto at = entry.json.find(name);
+  if (at != entry.json.end()) return *at;
+  std::vector<std::string> present;
+  for (const auto& item : entry.json.items()) present.push_back(item.key());
+  const std::optional<std::string> nearest = NearestName(name, present);
+  throw entry.Error(name, "expected " + expected + ", got nothing; " +
+                              (nearest ? "rename " + Quoted(*nearest) + " to " + Quoted(name)
+                                       : "add " + Quoted(name) + " to the entry"));
+}
+
+double NumberMember(const TagEntry& entry, const std::string& name, const std::string& expected) {
+  const Json& value = Member(entry, name, expected);
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+    throw entry.Error(name, "expected " + expected + ", got " + value.dump() + "; write a number");
+  return value.get<double>();
+}
+
+Eigen::Vector3d VectorMember(const TagEntry& entry, const std::string& name, const std::string& expected) {
+  const Json& value = Member(entry, name, expected);
+  const auto is_number = [](const Json& item) {
+    return item.is_number() && std::isfinite(item.get<double>());
+  };
+  if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_number))
+    throw entry.Error(name,
+                      "expected " + expected + ", got " + value.dump() + "; write three numbers [x, y, z]");
+  return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+}
+
+std::string Rounded(double value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
+Eigen::Vector3d UnitMember(const TagEntry& entry, const std::string& name) {
+  const Eigen::Vector3d vector = VectorMember(entry, name, "a unit vector [x, y, z]");
+  if (std::abs(vector.norm() - 1) > kUnitTolerance)
+    throw entry.Error(name, "expected a unit vector, got one of length " + Rounded(vector.norm()) +
+                                "; divide it by its length");
+  return vector.normalized();
+}
+
+SurveyedTag ReadEntry(const TagEntry& entry) {
+  if (!entry.json.is_object())
+    throw entry.Error("", "expected {\"id\", \"size_m\", \"center_m\", \"normal\", \"up\"}, got " +
+                              entry.json.dump() + "; write one object per tag");
+  SurveyedTag tag;
+  const Json& id = Member(entry, "id", "a whole number");
+  if (!id.is_number_integer() || id.get<int64_t>() < 0 || id.get<int64_t>() > 1'000'000)
+    throw entry.Error("id",
+                      "expected a whole number >= 0, got " + id.dump() + "; write the number of the tag");
+  tag.id = id.get<int>();
+  tag.size_m = NumberMember(entry, "size_m", "the side of the black square in metres");
+  if (tag.size_m <= 0)
+    throw entry.Error("size_m", "expected > 0, got " + Rounded(tag.size_m) +
+                                    "; write the side of the black square in metres");
+  tag.center_in_world = VectorMember(entry, "center_m", "the tag's centre in metres [x, y, z]");
+  tag.normal_in_world = UnitMember(entry, "normal");
+  const Eigen::Vector3d up = UnitMember(entry, "up");
+  const double along_normal = up.dot(tag.normal_in_world);
+  if (std::abs(along_normal) > kPerpendicularTolerance)
+    throw entry.Error("up", "expected a vector perpendicular to normal, got one at " +
+                                Rounded(std::acos(std::clamp(along_normal, -1.0, 1.0)) * 180 / M_PI) +
+                                " degrees to it; both are given in the scene frame");
+  tag.up_in_world = (up - along_normal * tag.normal_in_world).normalized();
+  return tag;
+}
+
+Json ParseText(const std::string& path, const std::string& text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const int line = LineOf(text, error.byte > 0 ? error.byte - 1 : 0);
+    throw InputError({path, line}, "",
+                     std::string("expected valid JSON, got ") + error.what() +
+                         "; mend the line, or the comma or bracket before it");
+  }
+}
+
+}  // namespace
+
+std::vector<SurveyedTag> ReadTagMap(const std::string& path) {
+  const std::string text = ReadText(path);
+  const Json root = ParseText(path, text);
+  if (!root.is_array() || root.empty())
+    throw InputError({path, 1}, "",
+                     std::string("expected a list of at least one tag, got ") +
+                         (root.is_array() ? "an empty one" : root.type_name()) +
+                         "; write [{\"id\", \"size_m\", \"center_m\", \"normal\", \"up\"}, ...]");
+  const std::vector<int> lines = ElementLines(text);
+  std::vector<SurveyedTag> survey;
+  std::map<int, size_t> entry_of_id;
+  for (size_t i = 0; i < root.size(); ++i) {
+    const TagEntry entry{root[i], {path, i < lines.size() ? lines[i] : 0}, "tag[" + std::to_string(i) + "]"};
+    survey.push_back(ReadEntry(entry));
+    const auto [first, is_new] = entry_of_id.emplace(survey.back().id, i);
+    if (!is_new)
+      throw entry.Error("id", "expected every id once, got " + std::to_string(survey.back().id) + " in tag[" +
+                                  std::to_string(first->second) + "] (line " +
+                                  std::to_string(lines[first->second]) + ") and tag[" + std::to_string(i) +
+                                  "] (line " + std::to_string(lines[i]) + "); correct or remove one of them");
+  }
+  return survey;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,355 @@
+#include "apps/stages/internal/fit_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace luxfit {
+namespace {
+
+std::string NameOf(RefinementKind kind) {
+  switch (kind) {
+    case RefinementKind::kHeading:
+      return "heading";
+    case RefinementKind::kAim:
+      return "aim";
+    case RefinementKind::kTable:
+      return "table of intensities";
+    case RefinementKind::kEmission:
+      return "emission over the opening";
+  }
+  return "";
+}
+
+std::string NameOf(const Eigen::Vector3d& aim) {
+  if (aim.isApprox(Eigen::Vector3d(0, 0, -1))) return "straight down";
+  return fmt::format("towards ({:.2f}, {:.2f}, {:.2f})", aim.x(), aim.y(), aim.z());
+}
+
+std::string ScoresOf(const DetailChoice& choice) {
+  std::string scores;
+  for (const DetailCandidate& c : choice.among)
+    scores += fmt::format("{}{} {:.3f}", scores.empty() ? "" : ", ", c.name, c.score);
+  return scores;
+}
+
+std::vector<std::string> NamesOf(const DetailChoice& choice) {
+  std::vector<std::string> names;
+  names.reserve(choice.among.size());
+  for (const DetailCandidate& c : choice.among) names.push_back(c.name);
+  return names;
+}
+
+}  // namespace
+
+void WarnOfInterchangeable(const Session& session, const std::vector<int>& group, RunContext& context) {
+  std::vector<std::string> ids;
+  for (const int k : group) {
+    const SessionLuminaire& given = session.luminaires[static_cast<size_t>(k)];
+    if (!given.position_m && !session.count_is_estimated) ids.push_back(given.id);
+  }
+  if (ids.size() < 2) return;
+  context.warnings.push_back(
+      {"luminaires_interchangeable",
+       fmt::format(
+           "luminaires {} are always on together: their places are found, but not which is at which; they "
+           "are given in the order of x",
+           fmt::join(ids, ", ")),
+       fmt::format("photograph {} without the others, or give position_m", ids.front())});
+}
+
+void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std::vector<SeenPlace>& seen,
+                      RunContext& context) {
+  const std::vector<std::string> among = {"seen in photos", "search over places"};
+  for (size_t k = 0; k < guess.luminaires.size(); ++k) {
+    const LuminaireGuess& luminaire = guess.luminaires[k];
+    if (!luminaire.found || luminaire.seen_candidates == 0) continue;
+    const std::string explains = fmt::format("leaves {:.1f} % of the direct light unexplained (rms)",
+                                             100 * luminaire.relative_residual);
+    const std::string what = "first guess of " + session.luminaires[k].id;
+    if (!luminaire.seen) {
+      context.choices.push_back(
+          {what, among[1], among,
+           fmt::format("none of the {} bright places in the photos explains its light as well as the place "
+                       "found, which {}",
+                       luminaire.seen_candidates, explains)});
+      continue;
+    }
+    const SeenPlace& place = seen[static_cast<size_t>(*luminaire.seen)];
+    const std::string area = std::isfinite(place.area_m2)
+                                 ? fmt::format(", {:.3f} m2 if it faces down", place.area_m2)
+                                 : std::string();
+    context.choices.push_back(
+        {what, among[0], among,
+         fmt::format(
+             "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
+             place.photos, place.views, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
+             luminaire.was_searched ? ", less than any other place" : ", so that no other was searched")});
+  }
+}
+
+void RecordStarts(const Session& session, const StartComparison& comparison, RunContext& context) {
+  const std::string id = session.luminaires[static_cast<size_t>(comparison.luminaire)].id;
+  const auto place = [](const Eigen::Vector3d& p) {
+    return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
+  };
+  std::vector<std::string> among;
+  std::string scores;
+  for (size_t i = 0; i < comparison.start.size(); ++i) {
+    among.push_back(place(comparison.start[i]));
+    scores += fmt::format("{}{} +- {:.3f} ends at {}", i == 0 ? "" : ", ",
+                          fmt::format("{:.3f}", comparison.score[i]), comparison.standard_error[i],
+                          place(comparison.end[i]));
+  }
+  const auto chosen = static_cast<size_t>(comparison.chosen);
+  context.choices.push_back(
+      {"start of " + id, among[chosen], among,
+       fmt::format(
+           "the search found several places that explain its light; of {} starts {} ended within 1 cm of "
+           "the one kept, which is the best on patches left out, or the first within one standard error "
+           "of it (mean squared normalised error: {})",
+           among.size(), comparison.agreeing, scores)});
+  if (comparison.rivals.empty()) return;
+  std::string others;
+  for (const int rival : comparison.rivals)
+    others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)]);
+  context.warnings.push_back(
+      {"starts_disagree",
+       fmt::format("luminaire {} may hang at {} as well as at {}: both explain its light equally, within one "
+                   "standard error; the latter was kept",
+                   id, others, place(comparison.end[chosen])),
+       fmt::format("give position_m of {} roughly, with position_sigma_m, or measure where the two differ: "
+                   "surfaces close to each, or photos in which {} itself shows",
+                   id, id)});
+}
+
+void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context) {
+  std::string scores;
+  for (size_t i = 0; i < choice.among.size(); ++i) {
+    scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
+  }
+  const size_t chosen = static_cast<size_t>(choice.chosen);
+  context.choices.push_back(
+      {"photometry and shape of " + session.luminaires[static_cast<size_t>(choice.luminaire)].id,
+       choice.among[chosen], choice.among,
+       "simplest within one standard error of the best on patches left out (mean squared normalised "
+       "error: " +
+           scores + ")"});
+}
+
+void WarnOfContradiction(const Session& session, const Contradiction& found, RunContext& context) {
+  const SessionLuminaire& given = session.luminaires[static_cast<size_t>(found.luminaire)];
+  const Luminaire& better = found.better;
+  std::string lobe = ToString(better.distribution);
+  if (better.distribution == Distribution::kCosinePower)
+    lobe += fmt::format(" {:.2f}", better.cosine_exponent);
+  context.warnings.push_back(
+      {"photometry_contradicted",
+       fmt::format(
+           "what is given of luminaire {} ({}{}) does not explain its light: a {} {} at ({:.2f}, {:.2f}, "
+           "{:.2f}) m leaves {:.0f} % of the squared error on patches left out; position and flux fitted "
+           "with what is given are not as sure as their sigmas say",
+           given.id, given.photometry, given.shape ? ", " + *given.shape : "", lobe, ToString(better.shape),
+           better.position.x(), better.position.y(), better.position.z(),
+           100 * found.score_better / found.score_given),
+       fmt::format("check photometry, shape and aim of {}, or set photometry = \"auto\" and leave shape out",
+                   given.id)});
+}
+
+void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vector3d& start,
+               RunContext& context) {
+  const std::string held = NameOf(start);
+  context.choices.push_back(
+      {"aim of " + session.luminaires[static_cast<size_t>(choice.luminaire)].id,
+       choice.is_free ? "estimated" : held,
+       {held, "estimated"},
+       fmt::format("simplest within one standard error of the best on patches left out (mean squared "
+                   "normalised error: {} {:.3f}, estimated {:.3f}, standard error of the difference "
+                   "{:.3f})",
+                   held, choice.score_held, choice.score_free, choice.standard_error)});
+}
+
+void RecordRefinement(const Session& session, const Refinement& step, RunContext& context) {
+  const std::string& id = session.luminaires[static_cast<size_t>(step.luminaire)].id;
+  std::string scores;
+  for (size_t i = 0; i < step.among.size(); ++i) {
+    scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", step.among[i], step.score[i]);
+    if (step.effective_parameters[i] > 1)
+      scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
+  }
+  const bool is_heading = step.kind == RefinementKind::kHeading;
+  const std::string rule =
+      is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
+  context.choices.push_back(
+      {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
+       fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
+                   "one's difference from the first {:.3f})",
+                   rule, scores, step.standard_error)});
+}
+
+void RecordDirectShare(const DirectShare& share, RunContext& context) {
+  std::vector<std::string> among;
+  std::string shares;
+  for (const DirectShareCandidate& c : share.candidates) {
+    among.push_back(c.name);
+    shares += fmt::format("{}{} {:.3f} ± {:.3f}{}", shares.empty() ? "" : ", ", c.name, c.share, c.sigma,
+                          c.is_admissible ? "" : " (does not explain the readings)");
+  }
+  const std::string interval =
+      fmt::format("{:.2f}, 95 % interval {:.2f} to {:.2f}", share.share, share.lower, share.upper);
+  context.choices.push_back({"direct share of the readings", interval, among,
+                             "over all luminaire models that explain the readings as well: " + shares});
+  if (share.is_determined) return;
+  context.undetermined = true;
+  context.warnings.push_back(
+      {"direct_share_undetermined",
+       "the readings do not tell light that comes straight from light that comes by the walls: the direct "
+       "share is " +
+           interval + ", for other lobes and sizes with other reflectances explain the readings as well",
+       "photograph or measure one state with a dark cloth over the walls, or one lamp alone, or give "
+       "reflectances in [scene.albedo] or the luminaires' photometry"});
+}
+
+void WarnOfMisfit(const Room& room, const SessionFit& result, RunContext& context) {
+  const LuminaireFit& fit = result.fit;
+  constexpr double kUnexplained = 0.25;                     // weight of five sigmas and more
+  constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
+  std::map<std::string, std::pair<int, int>> of_material;   // unexplained, all
+  std::pair<int, int> all;
+  for (size_t i = 0; i < result.data.observations.size() && fit.weight.size() > 0; ++i) {
+    const double weight = fit.weight[static_cast<Eigen::Index>(i)];
+    if (weight == 0) continue;
+    const auto element = static_cast<size_t>(result.data.observations[i].element);
+    const auto patch = static_cast<size_t>(room.patches.elements[element].patch);
+    const auto material = static_cast<size_t>(room.patches.patches[patch].material);
+    for (std::pair<int, int>* count : {&all, &of_material[room.scene.materials[material]]}) {
+      count->first += weight < kUnexplained ? 1 : 0;
+      ++count->second;
+    }
+  }
+  const double share = all.second > 0 ? static_cast<double>(all.first) / all.second : 0;
+  if (all.second == 0 || (share < kLargeShare && fit.relative_sigma < kLargeError)) return;
+  std::string worst;
+  for (const auto& [material, count] : of_material) {
+    if (count.first > share * count.second)
+      worst += fmt::format("{}{} ({:.0f} %)", worst.empty() ? "" : ", ", material,
+                           100.0 * count.first / count.second);
+  }
+  context.warnings.push_back(
+      {"model_misfit",
+       fmt::format(
+           "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no "
+           "better than {:.1f} %: most on {}; luminaires may lie far from where they are given, "
+           "beyond their sigmas",
+           100 * share, 100 * fit.relative_sigma, worst.empty() ? "all surfaces alike" : worst),
+       "compare the mesh with the photos: furniture that is missing or was moved, mirrors, windows, a "
+       "luminaire that "
+       "[states] does not name"});
+}
+
+void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& context) {
+  if (!session.count_is_estimated)
+    context.choices.push_back(
+        {"number of luminaires", std::to_string(session.luminaires.size()), {}, "given by the session"});
+  if (fit.status == FitStatus::kNotConverged) {
+    context.warnings.push_back(
+        {"not_converged", fit.message,
+         "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
+  }
+  if (!fit.IsUsable()) {
+    context.undetermined = true;
+    if (fit.null_directions.empty())
+      context.warnings.push_back(
+          {"parameters_undetermined", fit.message,
+           "more readings or views, one luminaire switched alone, or give what is known "
+           "of them"});
+    for (const NullDirection& direction : fit.null_directions)
+      context.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
+  }
+  for (const std::string& name : fit.at_bound) {
+    context.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
+                                "check the mesh around it, or give what is known of it"});
+  }
+}
+
+void RecordDetail(const SceneDetail& detail, RunContext& context) {
+  const std::string why_all = "the radiosity system is factored once: every bounce costs the same as one";
+  if (!detail.is_compared) {
+    context.choices.push_back({"bounces", "all", {}, why_all});
+    return;
+  }
+  context.choices.push_back(
+      {"bounces", "all", NamesOf(detail.bounces),
+       fmt::format(
+           "{}; {} would do: the fewest within one standard error of the best on patches left out (mean "
+           "squared normalised error: {})",
+           why_all, detail.bounces.Chosen().name, ScoresOf(detail.bounces))});
+  const auto record = [&](const std::string& what, const DetailChoice& choice, double size_m, double error) {
+    context.choices.push_back(
+        {what + " size",
+         fmt::format("{:.2g} m", size_m),
+         {fmt::format("{:.2g} m", 2 * size_m), fmt::format("{:.2g} m", size_m)},
+         fmt::format(
+             "cut before the fit; it errs by {:.2g} % of the light, the fit's other errors are {:.2g} %; "
+             "twice the size {} on patches left out (mean squared normalised error: {})",
+             100 * error, 100 * detail.model_error,
+             choice.chosen == 0 ? "would do as well" : "would be worse", ScoresOf(choice))});
+  };
+  record("patch", detail.patches, detail.patch_size_m, detail.patch_error);
+  record("element", detail.elements, detail.element_size_m, detail.element_error);
+  if (detail.IsFineEnough()) return;
+  context.warnings.push_back(
+      {"elements_too_coarse",
+       fmt::format(
+           "patches of {:.2g} m err by {:.2g} % of the light, elements of {:.2g} m by {:.2g} %: more than "
+           "the {:.2g} % by which the fit misses its data otherwise",
+           detail.patch_size_m, 100 * detail.patch_error, detail.element_size_m, 100 * detail.element_error,
+           100 * detail.model_error),
+       "luxfit chart SESSION --fit shows how far results move with finer ones; leave out photos of surfaces "
+       "close to a luminaire"});
+}
+
+void RecordColours(const Session& session, const Room& room, const ColourDetail& colours,
+                   RunContext& context) {
+  std::string coloured, grey;
+  for (size_t m = 0; m < colours.materials.size(); ++m) {
+    const DetailChoice& choice = colours.materials[m];
+    if (choice.among.empty()) continue;
+    std::string& list = choice.chosen == 0 ? grey : coloured;
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", room.scene.materials[m], ScoresOf(choice));
+  }
+  if (coloured.empty() && grey.empty()) {
+    context.choices.push_back({"colour",
+                               "luminance",
+                               {"luminance", "rgb"},
+                               "readings and fluxes are photometric; no photo tells a material's colour"});
+    return;
+  }
+  context.choices.push_back(
+      {"colour",
+       coloured.empty() ? "luminance" : "rgb",
+       {"luminance", "rgb"},
+       fmt::format(
+           "readings and fluxes are photometric, reflectances by channel follow from them; coloured on "
+           "patches left out (mean squared normalised error): {}; grey, and given as such: {}",
+           coloured.empty() ? "none" : coloured, grey.empty() ? "none" : grey)});
+  if (colours.luminaires.among.empty()) return;
+  std::string tints;
+  for (Eigen::Index k = 0; k < colours.tint.cols(); ++k) {
+    if (colours.tint.col(k).allFinite())
+      tints += fmt::format("; {} {:.3f} {:.3f} {:.3f}", session.luminaires[static_cast<size_t>(k)].id,
+                           colours.tint(0, k), colours.tint(1, k), colours.tint(2, k));
+  }
+  context.choices.push_back(
+      {"colour of the luminaires", colours.luminaires.Chosen().name, NamesOf(colours.luminaires),
+       fmt::format(
+           "the simplest within one standard error of the best on patches left out (mean squared normalised "
+           "error: {}); red, green and blue of their light against the mean{}{}",
+           ScoresOf(colours.luminaires), tints,
+           colours.luminaires.chosen == 0 ? "" : "; albedo_rgb is that in their mean light")});
+}
+
+}  // namespace luxfit

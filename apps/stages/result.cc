@@ -1,0 +1,271 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "apps/stages/check_report.h"
+#include "apps/stages/stages.h"
+#include "forward/luminaire/photometry.h"
+#include "inverse/check/luxmeter_check.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+json Vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Standard deviation of a parameter; 0 where it is not free, NaN where the data do not determine it.
+double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {}) {
+  for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
+    const Parameter& p = fit.parameters[i];
+    const bool same =
+        p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
+    if (!same) continue;
+    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.name) == 0;
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    // NaN is written as null: no number rather than a confident one.
+    return known ? std::sqrt(fit.covariance(row, row)) : std::numeric_limits<double>::quiet_NaN();
+  }
+  return 0;
+}
+
+json ViewsJson(const Session& session, const Registration& registration) {
+  json views = json::array();
+  for (const RegisteredView& view : registration.views) {
+    const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
+    json rotation = json::array();
+    for (int r = 0; r < 3; ++r) rotation.push_back(Vector(world_from_cam.linear().row(r).transpose()));
+    views.push_back({{"view", view.view},
+                     {"camera", session.cameras[static_cast<size_t>(view.camera)].id},
+                     {"position_m", Vector(world_from_cam.translation())},
+                     {"R_scene_from_camera", rotation},
+                     {"method", MethodOf(view)},
+                     {"tags", view.tags_used},
+                     {"reprojection_rms_px", view.reprojection_rms_px},
+                     {"position_sigma_m", Vector(view.position_sigma_m)}});
+  }
+  return views;
+}
+
+json MaterialsJson(const Session& session, const Room& room, const SessionFit& fit) {
+  json materials = json::array();
+  for (size_t m = 0; m < room.scene.materials.size(); ++m) {
+    const std::string& name = room.scene.materials[m];
+    const bool given = session.scene->known_albedo_rgb.count(name) > 0;
+    const bool estimated = fit.fit.state.albedo_free[m];
+    const double sigma = SigmaOf(fit.fit, ParameterKind::kAlbedo, static_cast<int>(m));
+    const bool determined = given || (estimated && std::isfinite(sigma) && fit.TellsDirectLight());
+    json material = {
+        {"name", name},
+        {"source", given ? "given" : (determined ? "estimated" : (estimated ? "undetermined" : "unseen"))}};
+    material["albedo"] = determined ? json(fit.fit.state.albedo[static_cast<Eigen::Index>(m)]) : json();
+    const Eigen::Vector3d rgb = given ? session.scene->known_albedo_rgb.at(name)
+                                      : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
+    material["albedo_rgb"] = determined && rgb.allFinite() ? Vector(rgb) : json();
+    material["sigma"] = determined ? json(sigma) : json();
+    // Also of those that nobody saw: light is reflected by them all the same.
+    material["albedo_in_model"] = fit.fit.state.albedo[static_cast<Eigen::Index>(m)];
+    materials.push_back(material);
+  }
+  return materials;
+}
+
+// Whether light or shape depends on the heading.
+bool DependsOnHeading(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle ||
+         (luminaire.distribution == Distribution::kMeasured && !IsSymmetricAboutAim(*luminaire.table));
+}
+
+// Nodes as in session files: cd per 1000 lm of the luminaire's flux.
+void AddNodes(const IntensityTable& table, json& entry) {
+  constexpr double kDegrees = 180 / M_PI;
+  for (size_t j = 0; j < table.gamma_rad.size(); ++j) {
+    entry["gamma_deg"].push_back(kDegrees * table.gamma_rad[j]);
+    entry["cd_per_klm"].push_back(1000 * table.cd_per_lm[j]);
+  }
+}
+
+json EmissionJson(const Eigen::ArrayXXd& emission) {
+  json rows = json::array();
+  for (const auto column : emission.colwise())
+    rows.push_back(std::vector<double>(column.begin(), column.end()));
+  return rows;
+}
+
+json SizeJson(const Luminaire& luminaire) {
+  if (luminaire.shape == LuminaireShape::kPoint) return json::array();
+  if (luminaire.shape == LuminaireShape::kRectangle) return {luminaire.size_m[0], luminaire.size_m[1]};
+  return json::array({luminaire.size_m[0]});
+}
+
+std::string PhotometryName(const Luminaire& luminaire, const SessionLuminaire& given) {
+  if (luminaire.distribution != Distribution::kMeasured) return ToString(luminaire.distribution);
+  return given.photometry_path.empty() ? "table" : given.photometry;
+}
+
+json LuminairesJson(const Session& session, const SessionFit& fit, const std::vector<LuminaireFiles>& files) {
+  json luminaires = json::array();
+  for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
+    if (!fit.luminaire_found[k]) continue;
+    const Luminaire& luminaire = fit.fit.state.luminaires[k];
+    const int index = static_cast<int>(k);
+    const auto sigma = [&](LuminaireQuantity quantity) {
+      return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
+    };
+    json entry = {{"id", luminaire.id},
+                  {"position_m", Vector(luminaire.position)},
+                  {"position_sigma_m",
+                   {sigma(LuminaireQuantity::kPositionX), sigma(LuminaireQuantity::kPositionY),
+                    sigma(LuminaireQuantity::kPositionZ)}},
+                  {"aim", Vector(luminaire.aim)},
+                  {"photometry", PhotometryName(luminaire, session.luminaires[k])},
+                  {"shape", ToString(luminaire.shape)},
+                  {"size_m", SizeJson(luminaire)}};
+    // Without an absolute scale a number of lumens would be made up.
+    const bool is_known = fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[k].flux);
+    entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();
+    entry["flux_sigma_lm"] =
+        is_known ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
+    if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
+    if (fit.fit.state.free[k].tilt) {
+      constexpr double kDegrees = 180 / M_PI;
+      entry["aim_sigma_deg"] = {kDegrees * sigma(LuminaireQuantity::kTiltAlong),
+                                kDegrees * sigma(LuminaireQuantity::kTiltAcross)};
+    }
+    if (DependsOnHeading(luminaire)) entry["heading"] = Vector(AxesOf(luminaire).along);
+    if (fit.fit.state.free[k].heading) {
+      constexpr double kDegrees = 180 / M_PI;
+      entry["heading_sigma_deg"] = kDegrees * sigma(LuminaireQuantity::kHeading);
+    }
+    if (entry["photometry"] == "table") AddNodes(*luminaire.table, entry);
+    if (luminaire.emission.size() > 0) entry["emission"] = EmissionJson(luminaire.emission);
+    if (luminaire.distribution == Distribution::kCosinePower) {
+      entry["cosine_exponent"] = luminaire.cosine_exponent;
+      entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
+    }
+    if (fit.tint_rgb.cols() > index && fit.tint_rgb.col(index).allFinite())
+      entry["tint_rgb"] = Vector(fit.tint_rgb.col(index));
+    if (!files[k].ies.empty()) entry["files"] = {{"ies", files[k].ies}, {"ldt", files[k].ldt}};
+    luminaires.push_back(entry);
+  }
+  return luminaires;
+}
+
+std::string RoleName(ReadingRole role) {
+  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
+}
+
+// A reading is predicted where the fit stands, in lm, and every luminaire that is on was found: else the
+// number would be made up.
+bool IsPredicted(const Session& session, const SessionFit& fit, const std::string& state) {
+  if (!fit.absolute || !fit.fit.IsUsable()) return false;
+  for (const SessionState& s : session.states) {
+    if (s.id != state) continue;
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = s.dimming.find(session.luminaires[k].id);
+      if (on != s.dimming.end() && on->second > 0 && !fit.luminaire_found[k]) return false;
+    }
+  }
+  return true;
+}
+
+void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
+  result["luxmeter"] = json::array();
+  std::vector<CheckedReading> checked;
+  const Eigen::Index first = static_cast<Eigen::Index>(fit.data.observations.size());
+  for (size_t i = 0; i < session.luxmeter.readings.size() && fit.fit.predicted.size() > 0; ++i) {
+    const SessionReading& given = session.luxmeter.readings[i];
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    const double sigma = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
+    const double model_sigma = fit.fit.relative_sigma * fit.fit.predicted[first + row];
+    const double whole_sigma = std::hypot(sigma, model_sigma);
+    const CheckedReading reading{given.illuminance_lx, fit.fit.predicted[first + row],
+                                 fit.data.readings[i].sigma_lx, whole_sigma};
+    json entry = {{"id", given.id},
+                  {"state", given.state},
+                  {"role", RoleName(given.role)},
+                  {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
+    const bool predicted = IsPredicted(session, fit, given.state);
+    entry["predicted_lux"] = predicted ? json(reading.predicted_lx) : json();
+    entry["direct_lux"] = predicted && fit.TellsDirectLight() ? json(fit.fit.reading_direct_lx[row]) : json();
+    entry["sigma_lux"] = predicted ? json(sigma) : json();
+    entry["prediction_sigma_lux"] = predicted ? json(whole_sigma) : json();
+    if (predicted) {
+      constexpr double kTwoSided95 = 1.96;
+      entry["interval95_lux"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * whole_sigma),
+                                 reading.predicted_lx + kTwoSided95 * whole_sigma};
+    }
+    if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
+    if (given.is_measured && predicted) entry["z"] = ZScore(reading);
+    result["luxmeter"].push_back(entry);
+    if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
+  }
+  const LuxmeterSummary summary = SummarizeLuxmeter(checked);
+  result["summary"] = {{"mean_abs_error_lux", summary.mean_abs_error_lx},
+                       {"mean_abs_error_percent", summary.mean_abs_error_percent},
+                       {"max_abs_error_percent", summary.max_abs_error_percent},
+                       {"readings_checked", summary.readings_checked}};
+  result["check"] = CheckJson(result["luxmeter"]);
+}
+
+json DirectShareJson(const DirectShare& share) {
+  json candidates = json::array();
+  for (const DirectShareCandidate& c : share.candidates)
+    candidates.push_back({{"model", c.name},
+                          {"share", c.share},
+                          {"sigma", c.sigma},
+                          {"rms", c.rms},
+                          {"admissible", c.is_admissible}});
+  return {{"share", share.share},
+          {"interval95", {share.lower, share.upper}},
+          {"determined", share.is_determined},
+          {"candidates", candidates}};
+}
+
+}  // namespace
+
+json ChoicesJson(const RunContext& context) {
+  json choices = json::array();
+  for (const Choice& c : context.choices)
+    choices.push_back({{"what", c.what}, {"chosen", c.chosen}, {"among", c.among}, {"because", c.because}});
+  return choices;
+}
+
+json WarningsJson(const RunContext& context) {
+  json warnings = json::array();
+  for (const Warning& w : context.warnings)
+    warnings.push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
+  return warnings;
+}
+
+json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
+                const SessionFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
+  json result = ProvenanceJson("luxfit-result-1", context.provenance);
+  result["session"] = session.name;
+  result["session_file"] = session.path;
+  result["status"] = context.undetermined ? "undetermined" : "done";
+  result["views"] = ViewsJson(session, registered.registration);
+  result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
+  result["materials"] = MaterialsJson(session, room, fit);
+  result["luminaires"] = LuminairesJson(session, fit, files);
+  // Relative luminance per cd/m2: what makes the camera a luminance meter.
+  if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
+  AddLuxmeter(session, fit, result);
+  if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
+  result["choices"] = ChoicesJson(context);
+  result["warnings"] = WarningsJson(context);
+  result["timing_s"] = context.timing_s;
+  result["model"] = {{"patches", room.patches.patches.size()},
+                     {"elements", room.patches.elements.size()},
+                     {"bounces", "all"},
+                     {"rays_escaped_fraction", room.form_factors.escaped_fraction},
+                     {"observations", fit.data.observations.size()},
+                     {"parameters", fit.fit.parameters.size()},
+                     {"relative_model_error", fit.fit.relative_sigma}};
+  return result;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,27 @@
+// Albedo of a room's surfaces after the fit: by material, patch or element, as fine as the photos support.
+//
+// Writes OUT/albedo.csv and OUT/stages/albedo.json. What stays one albedo a material keeps the fit's own,
+// whose covariance is that of everything fitted; the finer ones come from measured radiosity
+// (inverse/albedo/patch_albedo.h).
+#ifndef LUXFIT_APPS_STAGES_STAGE_ALBEDO_H_
+#define LUXFIT_APPS_STAGES_STAGE_ALBEDO_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "apps/stages/stages.h"
+
+namespace luxfit {
+
+// The artifact; `result` (ResultJson) has the materials as fitted.
+nlohmann::json AlbedoOfRoom(const Session& session, const Room& room, const SessionFit& fit,
+                            const nlohmann::json& result, RunContext& context);
+
+// `result` with what the artifact says of its materials.
+nlohmann::json WithAlbedo(nlohmann::json result, const nlohmann::json& artifact, const RunContext& context);
+
+std::string AlbedoTable(const nlohmann::json& result);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_STAGE_ALBEDO_H_

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/stages/stages.h"
+#include "apps/text/seconds.h"
+#include "apps/text/terminal.h"
+#include "forward/room/mesh_check.h"
+#include "forward/room/mesh_file.h"
+#include "inverse/check/survey_check.h"
+
+namespace luxfit {
+namespace {
+
+void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
+  std::vector<Eigen::Vector3d> centers;
+  for (const SurveyedTag& tag : session.tags.survey) centers.push_back(tag.center_in_world);
+  const SurveyCheck check = CheckSurvey(scene, centers, session.scene->metres_per_unit);
+  if (check.fits) return;
+  const std::string mend = check.better_unit.empty()
+                               ? "check that mesh and tag map share one frame"
+                               : fmt::format("the mesh fits with unit = \"{}\"", check.better_unit);
+  throw std::runtime_error(
+      fmt::format("{}: scene.unit: expected the surveyed tags to lie on the mesh, but with unit = \"{}\" "
+                  "a quarter of them are {:.3g} m and more away; {}",
+                  session.path, session.scene->unit, check.distance_m, mend));
+}
+
+// Form factors take elements x patches x 4 bytes: a room in millimetres read as metres would ask for
+// petabytes.
+void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOptions& options) {
+  constexpr double kMaxElements = 1e6;
+  double area_m2 = 0;
+  for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
+  if (area_m2 <= kMaxElements * options.element_size_m * options.element_size_m) return;
+  const Eigen::Vector3d size = scene.Bounds().sizes();
+  throw std::runtime_error(fmt::format(
+      "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the mesh is "
+      "{:.4g} m x {:.4g} m x {:.4g} m; is its unit another?",
+      session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
+      size.x(), size.y(), size.z()));
+}
+
+}  // namespace
+
+StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
+    : context_(context), stage_(std::move(stage)), start_s_(NowS()) {
+  if (line.empty() || context.is_quiet) return;
+  if (context.progress) context.progress->HandOver();
+  const auto last = context.expected_s.find(stage_);
+  progress_ = std::make_shared<ProgressLine>(fmt::format("{:<9} {}", stage_, line),
+                                             last == context.expected_s.end() ? 0 : last->second);
+  context.progress = progress_;
+}
+
+StageTimer::~StageTimer() {
+  context_.timing_s[stage_] += NowS() - start_s_;
+  if (progress_ && context_.progress == progress_) context_.progress.reset();
+}
+
+void Advance(const RunContext& context, size_t total) {
+  if (context.progress) context.progress->Advance(static_cast<int>(total));
+}
+
+LoadedMesh LoadMesh(const Session& session) {
+  LoadedMesh mesh;
+  mesh.scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
+  CheckTagsLieOnMesh(session, mesh.scene);
+  ExpectRoomSize(session, mesh.scene, PatchesOptions{});
+  mesh.findings = CheckMesh(mesh.scene);
+  return mesh;
+}
+
+void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunContext& context) {
+  for (const MeshFinding& finding : WithRayShares(findings, RaySharesOf(room.form_factors))) {
+    if (finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
+      context.warnings.push_back(
+          {ToString(finding.defect), finding.message + "; " + finding.effect, finding.remedy});
+  }
+}
+
+Room LoadRoom(const Session& session, RunContext& context) {
+  if (!session.scene) return MakeRoom(Scene{});
+  const StageTimer timer(context, "scene", session.scene->mesh);
+  const LoadedMesh mesh = LoadMesh(session);
+  const RoomOptions options;
+  Room room = MakeRoom(mesh.scene, options);
+  if (room.sparse) {
+    throw std::runtime_error(
+        fmt::format("{}: scene.mesh: expected patches whose form factors fit into {:.0f} GB, got {} patches "
+                    "of {} facets; leave "
+                    "out details, or merge them (luxfit simulate takes such meshes as they are)",
+                    session.path, 1e-9 * options.max_matrix_bytes, room.patches.patches.size(),
+                    room.scene.facets.size()));
+  }
+  context.choices.push_back({"patches",
+                             fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",
+                                         room.patches.patches.size(), options.patches.patch_size_m,
+                                         room.patches.elements.size(), options.patches.element_size_m),
+                             {},
+                             "indirect light varies over patches, direct light over elements; "
+                             "docs/accuracy.md tells what finer ones change"});
+  WarnOfMesh(mesh.findings, room, context);
+  return room;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,43 @@
+// A program run as a child process: its output goes to a log, its time is limited.
+//
+// Throws std::runtime_error where the process cannot be made or the log not be written.
+#ifndef LUXFIT_APPS_TEXT_PROCESS_H_
+#define LUXFIT_APPS_TEXT_PROCESS_H_
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace luxfit {
+
+// A program that a command needs and that is not there: exit status 3.
+class MissingProgram : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Whether an executable of that name is on the PATH.
+bool IsInstalled(const std::string& program);
+
+struct ProcessOptions {
+  std::string log;          // file that standard output and standard error are appended to
+  double time_limit_s = 0;  // 0: none; past it the process and its children are killed
+  std::map<std::string, std::string> environment;  // beside what is there
+};
+
+struct ProcessEnd {
+  int status = -1;  // exit status; -1 where a signal ended it
+  int signal = 0;
+  bool timed_out = false;
+  bool IsSuccess() const { return status == 0 && !timed_out; }
+  std::string Describe()
+      const;  // "ended with status 1", "was killed by signal 6", "took longer than allowed"
+};
+
+// Waits for its end. The first word is the program, looked up on the PATH. Throws MissingProgram.
+ProcessEnd RunProcess(const std::vector<std::string>& words, const ProcessOptions& options);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_TEXT_PROCESS_H_

@@ -1,0 +1,15 @@
+// Seconds of a clock that never goes back, for how long something took.
+#ifndef LUXFIT_APPS_TEXT_SECONDS_H_
+#define LUXFIT_APPS_TEXT_SECONDS_H_
+
+#include <chrono>
+
+namespace luxfit {
+
+inline double NowS() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_TEXT_SECONDS_H_

@@ -1,0 +1,66 @@
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "calib/lens/internal/lens.h"
+#include "calib/lens/internal/mrcal_lens.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The lens alone: focal lengths 1, centre 0.
+MrcalLens UnitLens(const Camera& camera) {
+  MrcalLens lens = ToMrcal(camera);
+  lens.intrinsics[0] = lens.intrinsics[1] = 1;
+  lens.intrinsics[2] = lens.intrinsics[3] = 0;
+  return lens;
+}
+
+}  // namespace
+
+LensImage SplinedLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+  LensImage out;
+  out.xy.setConstant(kNaN);
+  out.d_point.setConstant(kNaN);
+  // The axis behind the camera is the stereographic projection's one point without an image.
+  if (!p_in_cam.allFinite() || !(p_in_cam.norm() + p_in_cam.z() > 1e-9 * p_in_cam.norm())) return out;
+  const MrcalLens lens = UnitLens(camera);
+  mrcal_point3_t p{};
+  mrcal_point2_t q{};
+  mrcal_point3_t gradient[2];
+  p.x = p_in_cam.x();
+  p.y = p_in_cam.y();
+  p.z = p_in_cam.z();
+  if (!mrcal_project(&q, gradient, nullptr, &p, 1, &lens.model, lens.intrinsics.data())) return out;
+  out.xy = {q.x, q.y};
+  for (int row = 0; row < 2; ++row) {
+    out.d_point.row(row) << gradient[row].x, gradient[row].y, gradient[row].z;
+  }
+  return out;
+}
+
+Eigen::Vector3d SplinedLensDirection(const Camera& camera, const Eigen::Vector2d& xy) {
+  // From the plain stereographic lens (tan(theta / 2) = |xy| / 2), Newton's method on the unit sphere.
+  const double s = xy.squaredNorm() / 4;
+  Eigen::Vector3d v = Eigen::Vector3d(xy.x(), xy.y(), 1 - s) / (1 + s);
+  constexpr int kMaxIterations = 30;
+  constexpr double kTolerance = 1e-12;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const LensImage image = SplinedLensImage(camera, v);
+    if (!image.xy.allFinite()) break;
+    const Eigen::Vector2d residual = image.xy - xy;
+    if (residual.norm() < kTolerance) return v;
+    Eigen::Matrix<double, 3, 2> tangent;
+    tangent.col(0) = v.unitOrthogonal();
+    tangent.col(1) = v.cross(tangent.col(0));
+    const Eigen::Matrix2d jacobian = image.d_point * tangent;
+    if (!(std::abs(jacobian.determinant()) > 1e-9)) break;
+    v = (v - tangent * (jacobian.inverse() * residual)).normalized();
+  }
+  return Eigen::Vector3d::Constant(kNaN);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,105 @@
+#include "calib/luminance/bright_blobs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+namespace luxfit {
+namespace {
+
+// Luminance above which a valid pixel is bright; 0: no pixel is valid.
+float BrightLimit(const LuminanceImage& image, double times_surfaces) {
+  // Every fourth pixel: a quantile needs no more.
+  constexpr Eigen::Index kStep = 4;
+  std::vector<float> values;
+  values.reserve(static_cast<size_t>(image.valid.size() / kStep) + 1);
+  for (Eigen::Index i = 0; i < image.valid.size(); i += kStep) {
+    if (image.valid.data()[i]) values.push_back(image.relative_luminance.data()[i]);
+  }
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 19 / 20);
+  std::nth_element(values.begin(), at, values.end());
+  return static_cast<float>(times_surfaces) * *at;
+}
+
+// Saturated pixels that show at least half of the most; NaN and infinity are more than anything.
+PixelMask FullySaturated(const LuminanceImage& image) {
+  float most = 0;
+  for (Eigen::Index i = 0; i < image.saturated.size(); ++i) {
+    const float value = image.relative_luminance.data()[i];
+    if (image.saturated.data()[i] && std::isfinite(value)) most = std::max(most, value);
+  }
+  return image.saturated && !(image.relative_luminance < 0.5f * most);
+}
+
+cv::Mat ToMat(const PixelMask& mask) {
+  cv::Mat mat(static_cast<int>(mask.rows()), static_cast<int>(mask.cols()), CV_8U);
+  for (Eigen::Index v = 0; v < mask.rows(); ++v) {
+    for (Eigen::Index u = 0; u < mask.cols(); ++u)
+      mat.at<uint8_t>(static_cast<int>(v), static_cast<int>(u)) = mask(v, u) ? 255 : 0;
+  }
+  return mat;
+}
+
+// Sums over a blob's pixels.
+struct Moments {
+  double count = 0, saturated = 0;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+
+  void Add(const Eigen::Vector2d& p, bool is_saturated) {
+    count += 1;
+    saturated += is_saturated ? 1 : 0;
+    sum += p;
+    square += p * p.transpose();
+  }
+};
+
+}  // namespace
+
+std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const BrightBlobOptions& options) {
+  const Eigen::Index height = image.relative_luminance.rows(), width = image.relative_luminance.cols();
+  if (image.saturated.rows() != height || image.saturated.cols() != width || image.valid.rows() != height ||
+      image.valid.cols() != width)
+    throw std::invalid_argument("FindBrightBlobs: expected planes of one size");
+  if (height == 0 || width == 0) return {};
+  const PixelMask saturated = FullySaturated(image);
+  const float limit = BrightLimit(image, options.times_surfaces);
+  const PixelMask bright =
+      saturated || (image.valid && image.relative_luminance > (limit > 0 ? limit : INFINITY));
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(ToMat(bright), labels, stats, centroids, 8, CV_32S);
+  std::vector<Moments> moments(static_cast<size_t>(count));
+  for (int v = 0; v < labels.rows; ++v) {
+    for (int u = 0; u < labels.cols; ++u) {
+      const int label = labels.at<int>(v, u);
+      if (label > 0) moments[static_cast<size_t>(label)].Add({u, v}, saturated(v, u));
+    }
+  }
+  std::vector<BrightBlob> blobs;
+  for (int label = 1; label < count; ++label) {
+    const Moments& m = moments[static_cast<size_t>(label)];
+    if (m.count < options.min_area_px2) continue;
+    BrightBlob blob;
+    blob.center_px = m.sum / m.count;
+    // A pixel is a square of its own, of 1 / 12 px2.
+    blob.spread_px2 =
+        m.square / m.count - blob.center_px * blob.center_px.transpose() + Eigen::Matrix2d::Identity() / 12;
+    const int left = stats.at<int>(label, cv::CC_STAT_LEFT), top = stats.at<int>(label, cv::CC_STAT_TOP);
+    const int right = left + stats.at<int>(label, cv::CC_STAT_WIDTH);
+    const int bottom = top + stats.at<int>(label, cv::CC_STAT_HEIGHT);
+    blob.extent_px = {Eigen::Vector2d(left - 0.5, top - 0.5), Eigen::Vector2d(right - 0.5, bottom - 0.5)};
+    blob.touches_edge = left == 0 || top == 0 || right == labels.cols || bottom == labels.rows;
+    blob.area_px2 = m.count;
+    blob.saturated_share = m.saturated / m.count;
+    blobs.push_back(blob);
+  }
+  std::stable_sort(blobs.begin(), blobs.end(),
+                   [](const BrightBlob& a, const BrightBlob& b) { return a.area_px2 > b.area_px2; });
+  if (blobs.size() > static_cast<size_t>(options.max_blobs))
+    blobs.resize(static_cast<size_t>(options.max_blobs));
+  return blobs;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,42 @@
+// Luminaires in a photo: connected pixels far brighter than what surfaces reflect.
+//
+// A pixel is bright where its every exposure saturated and it shows at least half of the most that a
+// saturated pixel does (masks of saturation have a margin, calib/luminance/luminance.h), or where its luminance is more
+// than `times_surfaces` that of all but the brightest twentieth of the valid pixels: in exposures short
+// enough a luminaire does not saturate. Highlights, windows and surfaces that are washed out are blobs too:
+// only several views together and the light itself tell which are luminaires.
+//
+// Pixels, (0, 0) the centre of the top-left one. Bright pixels touching by a side or a corner are one blob.
+// Source: connected components after Bolelli et al. (2020), "Spaghetti labeling", in OpenCV.
+#ifndef LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
+#define LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "calib/luminance/luminance.h"
+
+namespace luxfit {
+
+struct BrightBlob {
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();   // mean of its pixels
+  Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();  // their covariance: size and shape of the outline
+  Eigen::AlignedBox2d extent_px;                         // outer edges of its outermost pixels
+  double area_px2 = 0;
+  double saturated_share = 0;
+  bool touches_edge = false;  // of the photo: its centre is not the luminaire's
+};
+
+struct BrightBlobOptions {
+  double times_surfaces = 4;
+  double min_area_px2 = 4;  // less is a tag's corner or a hot pixel
+  int max_blobs = 24;       // the largest: of a photo with more, most are texture
+};
+
+// Largest first. Throws std::invalid_argument for an image whose planes differ in size.
+std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const BrightBlobOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_

@@ -1,0 +1,34 @@
+// Planes of named quantities as one OpenEXR picture: what the three colours of calib/luminance/image.h cannot hold.
+//
+// Channels keep the order of the list in the call and are stored by name, as the format has it. Values are
+// 32-bit floats, ZIP compressed; NaN and infinity are kept. All planes are height x width and of one size.
+//
+// Throws std::runtime_error naming the file where it cannot be written or read, std::invalid_argument for no
+// planes, planes that differ in size, and names that are empty or given twice.
+// Source: OpenEXR 3.1, "Technical Introduction to OpenEXR" (channels, ZIP).
+#ifndef LUXFIT_CALIB_LUMINANCE_EXR_CHANNELS_H_
+#define LUXFIT_CALIB_LUMINANCE_EXR_CHANNELS_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "calib/luminance/image.h"
+
+namespace luxfit {
+
+struct ExrChannel {
+  std::string name;  // "illuminance_lx"
+  ImagePlane values;
+};
+
+// Put in place whole. `comments` are header attributes (text).
+void WriteExrChannels(const std::string& path, const std::vector<ExrChannel>& channels,
+                      const std::map<std::string, std::string>& comments = {});
+
+// All float channels of a file, by name.
+std::map<std::string, ImagePlane> ReadExrChannels(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_EXR_CHANNELS_H_

@@ -1,0 +1,19 @@
+// Linear counts as 8-bit grey levels for detectors that want them.
+//
+//   level = 255 (value / white)^(1 / gamma), white: the brightest but the luminaires in view
+#ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_DISPLAY_IMAGE_H_
+#define LUXFIT_CALIB_LUMINANCE_INTERNAL_DISPLAY_IMAGE_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "calib/luminance/image.h"
+
+namespace luxfit {
+
+// Row by row, as many as the plane has pixels; NaN is white.
+std::vector<uint8_t> DisplayImage(const ImagePlane& grey, double gamma);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_DISPLAY_IMAGE_H_

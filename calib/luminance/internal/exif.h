@@ -1,0 +1,15 @@
+// The EXIF part of a file, through Exiv2, from any thread.
+#ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
+#define LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
+
+#include <exiv2/exiv2.hpp>
+#include <string>
+
+namespace luxfit {
+
+// Empty where the file carries none or cannot be read. Nothing is written on the terminal.
+Exiv2::ExifData ReadExif(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_

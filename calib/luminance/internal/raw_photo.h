@@ -1,0 +1,31 @@
+// Photos as the sensor counted them: DNG, CR2, NEF, ARW and what else LibRaw decodes.
+//
+//   counts_c(p) = sum_q k(|q - p|) (raw(q) - black(q)) / sum_q k(|q - p|)      over sites q of colour c
+//
+// with the tent k of 3 x 3 sites: bilinear interpolation on a Bayer mosaic, and counts of a site's own colour
+// stay as they are. (X-Trans, whose sites of one colour lie farther apart, takes 5 x 5.) Black levels of the
+// file are subtracted per colour and per place in the mosaic; no white balance, no colour matrix, no
+// brightening, no rotation, no cropping beyond the file's visible area.
+//
+// full_scale_counts and saturation_counts are the file's white level (the maker's limit of linearity where
+// lower) less the largest black level. Counts below black stay negative: noise about zero must average to it.
+//
+// Throws std::runtime_error naming the file where LibRaw cannot decode it and where there is no mosaic in it.
+// Source: LibRaw 0.20, unpack(), without its own processing.
+#ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_RAW_PHOTO_H_
+#define LUXFIT_CALIB_LUMINANCE_INTERNAL_RAW_PHOTO_H_
+
+#include <string>
+
+#include "calib/luminance/image.h"
+
+namespace luxfit {
+
+// Whether the extension is one of a RAW format.
+bool IsRawName(const std::string& path);
+
+Photo ReadRawPhoto(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_RAW_PHOTO_H_

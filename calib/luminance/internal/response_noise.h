@@ -1,0 +1,25 @@
+// How well a count tells its exposure, from how exposures of one pixel disagree.
+#ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_RESPONSE_NOISE_H_
+#define LUXFIT_CALIB_LUMINANCE_INTERNAL_RESPONSE_NOISE_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "calib/luminance/estimate_response.h"
+
+namespace luxfit {
+
+// Standard deviation of ln X at each of the response's knots, one row a channel:
+//
+//   r_ij = ln f(z_ij) - ln t_j - mean of (ln f(z_ik) - ln t_k) over k != j
+//   var(r) = sigma^2(z_ij) + variance of that mean
+//
+// by bins of counts, from the median absolute residual; the means' weights are 1 / sigma^2 of the round
+// before. Bins without 30 residuals take their neighbour's.
+std::array<Eigen::VectorXd, 3> RelativeSigma(const std::vector<BracketSamples>& brackets,
+                                             const CameraResponse& response, const ResponseOptions& options);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_RESPONSE_NOISE_H_

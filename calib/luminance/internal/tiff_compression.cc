@@ -1,0 +1,15 @@
+#include "calib/luminance/internal/tiff_compression.h"
+
+#include "calib/luminance/internal/exif.h"
+
+namespace luxfit {
+
+bool IsLogLuvTiff(const std::string& path) {
+  const Exiv2::ExifData exif = ReadExif(path);
+  const auto at = exif.findKey(Exiv2::ExifKey("Exif.Image.Compression"));
+  if (at == exif.end() || at->count() == 0) return false;
+  const auto compression = at->toLong();
+  return compression == 34676 || compression == 34677;
+}
+
+}  // namespace luxfit

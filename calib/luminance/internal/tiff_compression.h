@@ -1,0 +1,17 @@
+// How the pixels of a TIFF are packed.
+//
+// Source: TIFF 6.0, tag 259; LogLuv: SGI compression schemes 34676 and 34677 (libtiff).
+#ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_TIFF_COMPRESSION_H_
+#define LUXFIT_CALIB_LUMINANCE_INTERNAL_TIFF_COMPRESSION_H_
+
+#include <string>
+
+namespace luxfit {
+
+// LogLuv rounds chromaticity and luminance, and programs that write floats so (OpenCV by default) do it
+// wrongly by factors: 0.5 comes back as 16.1. False for files that are no TIFF.
+bool IsLogLuvTiff(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_TIFF_COMPRESSION_H_

@@ -1,0 +1,174 @@
+#include "calib/register/internal/leave_out.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace luxfit {
+namespace {
+
+constexpr std::ptrdiff_t kEnoughPoints = 20;  // outvote a tag
+constexpr std::ptrdiff_t kFewestPoints = 6;   // hold a view that has no tags
+
+std::ptrdiff_t CountUsed(const std::vector<PointObservation>& points) {
+  return std::count_if(points.begin(), points.end(), [](const PointObservation& seen) { return seen.used; });
+}
+
+// The worst tag that disagrees in every one of its views (two at least, or one where others outvote it), or
+// -1.
+int WorstTag(const BundleContext& context, const BundleAdjustment& adjustment) {
+  struct Record {
+    double least_sigmas = std::numeric_limits<double>::infinity();
+    bool outvoted = true;  // every view of it has two more tags, or points
+  };
+  std::map<int, Record> records;
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    const auto used = std::count(view.used.begin(), view.used.end(), true);
+    for (std::size_t i = 0; i < view.tags.size(); ++i) {
+      if (!view.used[i]) continue;
+      Record& record = records[view.tags[i].id];
+      record.least_sigmas =
+          std::min(record.least_sigmas, BundleRmsSigmas(BundleTagErrors(context, adjustment, view, i)));
+      record.outvoted = record.outvoted && (used >= 3 || CountUsed(view.points) >= kEnoughPoints);
+    }
+  }
+  int worst = -1;
+  double worst_sigmas = context.options.max_view_rms_sigmas * adjustment.scale;
+  for (const auto& [id, record] : records) {
+    double sigmas = record.least_sigmas;
+    // A displacement of the survey that its own sigma cannot explain is as telling as a bad corner.
+    if (context.options.survey_sigma_m > 0 && adjustment.fixed_tag < 0) {
+      sigmas =
+          std::max(sigmas, adjustment.tags.at(id).displacement_m.norm() / context.options.survey_sigma_m);
+    }
+    if (record.outvoted && sigmas > worst_sigmas) {
+      worst = id;
+      worst_sigmas = sigmas;
+    }
+  }
+  return worst;
+}
+
+BundleView* WorstView(const BundleContext& context, BundleAdjustment& adjustment) {
+  BundleView* worst = nullptr;
+  double worst_sigmas = context.options.max_view_rms_sigmas * adjustment.scale;
+  for (BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    const double sigmas = BundleRmsSigmas(BundleViewErrors(context, adjustment, view));
+    if (sigmas > worst_sigmas) {
+      worst = &view;
+      worst_sigmas = sigmas;
+    }
+  }
+  return worst;
+}
+
+// A view with most of its points thrown out: the features put it elsewhere than its tags and the other views.
+BundleView* AstrayView(BundleAdjustment& adjustment) {
+  for (BundleView& view : adjustment.views) {
+    if (!view.active || view.points.empty()) continue;
+    const std::ptrdiff_t used = CountUsed(view.points);
+    const bool has_tags = std::count(view.used.begin(), view.used.end(), true) > 0;
+    if (used > 0 && 2 * used < static_cast<std::ptrdiff_t>(view.points.size())) return &view;
+    if (!has_tags && used < kFewestPoints) return &view;
+  }
+  return nullptr;
+}
+
+// Its tags keep the view if it has any.
+void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
+  view.points.clear();
+  view.active = std::count(view.used.begin(), view.used.end(), true) > 0;
+  notes.push_back({view.name, -1, "features_disagree",
+                   "Most feature points of view " + view.name + " contradict its tags and the other views; " +
+                       (view.active ? "its tags alone place it." : "it is left out."),
+                   "See whether the view shows the same room, unchanged; hang a tag where it sees one."});
+}
+
+// Counts the observations of points that are within `sigmas`, and no others; whether that changed any.
+bool SelectObservations(const BundleContext& context, BundleAdjustment& adjustment, double sigmas) {
+  bool any = false;
+  for (BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (PointObservation& seen : view.points) {
+      const bool fits = PointErrorPx(context, adjustment, view, seen) <= sigmas * adjustment.point_sigma_px;
+      any = any || fits != seen.used;
+      seen.used = fits;
+    }
+  }
+  return any;
+}
+
+// Beside points, corners and points each weigh as their own residuals say, which needs a solution to tell.
+void SolveWithPoints(const BundleContext& context, BundleAdjustment& adjustment) {
+  if (adjustment.points.empty()) {
+    SolveBundle(context, adjustment);
+    return;
+  }
+  RescaleBundle(context, adjustment);
+  SelectObservations(context, adjustment, kBundleRejectedSigmas);
+  SolveBundle(context, adjustment);
+  constexpr int kMostRounds = 5;
+  for (int round = 0; round < kMostRounds && adjustment.converged; ++round) {
+    const double sigma_px = adjustment.point_sigma_px, scale = adjustment.corner_weight_scale;
+    adjustment.corner_weight_scale = std::sqrt(adjustment.reduced_chi2);
+    const bool changed = SelectObservations(context, adjustment, kBundleRejectedSigmas);
+    SolveBundle(context, adjustment);
+    constexpr double kSame = 0.02;  // relative, of sigmas
+    if (!changed && std::abs(adjustment.point_sigma_px / sigma_px - 1) < kSame &&
+        std::abs(adjustment.corner_weight_scale / scale - 1) < kSame)
+      return;
+  }
+}
+
+void LeaveOutTag(int id, BundleAdjustment& adjustment, std::vector<RegistrationNote>& notes) {
+  for (BundleView& view : adjustment.views) {
+    for (std::size_t i = 0; i < view.tags.size(); ++i) {
+      if (view.tags[i].id == id) view.used[i] = false;
+    }
+  }
+  notes.push_back(TagDisagrees(id));
+}
+
+}  // namespace
+
+RegistrationNote TagDisagrees(int id) {
+  return {"", id, "tag_disagrees",
+          "Tag " + std::to_string(id) +
+              " disagrees with the other tags in every view that can tell; it is left out.",
+          "Measure its place, size and up direction again, or see whether it was moved."};
+}
+
+void SolveLeavingOut(const BundleContext& context, BundleAdjustment& adjustment,
+                     std::vector<RegistrationNote>& notes) {
+  while (true) {
+    SolveWithPoints(context, adjustment);
+    if (!adjustment.converged) return;
+    const int tag = WorstTag(context, adjustment);
+    if (tag >= 0) {
+      LeaveOutTag(tag, adjustment, notes);
+      continue;
+    }
+    if (BundleView* const astray = AstrayView(adjustment)) {
+      LeaveOutPoints(*astray, notes);
+      continue;
+    }
+    BundleView* const view = WorstView(context, adjustment);
+    if (view == nullptr) return;
+    std::ostringstream message;
+    message.precision(2);
+    message << "The corners of view " << view->name << " disagree by "
+            << BundleRmsSigmas(BundleViewErrors(context, adjustment, *view))
+            << " sigma (rms); it is left out.";
+    notes.push_back(
+        {view->name, -1, "view_disagrees", message.str(),
+         "See whether the camera moved between photos of this view, and whether it is the right camera."});
+    view->active = false;
+  }
+}
+
+}  // namespace luxfit

@@ -1,0 +1,20 @@
+// Solving a bundle adjustment while leaving out what disagrees with the rest, and naming it.
+#ifndef LUXFIT_CALIB_REGISTER_INTERNAL_LEAVE_OUT_H_
+#define LUXFIT_CALIB_REGISTER_INTERNAL_LEAVE_OUT_H_
+
+#include <vector>
+
+#include "calib/register/internal/bundle_adjustment.h"
+
+namespace luxfit {
+
+RegistrationNote TagDisagrees(int id);
+
+// Solves, leaves out points' observations, then the worst tag or view, and solves again until nothing
+// disagrees.
+void SolveLeavingOut(const BundleContext& context, BundleAdjustment& adjustment,
+                     std::vector<RegistrationNote>& notes);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_REGISTER_INTERNAL_LEAVE_OUT_H_

@@ -1,0 +1,45 @@
+// Nearest point on a set of triangles: a tree of boxes, halved at the median of the longest side.
+// Source: Ericson (2005), "Real-time collision detection", 5.1.5 (point and triangle).
+#ifndef LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_
+#define LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace luxfit {
+
+struct NearestPoint {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  int triangle = -1;
+  double squared_distance = 0;
+};
+
+class TriangleTree {
+ public:
+  // A column of `triangles` has the indices of three columns of `vertices`; there is one at least.
+  TriangleTree(const Eigen::Matrix3Xd& vertices, const Eigen::Matrix3Xi& triangles);
+  NearestPoint Nearest(const Eigen::Vector3d& p) const;
+  Eigen::Vector3d Normal(int triangle) const;  // unit; zero of a triangle without area
+
+ private:
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int left = -1, right = -1;  // nodes
+    int begin = 0, end = 0;     // of a leaf: order_[begin, end)
+  };
+  int Build(int begin, int end);
+  void Search(int node, const Eigen::Vector3d& p, NearestPoint& best) const;
+  Eigen::Vector3d Corner(int triangle, int corner) const {
+    return vertices_.col(triangles_(corner, triangle));
+  }
+
+  Eigen::Matrix3Xd vertices_;
+  Eigen::Matrix3Xi triangles_;
+  std::vector<int> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_

@@ -1,0 +1,115 @@
+// Registration: a camera pose for every view, in the frame of the tag survey.
+//
+// For each view a pose by PnP from the surveyed tags it sees, then one bundle adjustment over all views:
+//   min over { cam_from_world_v, tag displacements d_t, size error e, points p_i } of
+//     sum rho( |Project(cam_from_world_v * p_corner(d_t, e)) - corner_px|^2 / corner_sigma^2 )
+//       + sum |d_t|^2 / survey_sigma^2 + e^2 / size_sigma^2
+//       + sum rho( |Project(cam_from_world_v * p_i) - pixel|^2 / point_sigma^2 )
+// rho is Huber's loss at 2.5 sigma. All tags are (1 + e) times their surveyed size: they come from one
+// printer, whose scaling nobody asks about, and a view of one tag has no other measure of its distance. Poses
+// are se(3): rotation on its manifold, translation in metres.
+//
+// The last sum is there where features (of COLMAP, say) are given beside the tags: a similarity puts them
+// into the survey's frame, views without tags come in through the points they share with others, point_sigma
+// is estimated from the residuals. Corners are then weighted by what their own residuals say, too.
+//
+// Without a survey (`tag_size_m` given) the tags' places are estimated with the poses; the frame is that of
+// one tag and the scale comes from its size. Features whose points lie on surfaces of the scene
+// (calib/register/mesh_alignment.h) need no tags at all.
+//
+// Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by what the tags ask
+// for: `focal_scale`, calib/register/internal/focal_check.h; the poses' covariance then holds its uncertainty.
+//
+// A view without a usable tag or features, or whose pose is ambiguous, too uncertain or disagrees with the
+// rest, is left out and named in `notes`.
+// Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis"; Collins
+// and Bartoli (2014), "Infinitesimal plane-based pose estimation" (IPPE) for the start.
+#ifndef LUXFIT_CALIB_REGISTER_REGISTRATION_H_
+#define LUXFIT_CALIB_REGISTER_REGISTRATION_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "calib/lens/camera.h"
+#include "calib/register/feature_model.h"
+#include "calib/targets/tags.h"
+
+namespace luxfit {
+
+struct ViewDetections {
+  std::string view;
+  int camera = 0;  // index into the cameras given to RegisterViews
+  std::vector<TagDetection> tags;
+};
+
+struct RegisteredView {
+  std::string view;
+  int camera = 0;
+  Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d position_sigma_m = Eigen::Vector3d::Zero();  // of the camera centre, world axes, 1 sigma
+  Eigen::Matrix<double, 6, 6> covariance;  // (rotation vector in world axes rad, camera centre in world m)
+  double reprojection_rms_px = 0;          // sqrt(mean squared 2-D corner error)
+  int tags_used = 0;
+  int corners_rejected = 0;  // corners more than 4 sigma off
+  int points_used = 0;       // features
+};
+
+struct RegistrationNote {
+  std::string view;  // empty where it concerns a tag
+  int tag_id = -1;   // -1 where it concerns a view
+  // no_tags | pose_ambiguous | pose_uncertain | view_disagrees | tag_disagrees | tag_unknown | tag_duplicated
+  // | tag_sizes_wrong | map_mirrored | map_turned | features_unaligned | features_disagree | tag_unplaced
+  std::string code;
+  std::string message;  // a sentence for the user
+  std::string remedy;
+};
+
+struct Registration {
+  std::vector<RegisteredView> views;  // those registered, in input order
+  std::vector<RegistrationNote> notes;
+  double reprojection_rms_px = 0;   // over every corner of every view
+  double tag_size_error = 0;        // e: tags are (1 + e) times as large as surveyed
+  double tag_size_error_sigma = 0;  // 0 if it was held
+  double point_sigma_px = 0;        // of features, per axis; 0: there were none
+  int points = 0;                   // features that two registered views and more use
+  // Of each camera: what fx and fy were multiplied with because the tags contradicted them; sigma 0: as
+  // given.
+  std::vector<double> focal_scale, focal_scale_sigma;
+  std::string frame = "survey";          // survey | tag N | surface: what the poses are given in
+  std::vector<SurveyedTag> placed_tags;  // where there was no survey: where the tags hang in that frame
+  bool converged = false;
+  std::string message;
+  bool IsUsable() const { return converged && !views.empty(); }
+};
+
+struct RegisterViewsOptions {
+  // Side of every tag's black square where there is no survey: places are estimated. 0: there is one.
+  double tag_size_m = 0;
+  // Sigma of each surveyed tag's place per axis: a careful laser measure, the thickness of a sticker. 0:
+  // exact.
+  double survey_sigma_m = 0.001;
+  double tag_size_sigma =
+      0.005;                  // relative, common to all tags: printers scale by that much; 0: sizes are exact
+  double huber_sigmas = 2.5;  // loss switches from squared to linear here
+  double max_view_rms_sigmas =
+      6;  // a view whose corners disagree by more than this is left out; sigma there is the
+          // corner's own times what the residuals of all views say, if that is more than 1
+  double max_rotation_sigma_rad =
+      0.005;  // a view turned by more lands every patch pixels away: it is left out
+};
+
+Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
+                           const std::vector<ViewDetections>& detections,
+                           const RegisterViewsOptions& options = {});
+
+// The same with features beside the tags. Views of `features` are among `detections` by name (without tags
+// where they show none); others do not count.
+Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
+                           const std::vector<ViewDetections>& detections, const FeatureModel& features,
+                           const RegisterViewsOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_REGISTER_REGISTRATION_H_

@@ -1,0 +1,23 @@
+// Which pixels of a photo tell where a tag is: those about the edges between its cells, and some others for
+// its shading. Of a large tag a share, chosen at random (the same in every run): a lattice would miss edges
+// that run along its rows.
+#ifndef LUXFIT_CALIB_TARGETS_INTERNAL_TAG_PIXELS_H_
+#define LUXFIT_CALIB_TARGETS_INTERNAL_TAG_PIXELS_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "calib/luminance/image.h"
+#include "calib/targets/internal/tag_family.h"
+
+namespace luxfit {
+
+// (u, v) of at most about `max_pixels` finite pixels of the tag's picture, row by row. Corners as
+// TagDetection has them; they may be off by a pixel.
+std::vector<Eigen::Array2i> ChooseTagPixels(const ImagePlane& grey, const TagPicture& picture,
+                                            const std::array<Eigen::Vector2d, 4>& corners_px, int max_pixels);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_TARGETS_INTERNAL_TAG_PIXELS_H_

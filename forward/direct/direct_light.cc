@@ -1,0 +1,130 @@
+#include "forward/direct/direct_light.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "forward/direct/internal/cell_sum.h"
+#include "forward/direct/internal/luminous_surface.h"
+#include "forward/direct/internal/surface_rule.h"
+#include "forward/factors/internal/disc_factor.h"
+#include "forward/factors/internal/polygon_factor.h"
+
+namespace luxfit {
+namespace {
+
+// E = pi L F, L = Phi / (pi A), with F in closed form.
+DirectIlluminance LambertianRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                                      const Eigen::Vector3d& normal) {
+  const Eigen::Vector2d& sides = surface.sides();
+  const Eigen::Vector3d u = sides[0] * surface.axes().along, v = sides[1] * surface.axes().across;
+  const PolygonGradient factor = PointToPolygonGradient(
+      p, normal, MakePolygon(surface.PointOf({-0.5, -0.5}), u, v, FacetKind::kParallelogram));
+  const double area = surface.area_m2();
+  DirectIlluminance sum;
+  sum.lx_per_lm = factor.factor / area;
+  const Eigen::Vector2d corners[4] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+  // A Lambertian lobe adds nothing of its own to a turn: it is the surface's cosine.
+  for (size_t k = 0; k < 4; ++k) surface.AddMotion(corners[k], factor.d_vertex[k] / area, sum);
+  sum.d_size -= sum.lx_per_lm * sides.cwiseInverse();
+  return sum;
+}
+
+DirectIlluminance LambertianDisc(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                                 const Eigen::Vector3d& normal) {
+  const Luminaire& luminaire = surface.luminaire();
+  const double diameter = surface.sides()[0], area = surface.area_m2();
+  const DiscFactor disc = PointToDisc(p, normal, luminaire.position, luminaire.aim, diameter / 2);
+  DirectIlluminance sum;
+  sum.lx_per_lm = disc.factor / area;
+  sum.d_position = disc.d_center / area;
+  // Turning the lamp is turning centre and receiver's normal about the receiver the other way.
+  const Eigen::Vector3d turn =
+      -((luminaire.position - p).cross(disc.d_center) + normal.cross(disc.d_normal)) / area;
+  sum.d_tilt = {turn.dot(surface.axes().across), -turn.dot(surface.axes().along)};
+  sum.d_size[0] = disc.d_radius / (2 * area) - 2 * sum.lx_per_lm / diameter;
+  return sum;
+}
+
+// In closed form areas are differences of angles: rounding, 1e-16, is to stay small beside them.
+bool HasClosedForm(const LuminousSurface& surface, const Eigen::Vector3d& p) {
+  return surface.has_extent() && surface.luminaire().distribution == Distribution::kLambertian &&
+         surface.area_m2() > 1e-8 * (surface.luminaire().position - p).squaredNorm();
+}
+
+DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                                 const Eigen::Vector3d& normal) {
+  const Luminaire& luminaire = surface.luminaire();
+  const LuminaireAxes& axes = surface.axes();
+  DirectIlluminance sum;
+  for (const SurfaceSample& sample : SurfaceRuleFor(surface, p, normal)) {
+    const Eigen::Vector2d place(sample.a, sample.b);
+    const Eigen::Vector3d to_lamp = surface.PointOf(place) - p;
+    const double r2 = to_lamp.squaredNorm();
+    const double height = normal.dot(to_lamp);
+    if (height <= 0 || r2 < 1e-12) continue;
+    const double r = std::sqrt(r2);
+    const Eigen::Vector3d direction = -to_lamp / r;
+    const DirectedIntensity intensity = IntensityPerLumen(luminaire, axes, direction);
+    if (intensity.cd_per_lm == 0) continue;
+    // E = I(d) h / r^3 with h = n . t, d = -t / r, t = to_lamp.
+    const double geometry = sample.weight * height / (r2 * r);
+    const double illuminance = intensity.cd_per_lm * geometry;
+    const Eigen::Vector3d& lobe = intensity.d_direction;
+    const Eigen::Vector3d gradient = -geometry / r * (lobe - lobe.dot(direction) * direction) +
+                                     intensity.cd_per_lm * sample.weight / (r2 * r) * normal -
+                                     3 * illuminance / r2 * to_lamp;
+    sum.lx_per_lm += illuminance;
+    surface.AddMotion(place, gradient, sum);
+    // Turning the lamp about w turns its lobe as if the receiver had been turned by -w: dI = (d_direction x
+    // d) . w. Tilts are about across and -along, the heading is about aim.
+    const Eigen::Vector3d turn = geometry * lobe.cross(direction);
+    sum.d_tilt += Eigen::Vector2d(turn.dot(axes.across), -turn.dot(axes.along));
+    sum.d_heading += turn.dot(luminaire.aim);
+    sum.d_exponent += intensity.d_exponent * geometry;
+  }
+  return sum;
+}
+
+}  // namespace
+
+DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                                            const Eigen::Vector3d& normal) {
+  if (HasUnevenEmission(luminaire)) {
+    return SumOverCells(luminaire, [&](const Luminaire& cell) {
+      return DirectIlluminancePerLumen(cell, p_in_world, normal);
+    });
+  }
+  const LuminousSurface surface(luminaire);
+  if (!HasClosedForm(surface, p_in_world)) return SumOverSurface(surface, p_in_world, normal);
+  return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal)
+                           : LambertianRectangle(surface, p_in_world, normal);
+}
+
+void DirectIlluminance::AddScaled(double factor, const DirectIlluminance& other) {
+  lx_per_lm += factor * other.lx_per_lm;
+  d_position += factor * other.d_position;
+  d_tilt += factor * other.d_tilt;
+  d_heading += factor * other.d_heading;
+  d_size += factor * other.d_size;
+  d_exponent += factor * other.d_exponent;
+}
+
+double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                       const Eigen::Vector3d& normal, int order) {
+  const LuminousSurface surface(luminaire);
+  const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
+  double seen = 0, in_front = 0, heights = 0;
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1))) {
+    const Eigen::Vector3d point = surface.PointOf({sample.a, sample.b});
+    const double height = normal.dot(point - p_in_world);
+    heights += height;
+    if (!(height > 0)) continue;
+    in_front += sample.weight;
+    if (!rays.Occluded(start, point)) seen += sample.weight;
+  }
+  if (std::isnan(heights)) return heights;
+  return in_front > 0 ? seen / in_front : 0;
+}
+
+}  // namespace luxfit

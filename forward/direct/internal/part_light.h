@@ -1,0 +1,35 @@
+// Light of every part of a luminaire alone (forward/luminaire/luminaire_parts.h), all parts in one pass over its
+// surface: as much work as the light of the whole.
+//
+// lx per lm of each part alone; surface points are those that the whole is summed over.
+#ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_PART_LIGHT_H_
+#define LUXFIT_FORWARD_DIRECT_INTERNAL_PART_LIGHT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/direct/sensor.h"
+#include "forward/luminaire/luminaire_parts.h"
+
+namespace luxfit {
+
+class PartLight {
+ public:
+  // Throws std::invalid_argument where the luminaire has no such parts.
+  PartLight(const Luminaire& luminaire, PartKind kind);
+
+  Eigen::VectorXd At(const Sensor& place) const;
+
+ private:
+  void AddNodes(const Luminaire& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                Eigen::VectorXd& sum) const;
+
+  Luminaire whole_;
+  PartKind kind_;
+  std::vector<Luminaire> cells_;  // of kCell: each with 1 lm; of kGammaNode: each with its share as flux
+  Eigen::VectorXd node_flux_;
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_DIRECT_INTERNAL_PART_LIGHT_H_

@@ -1,0 +1,202 @@
+#include "forward/factors/internal/polygon_factor.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace luxfit {
+namespace {
+
+constexpr double kPlaneTolerance = 1e-9;  // m: what lies this near a plane lies in it
+
+// Integral of ln(sqrt(t^2 + h^2)) over t, from 0.
+double LogDistanceIntegral(double t, double h) {
+  const double r2 = t * t + h * h;
+  if (r2 < 1e-300) return 0;
+  return 0.5 * t * std::log(r2) - t + (h > 0 ? h * std::atan(t / h) : 0);
+}
+
+// Integral of ln r from a point along the edge from a to b, per metre of the edge's length.
+double LogDistanceToEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& direction,
+                         double length) {
+  const Eigen::Vector3d d = p - a;
+  const double foot = d.dot(direction);
+  // Not sqrt(d^2 - foot^2): near the edge's line that is noise of 1e-8, which no quadrature can integrate.
+  const double h = (d - foot * direction).norm();
+  return LogDistanceIntegral(length - foot, h) - LogDistanceIntegral(-foot, h);
+}
+
+// Nodes and weights of the 15-point Kronrod rule and the 7-point Gauss rule in it, on [-1, 1] (QUADPACK,
+// 1983).
+constexpr double kNodes[8] = {0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
+                              0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
+                              0.586087235467691130294144058458,    0.405845151377397166906606412076961,
+                              0.207784955007898467600689403773245, 0};
+constexpr double kKronrod[8] = {0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
+                                0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
+                                0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+                                0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
+constexpr double kGauss[4] = {0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
+                              0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
+
+// Integral of f over [a, b] by halving where the two rules differ by more than `tolerance`.
+template <typename Function>
+double AdaptiveIntegral(const Function& f, double a, double b, double tolerance, int depth) {
+  const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  const double center = f(middle);
+  double kronrod = kKronrod[7] * center, gauss = kGauss[3] * center;
+  for (int k = 0; k < 7; ++k) {
+    const double sum = f(middle - half * kNodes[k]) + f(middle + half * kNodes[k]);
+    kronrod += kKronrod[k] * sum;
+    if (k % 2 == 1) gauss += kGauss[k / 2] * sum;
+  }
+  if (depth == 0 || std::abs(kronrod - gauss) * half < tolerance) return kronrod * half;
+  return AdaptiveIntegral(f, a, middle, 0.5 * tolerance, depth - 1) +
+         AdaptiveIntegral(f, middle, b, 0.5 * tolerance, depth - 1);
+}
+
+double PlaneDistance(const Eigen::Vector3d& v, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
+  return normal.dot(v - p);
+}
+
+// Calls use(i, t) for every corner of the part of a polygon in front of the plane through p: the point t of
+// the way from its corner i to the next, t = 0 being that corner itself. NaN counts as in front, so that it
+// is not lost. Sutherland and Hodgman (1974).
+template <typename Use>
+void ForEachCornerInFront(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
+                          const Eigen::Vector3d& normal, const Use& use) {
+  for (int i = 0; i < polygon.count; ++i) {
+    const double ha = PlaneDistance(polygon[i], p, normal);
+    const double hb = PlaneDistance(polygon[(i + 1) % polygon.count], p, normal);
+    if (!(ha < -kPlaneTolerance)) use(i, 0.0);
+    if (std::min(ha, hb) < -kPlaneTolerance && std::max(ha, hb) > kPlaneTolerance) use(i, ha / (ha - hb));
+  }
+}
+
+Eigen::Vector3d AreaVector(const ConvexPolygon& polygon) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int i = 2; i < polygon.count; ++i)
+    sum += 0.5 * (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  return sum;
+}
+
+// oint oint ln r dr . dr
+double DoubleContour(const ConvexPolygon& from, const ConvexPolygon& to, double tolerance) {
+  double sum = 0;
+  for (int i = 0; i < from.count; ++i) {
+    const Eigen::Vector3d &a = from[i], edge = from[(i + 1) % from.count] - a;
+    const double length = edge.norm();
+    if (length < kPlaneTolerance) continue;
+    const Eigen::Vector3d direction = edge / length;
+    for (int k = 0; k < to.count; ++k) {
+      const Eigen::Vector3d &c = to[k], other = to[(k + 1) % to.count] - c;
+      const double other_length = other.norm();
+      if (other_length < kPlaneTolerance) continue;
+      const Eigen::Vector3d other_direction = other / other_length;
+      const double cosine = direction.dot(other_direction);
+      if (std::abs(cosine) < 1e-12) continue;
+      const auto inner = [&](double s) {
+        return LogDistanceToEdge(a + s * direction, c, other_direction, other_length);
+      };
+      sum += cosine * AdaptiveIntegral(inner, 0, length, tolerance / std::abs(cosine), 24);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+double ConvexPolygon::AreaM2() const { return AreaVector(*this).norm(); }
+
+ConvexPolygon MakePolygon(const Eigen::Vector3d& origin, const Eigen::Vector3d& edge_u,
+                          const Eigen::Vector3d& edge_v, FacetKind kind) {
+  ConvexPolygon polygon;
+  polygon.Add(origin);
+  polygon.Add(origin + edge_u);
+  if (kind == FacetKind::kParallelogram) polygon.Add(origin + edge_u + edge_v);
+  polygon.Add(origin + edge_v);
+  return polygon;
+}
+
+ConvexPolygon InFrontOf(const ConvexPolygon& polygon, const Eigen::Vector3d& p,
+                        const Eigen::Vector3d& normal) {
+  ConvexPolygon front;
+  ForEachCornerInFront(polygon, p, normal, [&](int i, double t) {
+    front.Add(polygon[i] + t * (polygon[(i + 1) % polygon.count] - polygon[i]));
+  });
+  return front;
+}
+
+double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const ConvexPolygon& polygon) {
+  const ConvexPolygon front = InFrontOf(polygon, p, normal);
+  if (front.count < 3) return 0;
+  double sum = 0;
+  Eigen::Vector3d a = front[front.count - 1] - p;
+  for (int i = 0; i < front.count; ++i) {
+    const Eigen::Vector3d b = front[i] - p;
+    const Eigen::Vector3d cross = a.cross(b);
+    const double sine = cross.norm();
+    // In line with an edge: it adds nothing, beyond it or within it (where the angle is pi, the normal gives
+    // 0).
+    if (!(sine <= 1e-300)) sum += std::atan2(sine, a.dot(b)) * normal.dot(cross) / sine;
+    a = b;
+  }
+  // Counter-clockwise from its front means clockwise for the point that it faces.
+  return std::max(-sum / (2 * M_PI), 0.0);
+}
+
+PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                                       const ConvexPolygon& polygon) {
+  struct Corner {
+    int edge;
+    double t;
+    Eigen::Vector3d at, gradient;
+  };
+  std::array<Corner, 9> front;
+  size_t count = 0;
+  ForEachCornerInFront(polygon, p, normal, [&](int i, double t) {
+    const Eigen::Vector3d at = polygon[i] + t * (polygon[(i + 1) % polygon.count] - polygon[i]);
+    front[count++] = {i, t, at - p, Eigen::Vector3d::Zero()};
+  });
+  PolygonGradient result;
+  result.d_vertex.fill(Eigen::Vector3d::Zero());
+  if (count < 3) return result;
+  for (size_t i = 0; i < count; ++i) {
+    // One edge adds f = angle (n . w) / |w|, w = a x b.
+    Corner &from = front[i], &to = front[i + 1 == count ? 0 : i + 1];
+    const Eigen::Vector3d &a = from.at, &b = to.at, w = a.cross(b);
+    const double s = w.norm(), q = a.dot(b), r4 = a.squaredNorm() * b.squaredNorm();
+    if (s < 1e-100) continue;  // in line with the edge; s^3 is still a number
+    const double angle = std::atan2(s, q), height = normal.dot(w);
+    result.factor += angle * height / s;
+    const double bend = (q / r4 - angle / s) / (s * s);  // of angle / s with s, over s
+    from.gradient += height * (bend * b.cross(w) - b / r4) + angle / s * b.cross(normal);
+    to.gradient += height * (bend * w.cross(a) - a / r4) + angle / s * normal.cross(a);
+  }
+  // The sign as in PointToPolygon; a point behind the polygon sees nothing of it.
+  const double scale = result.factor > 0 ? 0 : -1 / (2 * M_PI);
+  result.factor *= scale;
+  // A corner cut off by the receiver's plane stays t of the way along its edge: sliding along it, it sweeps
+  // what lies in that plane, which brings nothing.
+  for (size_t i = 0; i < count; ++i) {
+    const Corner& corner = front[i];
+    const size_t edge = static_cast<size_t>(corner.edge),
+                 next = (edge + 1) % static_cast<size_t>(polygon.count);
+    result.d_vertex[edge] += scale * (1 - corner.t) * corner.gradient;
+    result.d_vertex[next] += scale * corner.t * corner.gradient;
+  }
+  return result;
+}
+
+double PolygonToPolygon(const ConvexPolygon& from, const ConvexPolygon& to) {
+  const Eigen::Vector3d area_from = AreaVector(from), area_to = AreaVector(to);
+  const double area = area_from.norm();
+  const ConvexPolygon seen = InFrontOf(to, from[0], area_from / area);
+  if (seen.count < 3) return 0;
+  const ConvexPolygon seeing = InFrontOf(from, to[0], area_to.normalized());
+  if (seeing.count < 3) return 0;
+  const double sum = DoubleContour(seeing, seen, 1e-9 * std::sqrt(area * area_to.norm()));
+  return std::max(0.0, sum / (2 * M_PI * area));
+}
+
+}  // namespace luxfit

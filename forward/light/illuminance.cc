@@ -1,0 +1,142 @@
+#include "forward/light/illuminance.h"
+
+#include <algorithm>
+
+#include "forward/factors/dense_product.h"
+#include "forward/light/internal/direct_columns.h"
+#include "forward/light/internal/gather.h"
+
+namespace luxfit {
+namespace {
+
+// Columns of light: luminaires, their parameters, then reflectances luminaire-major.
+struct Columns {
+  Eigen::Index lamps = 0, parameters = 0;
+  const std::vector<int>& materials;
+
+  Eigen::Index lit() const { return lamps + parameters; }
+  Eigen::Index albedo(Eigen::Index lamp, size_t material) const {
+    return lit() + lamp * static_cast<Eigen::Index>(materials.size()) + static_cast<Eigen::Index>(material);
+  }
+};
+
+// Receivers x columns; the indirect light of every element on the way.
+Eigen::MatrixXf GatherThroughElements(const Room& room, const Receivers& receivers,
+                                      const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
+                                      const Columns& columns, const Eigen::MatrixXf& exitance) {
+  const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
+  Eigen::MatrixXf reflected = indirect;  // exitance of elements
+  reflected.leftCols(columns.lit()) += at_elements;
+  const Eigen::MatrixXf lit = reflected.leftCols(columns.lamps);
+  const Eigen::VectorXf element_albedo = ElementAlbedo(room.patches, albedo);
+  reflected.array().colwise() *= element_albedo.array();
+  for (size_t m = 0; m < columns.materials.size(); ++m) {
+    const Eigen::VectorXf of_material =
+        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(albedo.size(), columns.materials[m]));
+    for (Eigen::Index k = 0; k < columns.lamps; ++k)
+      reflected.col(columns.albedo(k, m)) += of_material.cwiseProduct(lit.col(k));
+  }
+  return GatherAtReceivers(receivers, indirect, reflected);
+}
+
+// The same from what PrepareGather multiplied out:
+//   sensor:  sum_m rho_m (G_m D + (G F)_m M),   by rho_m: G_m D + (G F)_m M and what M changes
+Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
+                               const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
+                               const Columns& columns, const Eigen::MatrixXf& exitance) {
+  Eigen::MatrixXf gathered = Eigen::MatrixXf::Zero(receivers.count(), exitance.cols());
+  const auto elements = static_cast<Eigen::Index>(receivers.elements.size());
+  const auto sensors = static_cast<Eigen::Index>(receivers.sensors.size());
+  if (elements > 0) gathered.topRows(elements) = Product(receivers.element_to_patch, exitance);
+  if (sensors == 0) return gathered;
+  for (size_t m = 0; m < receivers.sensor_to_patch.size(); ++m) {
+    const auto material = static_cast<Eigen::Index>(m);
+    const Eigen::VectorXf of_material =
+        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(albedo.size(), material));
+    Eigen::MatrixXf reflected = receivers.sensor_to_patch[m] * exitance;
+    reflected.leftCols(columns.lit()) +=
+        receivers.sensor_to_element * (of_material.asDiagonal() * at_elements);
+    gathered.bottomRows(sensors) += static_cast<float>(albedo[material]) * reflected;
+    const auto asked = std::find(columns.materials.begin(), columns.materials.end(), static_cast<int>(m));
+    if (asked == columns.materials.end()) continue;
+    const auto column = static_cast<size_t>(asked - columns.materials.begin());
+    for (Eigen::Index k = 0; k < columns.lamps; ++k)
+      gathered.col(columns.albedo(k, column)).tail(sensors) += reflected.col(k);
+  }
+  return gathered;
+}
+
+}  // namespace
+
+Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
+                               const LuminaireVisibility& visibility,
+                               const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
+                               const DerivativeRequest& derivatives) {
+  return ComputeIlluminance(room, receivers, visibility, luminaires, Transport(room.transport, albedo),
+                            derivatives);
+}
+
+Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
+                               const LuminaireVisibility& visibility,
+                               const std::vector<Luminaire>& luminaires, const Transport& transport,
+                               const DerivativeRequest& derivatives) {
+  const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
+  const Eigen::Index parameters = static_cast<Eigen::Index>(derivatives.parameters.size());
+  const Eigen::Index materials = static_cast<Eigen::Index>(derivatives.materials.size());
+  const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
+
+  DirectColumns columns = ComputeDirectColumns(room, receivers, visibility, luminaires, derivatives);
+  const Eigen::MatrixXf& at_elements = columns.elements;
+  Eigen::MatrixXf& at_receivers = columns.receivers;
+
+  Illuminance result;
+  result.direct = at_receivers.leftCols(lamps);
+  result.d_albedo.setZero(receivers.count(), lamps * materials);
+  if (elements > 0) {
+    const Eigen::MatrixXf patch_direct = PatchMean(room.patches, at_elements);
+    Eigen::MatrixXf exitance(patch_direct.rows(), lamps + parameters + lamps * materials);
+    exitance.leftCols(lamps + parameters) = transport.Exitance(patch_direct);
+    if (materials > 0) {
+      const Eigen::MatrixXf patch_total =
+          patch_direct.leftCols(lamps) + transport.Irradiance(exitance.leftCols(lamps));
+      exitance.rightCols(lamps * materials) =
+          transport.ExitanceDerivatives(derivatives.materials, patch_total);
+    }
+    const Columns layout{lamps, parameters, derivatives.materials};
+    const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
+    const Eigen::MatrixXf gathered = (is_prepared ? GatherPrepared : GatherThroughElements)(
+        room, receivers, at_elements, transport.albedo(), layout, exitance);
+    at_receivers += gathered.leftCols(lamps + parameters);
+    result.d_albedo = gathered.rightCols(lamps * materials);
+  }
+  result.total = at_receivers.leftCols(lamps);
+  result.d_luminaire = at_receivers.rightCols(parameters);
+  return result;
+}
+
+Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,
+                                     const LuminaireVisibility& visibility,
+                                     const std::vector<Luminaire>& luminaires,
+                                     const DerivativeRequest& derivatives) {
+  const Eigen::MatrixXf columns =
+      ComputeReceiverColumns(room, receivers, visibility, luminaires, derivatives);
+  const auto lamps = static_cast<Eigen::Index>(luminaires.size());
+  Illuminance result;
+  result.direct = columns.leftCols(lamps);
+  result.total = result.direct;
+  result.d_luminaire = columns.rightCols(columns.cols() - lamps);
+  return result;
+}
+
+Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance) {
+  if (!room.sparse) return Product(room.form_factors.element_to_patch, patch_exitance);
+  const Eigen::VectorXf root_area = room.transport.patch_area_m2.cwiseSqrt();
+  const Eigen::MatrixXf at_patches =
+      root_area.cwiseInverse().asDiagonal() * room.sparse->Times(root_area.asDiagonal() * patch_exitance);
+  Eigen::MatrixXf at_elements(static_cast<Eigen::Index>(room.patches.elements.size()), patch_exitance.cols());
+  for (Eigen::Index e = 0; e < at_elements.rows(); ++e)
+    at_elements.row(e) = at_patches.row(room.patches.elements[static_cast<size_t>(e)].patch);
+  return at_elements;
+}
+
+}  // namespace luxfit

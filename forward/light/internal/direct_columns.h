@@ -1,0 +1,32 @@
+// Direct light of all luminaires at all places, and its derivatives, as columns.
+//
+// rows x (luminaires + parameters), lx per lm. Derivatives hold visibility fixed unless moving shadows are
+// asked for: then places that see a part of a luminaire get those of forward/direct/internal/shadowed_light.h.
+#ifndef LUXFIT_FORWARD_LIGHT_INTERNAL_DIRECT_COLUMNS_H_
+#define LUXFIT_FORWARD_LIGHT_INTERNAL_DIRECT_COLUMNS_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/light/illuminance.h"
+
+namespace luxfit {
+
+struct DirectColumns {
+  Eigen::MatrixXf elements;  // of the room
+  Eigen::MatrixXf receivers;
+};
+DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
+                                   const LuminaireVisibility& visibility,
+                                   const std::vector<Luminaire>& luminaires,
+                                   const DerivativeRequest& derivatives);
+
+// Of the receivers alone; `visibility` needs no more.
+Eigen::MatrixXf ComputeReceiverColumns(const Room& room, const Receivers& receivers,
+                                       const LuminaireVisibility& visibility,
+                                       const std::vector<Luminaire>& luminaires,
+                                       const DerivativeRequest& derivatives);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_LIGHT_INTERNAL_DIRECT_COLUMNS_H_

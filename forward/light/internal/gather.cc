@@ -1,0 +1,26 @@
+#include "forward/light/internal/gather.h"
+
+namespace luxfit {
+
+Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo) {
+  Eigen::VectorXf of_elements(static_cast<Eigen::Index>(patches.elements.size()));
+  for (Eigen::Index e = 0; e < of_elements.size(); ++e) {
+    const int patch = patches.elements[static_cast<size_t>(e)].patch;
+    of_elements[e] = static_cast<float>(albedo[patches.patches[static_cast<size_t>(patch)].material]);
+  }
+  return of_elements;
+}
+
+Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,
+                                  const Eigen::MatrixXf& element_exitance) {
+  Eigen::MatrixXf at_receivers(receivers.count(), element_indirect_lx.cols());
+  const Eigen::Index elements = static_cast<Eigen::Index>(receivers.elements.size());
+  for (Eigen::Index c = 0; c < at_receivers.cols(); ++c) {
+    for (Eigen::Index r = 0; r < elements; ++r)
+      at_receivers(r, c) = element_indirect_lx(receivers.elements[static_cast<size_t>(r)], c);
+  }
+  at_receivers.bottomRows(receivers.count() - elements) = receivers.sensor_to_element * element_exitance;
+  return at_receivers;
+}
+
+}  // namespace luxfit

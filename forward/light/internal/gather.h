@@ -1,0 +1,25 @@
+// Indirect light at receivers, from that at the elements of the room.
+//
+//   element:  E = F M                          M: exitance of patches
+//   sensor:   E = G M_e,  M_e = rho (D + F M)  G: Receivers::sensor_to_element, D: direct light of elements
+//
+// Columns are independent light sources, or derivatives of them.
+#ifndef LUXFIT_FORWARD_LIGHT_INTERNAL_GATHER_H_
+#define LUXFIT_FORWARD_LIGHT_INTERNAL_GATHER_H_
+
+#include <Eigen/Core>
+
+#include "forward/light/room.h"
+
+namespace luxfit {
+
+// Reflectance of every element, from that of materials.
+Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo);
+
+// Receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
+Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,
+                                  const Eigen::MatrixXf& element_exitance);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_LIGHT_INTERNAL_GATHER_H_

@@ -1,0 +1,57 @@
+// Illuminance at sensors by unbiased Monte Carlo: a check of the radiosity solution that shares no patch with
+// it.
+//
+//   E = E_direct + E_indirect,  E_indirect = mean over paths of  sum_k rho_k E_direct(x_k)
+//
+// Paths are the adjoint of light's: they leave the sensor with the cosine's density, at every diffuse surface
+// point x_k ask each luminaire for its direct light (one shadow ray to a random point of its surface), and go
+// on with probability rho_k. So the weight of a path is 1 throughout, no bounce is left out, and one path
+// serves all luminaires. For few sensors this converges far faster than particles from the luminaires, whose
+// hits must reach every sensor. Any luminaire that IntensityPerLumen knows can be traced: nothing samples its
+// directions.
+//
+// First directions and luminaire points are a two-dimensional additive sequence, shifted at random in each of
+// `replicates` independent runs (randomised quasi-Monte Carlo); the spread of the runs gives the standard
+// errors. The same seed gives the same numbers on any number of cores.
+//
+// lx (flux_lm of the luminaires included), metres, world. Both sides of facets block; a path ends on a back
+// and where it leaves the scene. Luminaires cast no shadow and reflect nothing. Throws std::invalid_argument
+// for reflectances outside [0, 1), fewer than 2 replicates or fewer paths than those. Sources: Kajiya (1986),
+// "The rendering equation"; Arvo and Kirk (1990), "Particle transport and image synthesis" (Russian
+// roulette); Veach (1997), thesis, ch. 3 and 8 (adjoint, next-event estimation).
+#ifndef LUXFIT_FORWARD_LIGHT_LIGHT_TRACER_H_
+#define LUXFIT_FORWARD_LIGHT_LIGHT_TRACER_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "forward/light/room.h"
+#include "forward/luminaire/luminaire.h"
+#include "forward/room/scene.h"
+#include "forward/room/visibility.h"
+
+namespace luxfit {
+
+struct LightTracerOptions {
+  int paths_per_sensor = 65536;  // 0.1 to 0.3 % of the indirect light in an office
+  int replicates = 64;           // the standard error is itself known to 1 / sqrt(2 * 63), 9 %
+  uint64_t seed = 1;
+};
+
+// sensors x luminaires, lx; sigmas are standard errors of the means, those of direct and indirect
+// independent.
+struct TracedIlluminance {
+  Eigen::MatrixXd direct, direct_sigma;
+  Eigen::MatrixXd indirect, indirect_sigma;
+};
+
+// `albedo` by material of the scene, whose rays `rays` are.
+TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
+                                   const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
+                                   const std::vector<Sensor>& sensors,
+                                   const LightTracerOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_LIGHT_LIGHT_TRACER_H_

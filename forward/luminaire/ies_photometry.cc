@@ -1,0 +1,213 @@
+// What an IES file means: its table in the luminaire's frame, its flux, the shape of its opening.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "forward/luminaire/internal/ies_file.h"
+#include "forward/luminaire/internal/photometry_planes.h"
+#include "forward/luminaire/internal/photometry_text.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kMetresPerFoot = 0.3048;
+constexpr double kLineWidthM = 0.001;  // of an opening that has a length and no width
+
+// What the measures of the luminous opening mean: table 1 of LM-63-2002, and section 4.12 of 1995 where a
+// negative measure stands alone.
+struct Opening {
+  LuminaireShape shape = LuminaireShape::kPoint;
+  Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
+  std::string note;
+};
+
+bool Same(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(a, b); }
+
+// Negative height: round about a horizontal axis, or about every axis.
+Opening RoundSolid(double width, double length, double height, bool is_1995) {
+  const double w = std::abs(width), l = std::abs(length), h = std::abs(height);
+  if (width < 0 && length == 0 && !is_1995)
+    return {LuminaireShape::kSphere, {h, 0}, "the opening, a vertical disc, was taken as a sphere"};
+  if ((width < 0 && length == 0 && Same(w, h)) || (width < 0 && length < 0 && Same(w, h) && Same(l, h)))
+    return {LuminaireShape::kSphere, {h, 0}, ""};
+  const bool along = width <= 0 && length > 0 && (w == 0 || (!is_1995 && Same(w, h)));
+  const bool across = length <= 0 && width > 0 && (l == 0 || (!is_1995 && Same(l, h)));
+  if (along) return {LuminaireShape::kRectangle, {l, h}, "the opening, a cylinder, was taken as flat"};
+  if (across) return {LuminaireShape::kRectangle, {h, w}, "the opening, a cylinder, was taken as flat"};
+  return {LuminaireShape::kSphere,
+          {std::cbrt(std::max(w, kLineWidthM) * std::max(l, kLineWidthM) * h), 0},
+          "the opening, an ellipsoid, was taken as a sphere of its volume"};
+}
+
+Opening OpeningOf(const IesFile& file) {
+  const double metres = file.in_feet ? kMetresPerFoot : 1;
+  const double width = metres * file.width, length = metres * file.length, height = metres * file.height;
+  const double w = std::abs(width), l = std::abs(length);
+  if (height < 0) return RoundSolid(width, length, height, file.version <= IesVersion::k1995);
+  if (w == 0 && l == 0) {
+    if (height == 0) return {};
+    return {LuminaireShape::kPoint, {0, 0}, "the opening has a height only and was taken as a point"};
+  }
+  Opening opening;
+  if (height > 0) opening.note = "the luminous sides of the opening were left out; ";
+  if (width < 0 || length < 0) {
+    opening.shape = LuminaireShape::kDisc;
+    opening.size_m[0] = w == 0 || l == 0 ? std::max(w, l) : std::sqrt(w * l);
+    if (w > 0 && l > 0 && !Same(w, l)) opening.note += "the ellipse was taken as a disc of its area; ";
+  } else {
+    opening.shape = LuminaireShape::kRectangle;
+    opening.size_m = {std::max(length, kLineWidthM), std::max(width, kLineWidthM)};
+    if (w == 0 || l == 0) opening.note += "the opening has no width and was taken as 1 mm wide; ";
+  }
+  if (!opening.note.empty()) opening.note.resize(opening.note.size() - 2);
+  return opening;
+}
+
+double TiltFactorAt0(const IesTilt& tilt) {
+  if (tilt.angle_deg.empty()) return 1;
+  const auto above = std::lower_bound(tilt.angle_deg.begin(), tilt.angle_deg.end(), 0.0);
+  if (above == tilt.angle_deg.end()) return tilt.factor.back();
+  const auto i = static_cast<size_t>(above - tilt.angle_deg.begin());
+  if (i == 0 || *above == 0) return tilt.factor[i];
+  const double share = -tilt.angle_deg[i - 1] / (*above - tilt.angle_deg[i - 1]);
+  return tilt.factor[i - 1] + share * (tilt.factor[i] - tilt.factor[i - 1]);
+}
+
+double ScaleOf(const IesFile& file) {
+  const bool third_multiplies = file.version <= IesVersion::k1991;
+  return file.multiplier * file.ballast_factor * (third_multiplies ? file.third_factor : 1) *
+         TiltFactorAt0(file.tilt);
+}
+
+// Planes at -C beside those at C, where a file of type A or B begins at 0: symmetric to both sides.
+struct Sides {
+  std::vector<double> angle_deg;  // rising
+  std::vector<size_t> column;
+};
+Sides BothSides(const std::vector<double>& deg) {
+  Sides sides;
+  const bool mirrored = deg.front() == 0;
+  for (size_t i = deg.size(); mirrored && i-- > 1;) {
+    sides.angle_deg.push_back(-deg[i]);
+    sides.column.push_back(i);
+  }
+  for (size_t i = 0; i < deg.size(); ++i) {
+    sides.angle_deg.push_back(deg[i]);
+    sides.column.push_back(i);
+  }
+  return sides;
+}
+
+// gamma = 90 + V, C = -H.
+IntensityTable TableOfTypeA(const IesFile& file, const std::vector<double>& cd) {
+  const Sides sides = BothSides(file.horizontal_deg);
+  const size_t n = file.vertical_deg.size();
+  std::vector<double> c_deg, gamma_deg, intensity;
+  for (const double v : file.vertical_deg) gamma_deg.push_back(90 + v);
+  for (size_t i = sides.angle_deg.size(); i-- > 0;) {
+    c_deg.push_back(-sides.angle_deg[i]);
+    const auto row = cd.begin() + static_cast<std::ptrdiff_t>(sides.column[i] * n);
+    intensity.insert(intensity.end(), row, row + static_cast<std::ptrdiff_t>(n));
+  }
+  return ExpandPlanes(RadFromDeg(c_deg), RadFromDeg(gamma_deg), intensity, PlaneSymmetry::kPartial);
+}
+
+// The pole is H = -90, the luminaire's +y; V runs round it from straight down towards C0.
+IntensityTable TableOfTypeB(const IesFile& file, const std::vector<double>& cd) {
+  const Sides sides = BothSides(file.horizontal_deg);
+  const size_t n = file.vertical_deg.size();
+  std::vector<double> gamma_deg, intensity;
+  for (const double h : sides.angle_deg) gamma_deg.push_back(90 + h);
+  for (size_t v = 0; v < n; ++v) {
+    for (const size_t column : sides.column) intensity.push_back(cd[column * n + v]);
+  }
+  IntensityTable table =
+      ExpandPlanes(RadFromDeg(file.vertical_deg), RadFromDeg(gamma_deg), intensity, PlaneSymmetry::kPartial);
+  table.table_from_luminaire << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+  return table;
+}
+
+std::string FormatName(IesVersion version) {
+  switch (version) {
+    case IesVersion::k1986:
+      return "IES LM-63-1986";
+    case IesVersion::k1991:
+      return "IESNA91";
+    case IesVersion::k1995:
+      return "IESNA:LM-63-1995";
+    case IesVersion::k2002:
+      return "IESNA:LM-63-2002";
+    case IesVersion::k2019:
+      return "IES:LM-63-2019";
+  }
+  return "";
+}
+
+std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
+  std::vector<std::string> notes = file.notes;
+  if (!opening.note.empty()) notes.push_back(opening.note);
+  if (file.tilt.source != "NONE") {
+    notes.push_back(file.tilt.angle_deg.empty() ? "the TILT file was not read: its factors are left out"
+                                                : "of the TILT factors only that of 0 degrees was used");
+  }
+  const double last = file.horizontal_deg.back();
+  if (file.type == IesType::kC && last > 180 && last < 360 && file.horizontal_deg.front() == 0)
+    notes.push_back("the planes end at " + NumberText(last) + " degrees: the circle was closed with C0");
+  if (file.type != IesType::kC)
+    notes.push_back("photometry of type A or B: directions that the file does not give are dark");
+  return notes;
+}
+
+}  // namespace
+
+PhotometryFile PhotometryOf(const IesFile& file) {
+  std::vector<double> cd = file.candela;
+  const double scale = ScaleOf(file);
+  for (double& value : cd) value *= scale;
+  PhotometryFile photometry;
+  photometry.format = FormatName(file.version);
+  photometry.keywords = file.keywords;
+  if (file.lumens_per_lamp > 0) photometry.lamp_flux_lm = file.lamps * file.lumens_per_lamp;
+  const Opening opening = OpeningOf(file);
+  photometry.shape = opening.shape;
+  photometry.size_m = opening.size_m;
+  photometry.notes = NotesOn(file, opening);
+  const IntensityTable table =
+      file.type == IesType::kA ? TableOfTypeA(file, cd)
+      : file.type == IesType::kB
+          ? TableOfTypeB(file, cd)
+          : ExpandPlanes(RadFromDeg(file.horizontal_deg), RadFromDeg(file.vertical_deg), cd,
+                         IesPlaneSymmetry(file.horizontal_deg));
+  return WithTable(std::move(photometry), table, file.name);
+}
+
+IesFile MakeIes(const PhotometryFile& photometry, IesVersion version) {
+  PhotometryPlanes planes = PlanesOf(photometry.table, photometry.luminaire_flux_lm);
+  IesFile file;
+  file.version = version;
+  file.keywords = photometry.keywords;
+  file.vertical_deg = planes.gamma_deg;
+  file.horizontal_deg = planes.c_deg;
+  if (planes.c_deg.size() > 1) {
+    // The standard closes the circle.
+    file.horizontal_deg.push_back(360);
+    const std::vector<double> first(
+        planes.intensity.begin(),
+        planes.intensity.begin() + static_cast<std::ptrdiff_t>(planes.gamma_deg.size()));
+    planes.intensity.insert(planes.intensity.end(), first.begin(), first.end());
+  }
+  file.candela = std::move(planes.intensity);
+  const Eigen::Vector2d size_m = photometry.size_m;
+  if (photometry.shape == LuminaireShape::kRectangle) {
+    file.length = size_m[0];
+    file.width = size_m[1];
+  } else if (photometry.shape != LuminaireShape::kPoint) {
+    // Up to 1995 a round opening has no length, later two equal ones.
+    file.width = -size_m[0];
+    file.length = version <= IesVersion::k1995 ? 0 : -size_m[0];
+    file.height = photometry.shape == LuminaireShape::kSphere ? -size_m[0] : 0;
+  }
+  return file;
+}
+
+}  // namespace luxfit

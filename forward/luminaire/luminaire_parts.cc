@@ -1,0 +1,111 @@
+#include "forward/luminaire/luminaire_parts.h"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+namespace luxfit {
+namespace {
+
+bool IsRotational(const Luminaire& luminaire) {
+  return luminaire.distribution == Distribution::kMeasured && luminaire.table != nullptr &&
+         luminaire.table->c_rad.size() == 2;
+}
+
+bool IsUneven(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
+}
+
+}  // namespace
+
+Eigen::VectorXd NodeFlux(const std::vector<double>& gamma_rad) {
+  const size_t n = gamma_rad.size();
+  Eigen::VectorXd flux(static_cast<Eigen::Index>(n));
+  for (size_t j = 0; j < n; ++j) {
+    std::vector<double> hat(n, 0.0);
+    hat[j] = 1;
+    flux[static_cast<Eigen::Index>(j)] =
+        FluxIntegral(ExpandPlanes({0}, gamma_rad, hat, PlaneSymmetry::kRotational));
+  }
+  return flux;
+}
+
+IntensityTable RotationalTable(const std::vector<double>& gamma_rad, const std::vector<double>& intensity) {
+  return Normalized(ExpandPlanes({0}, gamma_rad, intensity, PlaneSymmetry::kRotational));
+}
+
+Eigen::VectorXd PartShares(const Luminaire& luminaire, PartKind kind) {
+  if (kind == PartKind::kCell) {
+    if (!IsUneven(luminaire)) return {};
+    return Eigen::Map<const Eigen::VectorXd>(luminaire.emission.data(), luminaire.emission.size());
+  }
+  if (!IsRotational(luminaire)) return {};
+  const IntensityTable& table = *luminaire.table;
+  const auto n = static_cast<Eigen::Index>(table.gamma_rad.size());
+  return Eigen::Map<const Eigen::VectorXd>(table.cd_per_lm.data(), n).cwiseProduct(NodeFlux(table.gamma_rad));
+}
+
+Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen::VectorXd& shares) {
+  const bool has_parts = kind == PartKind::kCell ? IsUneven(luminaire) : IsRotational(luminaire);
+  const Eigen::Index parts = !has_parts ? 0
+                             : kind == PartKind::kCell
+                                 ? luminaire.emission.size()
+                                 : static_cast<Eigen::Index>(luminaire.table->gamma_rad.size());
+  if (parts == 0 || shares.size() != parts)
+    throw std::invalid_argument("WithPartShares: expected one share a part of the luminaire");
+  const double sum = shares.sum();
+  if (!(shares.minCoeff() >= 0) || !(sum > 0) || !std::isfinite(sum))
+    throw std::invalid_argument("WithPartShares: expected shares >= 0 with a sum above 0");
+  Luminaire result = luminaire;
+  if (kind == PartKind::kCell) {
+    Eigen::Map<Eigen::VectorXd>(result.emission.data(), parts) = shares / sum;
+    return result;
+  }
+  const std::vector<double>& gamma_rad = luminaire.table->gamma_rad;
+  const Eigen::VectorXd cd_per_lm = shares.cwiseQuotient(NodeFlux(gamma_rad)) / sum;
+  auto table = std::make_shared<IntensityTable>(
+      RotationalTable(gamma_rad, {cd_per_lm.data(), cd_per_lm.data() + parts}));
+  table->table_from_luminaire = luminaire.table->table_from_luminaire;
+  result.table = std::move(table);
+  return result;
+}
+
+Luminaire PartOf(const Luminaire& luminaire, PartKind kind, int part) {
+  const Eigen::Index parts = PartShares(luminaire, kind).size();
+  if (part < 0 || part >= parts)
+    throw std::invalid_argument("PartOf: expected a part that the luminaire has");
+  Luminaire alone = WithPartShares(luminaire, kind, Eigen::VectorXd::Unit(parts, part));
+  if (kind == PartKind::kGammaNode) {
+    // The number of points on the luminous surface goes by the lobe's peak.
+    auto table = std::make_shared<IntensityTable>(*alone.table);
+    table->peak_cd_per_lm = luminaire.table->peak_cd_per_lm;
+    alone.table = std::move(table);
+  }
+  return alone;
+}
+
+std::vector<LuminaireCell> CellsOf(const Luminaire& luminaire) {
+  if (!IsUneven(luminaire)) return {{luminaire, Eigen::Vector2d::Zero()}};
+  const Eigen::Array2d counts(static_cast<double>(luminaire.emission.rows()),
+                              static_cast<double>(luminaire.emission.cols()));
+  const LuminaireAxes axes = AxesOf(luminaire);
+  Luminaire cell = luminaire;
+  cell.emission.resize(0, 0);
+  cell.size_m = luminaire.size_m.array() / counts;
+  std::vector<LuminaireCell> cells;
+  cells.reserve(static_cast<size_t>(luminaire.emission.size()));
+  for (Eigen::Index j = 0; j < luminaire.emission.cols(); ++j) {
+    for (Eigen::Index i = 0; i < luminaire.emission.rows(); ++i) {
+      if (luminaire.emission(i, j) == 0) continue;
+      const Eigen::Array2d index(static_cast<double>(i), static_cast<double>(j));
+      const Eigen::Vector2d place = (index + 0.5) / counts - 0.5;
+      cell.position = luminaire.position + place[0] * luminaire.size_m[0] * axes.along +
+                      place[1] * luminaire.size_m[1] * axes.across;
+      cell.flux_lm = luminaire.flux_lm * luminaire.emission(i, j);
+      cells.push_back({cell, place});
+    }
+  }
+  return cells;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,33 @@
+// What every sampled integral here needs: hashes as random numbers, points that share the disc evenly,
+// cosine-weighted directions.
+//
+// Sources: Steele, Lea, Flood (2014), "Fast splittable pseudorandom number generators" (SplitMix64); Malley
+// (1988); Masset, Bruls, Kerschen (2011), "Partition of the circle in cells of equal area and shape".
+#ifndef LUXFIT_FORWARD_ROOM_INTERNAL_SAMPLING_H_
+#define LUXFIT_FORWARD_ROOM_INTERNAL_SAMPLING_H_
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace luxfit {
+
+// A well-mixed hash, and the next state of a small random generator.
+uint64_t Mix(uint64_t x);
+// In [0, 1).
+inline double UnitFrom(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
+double Fraction(double x);
+
+// Malley's method: a point of the unit disc (its radius squared, its angle in turns) lifted to the hemisphere
+// about z.
+Eigen::Vector3d LiftedFromDisc(double radius2, double turns);
+
+// Columns: two tangents and the normal.
+Eigen::Matrix3d FrameOf(const Eigen::Vector3d& normal);
+
+// Centres of about `count` cells of equal area and shape of the unit disc: squared radius, turns.
+std::vector<Eigen::Vector2d> Isocell(int count);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_FORWARD_ROOM_INTERNAL_SAMPLING_H_

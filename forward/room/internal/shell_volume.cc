@@ -1,0 +1,100 @@
+#include "forward/room/internal/shell_volume.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "forward/room/internal/facet_corners.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kMaxSolidAngles = 1e7;  // about half a second: the largest shells come first
+constexpr double kThin = 1e-6;           // volume over area^1.5: a sheet with two sides has none
+constexpr double kNearlyClosed = 0.02;   // sum of area vectors over the area
+
+struct Shell {
+  std::vector<int> facets;
+  Eigen::AlignedBox3d box;
+  Eigen::Vector3d area_vector_m2 = Eigen::Vector3d::Zero();
+  double area_m2 = 0;
+  double volume_m3 = 0;
+};
+
+double VolumeOf(const Facet& facet, const Eigen::Vector3d& origin) {
+  const double triangle = facet.edge_u.cross(facet.edge_v).dot(facet.origin - origin) / 6;
+  return facet.kind == FacetKind::kTriangle ? triangle : 2 * triangle;
+}
+
+// Solid angle of a triangle seen from the origin, signed.
+double SolidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+// Whether an odd number of shells other than this one lie round a point.
+bool IsWithinOdd(const Scene& scene, const Shell& shell, const Eigen::Vector3d& p) {
+  std::vector<bool> own(scene.facets.size(), false);
+  for (const int f : shell.facets) own[static_cast<size_t>(f)] = true;
+  double angle = 0;
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    if (own[f]) continue;
+    const FacetCorners c = CornersOf(scene.facets[f]);
+    angle += SolidAngle(c.points[0] - p, c.points[1] - p, c.points[2] - p);
+    if (c.count == 4) angle += SolidAngle(c.points[0] - p, c.points[2] - p, c.points[3] - p);
+  }
+  return std::llround(angle / (4 * M_PI)) % 2 != 0;
+}
+
+// The closed shells, and all open ones as one.
+std::vector<Shell> ShellsOf(const Scene& scene, const Shells& shells) {
+  std::vector<Shell> result(shells.closed.size() + 1);
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    const Facet& facet = scene.facets[f];
+    const size_t index = static_cast<size_t>(shells.of_facet[f]);
+    Shell& shell = shells.closed[index] && shells.orientable[index] ? result[index] : result.back();
+    shell.facets.push_back(static_cast<int>(f));
+    shell.box.extend(BoxOf(facet, 0));
+    shell.area_vector_m2 += facet.AreaM2() * facet.Normal();
+    shell.area_m2 += facet.AreaM2();
+  }
+  for (Shell& shell : result) {
+    for (const int f : shell.facets)
+      shell.volume_m3 += VolumeOf(scene.facets[static_cast<size_t>(f)], shell.box.center());
+  }
+  return result;
+}
+
+// A place just off the shell, within it.
+Eigen::Vector3d PointWithin(const Scene& scene, const Shell& shell) {
+  const Facet& facet = scene.facets[static_cast<size_t>(shell.facets.front())];
+  return facet.PointAt(0.31, 0.29) - (shell.volume_m3 > 0 ? 1e-3 : -1e-3) * facet.Normal();
+}
+
+bool CanBeJudged(const Shell& shell) {
+  return std::abs(shell.volume_m3) > kThin * std::pow(shell.area_m2, 1.5) &&
+         shell.area_vector_m2.norm() < kNearlyClosed * shell.area_m2;
+}
+
+}  // namespace
+
+std::vector<int> FacetsOfShellsInsideOut(const Scene& scene, const Shells& shells) {
+  std::vector<Shell> judged = ShellsOf(scene, shells);
+  judged.erase(std::remove_if(judged.begin(), judged.end(), [](const Shell& s) { return !CanBeJudged(s); }),
+               judged.end());
+  std::sort(judged.begin(), judged.end(),
+            [](const Shell& a, const Shell& b) { return a.box.volume() > b.box.volume(); });
+  const size_t affordable =
+      1 + static_cast<size_t>(kMaxSolidAngles / static_cast<double>(scene.facets.size() + 1));
+  judged.resize(std::min(judged.size(), affordable));
+  std::vector<int> inside_out;
+  for (const Shell& shell : judged) {
+    const bool should_be_room = !IsWithinOdd(scene, shell, PointWithin(scene, shell));
+    if ((shell.volume_m3 < 0) != should_be_room)
+      inside_out.insert(inside_out.end(), shell.facets.begin(), shell.facets.end());
+  }
+  std::sort(inside_out.begin(), inside_out.end());
+  return inside_out;
+}
+
+}  // namespace luxfit

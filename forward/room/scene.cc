@@ -1,0 +1,118 @@
+#include "forward/room/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace luxfit {
+namespace {
+
+constexpr double kParallelogramTolerance = 1e-6;  // of the edges' length: files carry six to seven digits
+constexpr double kMinAreaM2 = 1e-12;
+
+Facet MakeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                   int material) {
+  return {FacetKind::kTriangle, a, b - a, c - a, material};
+}
+
+// Newell's normal: robust for any planar polygon, convex or not.
+Eigen::Vector3d NewellNormal(const std::vector<Eigen::Vector3d>& polygon) {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    normal += (polygon[i] - polygon[0]).cross(polygon[(i + 1) % polygon.size()] - polygon[0]);
+  }
+  return normal;
+}
+
+bool InTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                const Eigen::Vector3d& c, const Eigen::Vector3d& normal) {
+  const auto left = [&](const Eigen::Vector3d& s, const Eigen::Vector3d& t) {
+    return normal.dot((t - s).cross(p - s)) >= 0;
+  };
+  return left(a, b) && left(b, c) && left(c, a);
+}
+
+// Ear clipping (Meisters 1975): quadratic, enough for the polygons that modellers draw.
+std::vector<Facet> Triangulate(std::vector<Eigen::Vector3d> polygon, int material) {
+  std::vector<Facet> triangles;
+  const Eigen::Vector3d normal = NewellNormal(polygon);
+  while (polygon.size() > 2) {
+    const size_t n = polygon.size();
+    const auto before = [n](size_t i) { return i == 0 ? n - 1 : i - 1; };
+    const auto after = [n](size_t i) { return i == n - 1 ? 0 : i + 1; };
+    size_t ear = 0;  // a self-crossing outline has no ear: cut the first corner then
+    for (size_t i = 0; i < n; ++i) {
+      const Eigen::Vector3d &a = polygon[before(i)], &b = polygon[i], &c = polygon[after(i)];
+      if (normal.dot((b - a).cross(c - b)) <= 0) continue;
+      bool empty = true;
+      for (size_t k = 0; k < n && empty; ++k) {
+        const bool corner = k == i || k == after(i) || k == before(i);
+        empty = corner || !InTriangle(polygon[k], a, b, c, normal);
+      }
+      if (empty) {
+        ear = i;
+        break;
+      }
+    }
+    const Facet triangle = MakeTriangle(polygon[before(ear)], polygon[ear], polygon[after(ear)], material);
+    if (triangle.AreaM2() > kMinAreaM2) triangles.push_back(triangle);
+    polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  return triangles;
+}
+
+double DistanceToFacet(const Facet& facet, const Eigen::Vector3d& p) {
+  // Least squares for (u, v), clamped: exact for rectangles, an upper bound within the shear for others.
+  const double uu = facet.edge_u.squaredNorm(), vv = facet.edge_v.squaredNorm(),
+               uv = facet.edge_u.dot(facet.edge_v);
+  const Eigen::Vector3d d = p - facet.origin;
+  const double det = uu * vv - uv * uv;
+  double u = (vv * d.dot(facet.edge_u) - uv * d.dot(facet.edge_v)) / det;
+  double v = (uu * d.dot(facet.edge_v) - uv * d.dot(facet.edge_u)) / det;
+  u = std::clamp(u, 0.0, 1.0);
+  v = std::clamp(v, 0.0, 1.0);
+  if (facet.kind == FacetKind::kTriangle && u + v > 1) {
+    const double excess = 0.5 * (u + v - 1);
+    u = std::clamp(u - excess, 0.0, 1.0);
+    v = 1 - u;
+  }
+  return (p - facet.PointAt(u, v)).norm();
+}
+
+}  // namespace
+
+Eigen::Vector2d Facet::CoordinatesOf(const Eigen::Vector3d& p) const {
+  const double uu = edge_u.squaredNorm(), vv = edge_v.squaredNorm(), uv = edge_u.dot(edge_v);
+  const double u = edge_u.dot(p - origin), v = edge_v.dot(p - origin);
+  return Eigen::Vector2d(vv * u - uv * v, uu * v - uv * u) / (uu * vv - uv * uv);
+}
+
+Eigen::AlignedBox3d Scene::Bounds() const {
+  Eigen::AlignedBox3d box;
+  for (const Facet& facet : facets) {
+    box.extend(facet.origin);
+    box.extend(facet.PointAt(1, 0));
+    box.extend(facet.PointAt(0, 1));
+    if (facet.kind == FacetKind::kParallelogram) box.extend(facet.PointAt(1, 1));
+  }
+  return box;
+}
+
+std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material) {
+  if (vertices.size() == 4) {
+    const Eigen::Vector3d gap = vertices[0] + vertices[2] - vertices[1] - vertices[3];
+    const Facet whole{FacetKind::kParallelogram, vertices[0], vertices[1] - vertices[0],
+                      vertices[3] - vertices[0], material};
+    const double size = (vertices[2] - vertices[0]).norm();
+    if (gap.norm() < kParallelogramTolerance * size && whole.AreaM2() > kMinAreaM2) return {whole};
+  }
+  return Triangulate(vertices, material);
+}
+
+double DistanceToSurface(const Scene& scene, const Eigen::Vector3d& p_in_world) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Facet& facet : scene.facets) least = std::min(least, DistanceToFacet(facet, p_in_world));
+  return least;
+}
+
+}  // namespace luxfit

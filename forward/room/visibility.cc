@@ -1,0 +1,193 @@
+#include "forward/room/visibility.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "forward/room/internal/expect_valid.h"
+
+namespace luxfit {
+namespace {
+
+constexpr unsigned kTriangles = 0, kQuads = 1;  // geometry ids
+
+struct RayCorner {
+  float x, y, z;
+};
+
+RayCorner ToRayCorner(const Eigen::Vector3d& p) {
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+RTCRay MakeRay(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, float tfar) {
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(origin.x());
+  ray.org_y = static_cast<float>(origin.y());
+  ray.org_z = static_cast<float>(origin.z());
+  ray.dir_x = static_cast<float>(direction.x());
+  ray.dir_y = static_cast<float>(direction.y());
+  ray.dir_z = static_cast<float>(direction.z());
+  ray.tfar = tfar;
+  ray.mask = std::numeric_limits<unsigned>::max();  // Debian's build compares masks; 0 would hit nothing
+  return ray;
+}
+
+// Fills a ray packet of Embree; lanes past `count` stay off.
+template <typename Ray>
+void FillRays(const RayPacket& packet, Ray& rays, int* valid) {
+  for (int k = 0; k < RayPacket::kSize; ++k) {
+    const bool on = k < packet.count;
+    valid[k] = on ? -1 : 0;
+    rays.org_x[k] = on ? packet.origin[0][k] : 0;
+    rays.org_y[k] = on ? packet.origin[1][k] : 0;
+    rays.org_z[k] = on ? packet.origin[2][k] : 0;
+    rays.dir_x[k] = on ? packet.direction[0][k] : 0;
+    rays.dir_y[k] = on ? packet.direction[1][k] : 0;
+    rays.dir_z[k] = on ? packet.direction[2][k] : 1;
+    rays.tnear[k] = 0;
+    rays.tfar[k] = std::numeric_limits<float>::infinity();
+    rays.time[k] = 0;
+    rays.mask[k] = std::numeric_limits<unsigned>::max();
+    rays.id[k] = 0;
+    rays.flags[k] = 0;
+  }
+}
+
+}  // namespace
+
+struct RayScene::State {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<int> facet_of_triangle, facet_of_quad;
+
+  ~State() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+
+  void Attach(RTCGeometryType type, unsigned id, unsigned corners, const std::vector<RayCorner>& vertices) {
+    if (vertices.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device, type);
+    auto* out = static_cast<RayCorner*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(RayCorner), vertices.size()));
+    std::copy(vertices.begin(), vertices.end(), out);
+    auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, corners == 3 ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4,
+        corners * sizeof(unsigned), vertices.size() / corners));
+    for (unsigned i = 0; i < vertices.size(); ++i) index[i] = i;
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+  ExpectValid(scene);
+  state_->device = rtcNewDevice("");
+  if (state_->device == nullptr)
+    throw std::runtime_error("Embree: expected a device, got none (SSE2 is needed)");
+  state_->scene = rtcNewScene(state_->device);
+  // Robust: rays through the common edge of two facets must hit one of them.
+  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
+  std::vector<RayCorner> triangles, quads;
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    const Facet& facet = scene.facets[f];
+    const bool quad = facet.kind == FacetKind::kParallelogram;
+    std::vector<RayCorner>& vertices = quad ? quads : triangles;
+    vertices.push_back(ToRayCorner(facet.origin));
+    vertices.push_back(ToRayCorner(facet.PointAt(1, 0)));
+    if (quad) vertices.push_back(ToRayCorner(facet.PointAt(1, 1)));
+    vertices.push_back(ToRayCorner(facet.PointAt(0, 1)));
+    (quad ? state_->facet_of_quad : state_->facet_of_triangle).push_back(static_cast<int>(f));
+  }
+  state_->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);
+  state_->Attach(RTC_GEOMETRY_TYPE_QUAD, kQuads, 4, quads);
+  rtcCommitScene(state_->scene);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+RayHit RayScene::Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+  RTCRayHit query{};
+  query.ray = MakeRay(origin, direction, std::numeric_limits<float>::infinity());
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(state_->scene, &context, &query);
+  RayHit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  const bool quad = query.hit.geomID == kQuads;
+  hit.facet = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID];
+  hit.distance = query.ray.tfar;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  hit.front =
+      query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z <
+      0;
+  return hit;
+}
+
+bool RayScene::Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const Eigen::Vector3d direction = to - from;
+  const double length = direction.norm();
+  if (length <= 1e-5) return false;
+  RTCRay ray = MakeRay(from, direction, static_cast<float>(1.0 - 1e-5 / length));
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(state_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+PacketHits RayScene::Trace(const RayPacket& packet) const {
+  RTCRayHit8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  FillRays(packet, query.ray, valid);
+  for (int k = 0; k < RayPacket::kSize; ++k) {
+    query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid, state_->scene, &context, &query);
+  PacketHits hits;
+  for (int k = 0; k < packet.count; ++k) {
+    hits.facet[k] = -1;
+    hits.front[k] = false;
+    if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
+    const bool quad = query.hit.geomID[k] == kQuads;
+    hits.facet[k] = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID[k]];
+    hits.u[k] = query.hit.u[k];
+    hits.v[k] = query.hit.v[k];
+    hits.front[k] = query.hit.Ng_x[k] * query.ray.dir_x[k] + query.hit.Ng_y[k] * query.ray.dir_y[k] +
+                        query.hit.Ng_z[k] * query.ray.dir_z[k] <
+                    0;
+  }
+  return hits;
+}
+
+unsigned RayScene::Occluded(const RayPacket& packet) const {
+  RTCRay8 query;
+  alignas(32) int valid[RayPacket::kSize];
+  FillRays(packet, query, valid);
+  for (int k = 0; k < packet.count; ++k) {
+    const float length = std::sqrt(query.dir_x[k] * query.dir_x[k] + query.dir_y[k] * query.dir_y[k] +
+                                   query.dir_z[k] * query.dir_z[k]);
+    query.tfar[k] = 1.0f - 1e-5f / std::max(length, 1e-5f);
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid, state_->scene, &context, &query);
+  unsigned blocked = 0;
+  for (int k = 0; k < packet.count; ++k) {
+    if (query.tfar[k] < 0) blocked |= 1u << k;
+  }
+  return blocked;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,96 @@
+#include "inverse/albedo/internal/albedo_ratios.h"
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "forward/factors/dense_product.h"
+
+namespace luxfit {
+namespace {
+
+// A luminaire dimmed below this share of the state's light at a place draws no shadow edge worth leaving out.
+constexpr double kLeastShare = 0.02;
+
+// Light at every element: elements x luminaires, lx per lm, and what the luminaires' edges are hidden from.
+struct ElementLight {
+  Illuminance light;
+  Eigen::MatrixXf visible;
+};
+
+ElementLight LightOfElements(const Room& room, const LightState& state) {
+  std::vector<int> elements(room.patches.elements.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  const Receivers receivers = MakeReceivers(room, elements, {});
+  LuminaireVisibility visibility = ComputeVisibility(room, receivers, state.luminaires);
+  Illuminance light = ComputeIlluminance(room, receivers, visibility, state.luminaires, state.albedo);
+  return {std::move(light), std::move(visibility.receivers)};
+}
+
+Eigen::MatrixXf LumensByState(const LightData& data, const LightState& state) {
+  const Eigen::Index lamps = static_cast<Eigen::Index>(state.luminaires.size());
+  Eigen::MatrixXf lumens(lamps, static_cast<Eigen::Index>(data.dimming.size()));
+  for (Eigen::Index k = 0; k < lamps; ++k) {
+    for (size_t s = 0; s < data.dimming.size(); ++s) {
+      lumens(k, static_cast<Eigen::Index>(s)) =
+          static_cast<float>(data.dimming[s][k] * state.luminaires[static_cast<size_t>(k)].flux_lm);
+    }
+  }
+  return lumens;
+}
+
+// Exitance of every element in every state, lm/m2: as measured, else as modelled.
+Eigen::MatrixXf ElementExitance(const Room& room, const LightData& data, const LightState& state,
+                                const Eigen::MatrixXf& total_lx) {
+  Eigen::MatrixXf exitance = total_lx;
+  for (Eigen::Index e = 0; e < exitance.rows(); ++e) {
+    const int patch = room.patches.elements[static_cast<size_t>(e)].patch;
+    const int material = room.patches.patches[static_cast<size_t>(patch)].material;
+    exitance.row(e) *= static_cast<float>(state.albedo[material]);
+  }
+  for (const Observation& o : data.observations)
+    exitance(o.element, o.state) = static_cast<float>(M_PI * o.relative_luminance / state.camera_scale);
+  return exitance;
+}
+
+bool OnShadowEdge(const ElementLight& at, const Eigen::MatrixXf& lumens, const Observation& o,
+                  double total_lx) {
+  for (Eigen::Index k = 0; k < lumens.rows(); ++k) {
+    const float visible = at.visible(o.element, k);
+    const double direct_lx = at.light.direct(o.element, k) * lumens(k, o.state);
+    if (visible > 0.001F && visible < 0.999F && direct_lx > kLeastShare * total_lx) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<AlbedoRatio> AlbedoRatios(const Room& room, const LightData& data, const LightState& light,
+                                      bool interreflection) {
+  if (room.sparse ||
+      room.form_factors.element_to_patch.rows() != static_cast<Eigen::Index>(room.patches.elements.size()))
+    throw std::invalid_argument("EstimatePatchAlbedo: expected a room with dense form factors");
+  if (light.albedo.size() != static_cast<Eigen::Index>(room.scene.materials.size()))
+    throw std::invalid_argument("EstimatePatchAlbedo: expected one albedo a material");
+  const ElementLight at = LightOfElements(room, light);
+  const Eigen::MatrixXf lumens = LumensByState(data, light);
+  Eigen::MatrixXf incident_lx = at.light.direct * lumens;
+  if (interreflection) {
+    const Eigen::MatrixXf exitance = ElementExitance(room, data, light, at.light.total * lumens);
+    incident_lx += Product(room.form_factors.element_to_patch, PatchMean(room.patches, exitance));
+  }
+  std::vector<AlbedoRatio> ratios;
+  ratios.reserve(data.observations.size());
+  for (const Observation& o : data.observations) {
+    const double lx = incident_lx(o.element, o.state);
+    if (!(lx > 0) || !(o.relative_luminance > 0) || OnShadowEdge(at, lumens, o, lx)) continue;
+    const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
+    const Patch& p = room.patches.patches[static_cast<size_t>(patch)];
+    ratios.push_back({o.element, patch, p.facet, p.material, o.state,
+                      M_PI * o.relative_luminance / (light.camera_scale * lx),
+                      std::sqrt(o.variance) / o.relative_luminance});
+  }
+  return ratios;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,44 @@
+#include "inverse/check/survey_check.h"
+
+#include <algorithm>
+
+namespace luxfit {
+namespace {
+
+double TypicalDistance(const Scene& scene, const std::vector<Eigen::Vector3d>& points, double mesh_scale) {
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const Eigen::Vector3d& p : points)
+    distances.push_back(mesh_scale * DistanceToSurface(scene, p / mesh_scale));
+  const auto place = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
+  std::nth_element(distances.begin(), place, distances.end());
+  return *place;
+}
+
+}  // namespace
+
+SurveyCheck CheckSurvey(const Scene& scene, const std::vector<Eigen::Vector3d>& tag_centers_in_world,
+                        double declared_metres_per_unit, double tolerance_m) {
+  SurveyCheck check;
+  if (tag_centers_in_world.empty()) return check;
+  check.distance_m = TypicalDistance(scene, tag_centers_in_world, 1.0);
+  check.fits = check.distance_m < tolerance_m;
+  if (check.fits) return check;
+  struct Unit {
+    const char* name;
+    double metres;
+  };
+  double least = tolerance_m;
+  for (const Unit& unit :
+       {Unit{"m", 1}, Unit{"cm", 0.01}, Unit{"mm", 0.001}, Unit{"in", 0.0254}, Unit{"ft", 0.3048}}) {
+    const double scale = unit.metres / declared_metres_per_unit;
+    const double distance = TypicalDistance(scene, tag_centers_in_world, scale);
+    if (distance < least) {
+      least = distance;
+      check.better_unit = unit.name;
+    }
+  }
+  return check;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,145 @@
+#include "inverse/choose/choose_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "inverse/choose/internal/left_out.h"
+#include "inverse/model/first_guess.h"
+#include "inverse/model/fit_luminaires.h"
+#include "inverse/model/internal/sparse_luminaires.h"
+
+namespace luxfit {
+namespace {
+
+using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
+
+struct Trial {
+  int count = 0;
+  Eigen::VectorXd predicted;  // rows of SubProblem::all
+  double relative_sigma = 1;
+};
+
+LightData WithCount(LightData data, int count) {
+  for (Eigen::VectorXd& dimming : data.dimming) dimming = Eigen::VectorXd::Ones(count);
+  return data;
+}
+
+// As cosine-power discs about their places.
+LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
+                   double size_m) {
+  LightState state = given;
+  state.camera_scale = 1;
+  state.camera_scale_free = state.meter_scale_free = false;
+  for (const auto& [material, albedo] : found.albedo) {
+    if (state.albedo_free[static_cast<size_t>(material)])
+      state.albedo[material] = std::clamp(albedo, 0.05, 0.9);
+  }
+  state.luminaires.clear();
+  state.free.clear();
+  for (const SparseSource& source : found.sources) {
+    Luminaire luminaire = source.luminaire;
+    // A lobe to all sides has no aim, and no disc has it.
+    const bool is_disc = luminaire.distribution != Distribution::kIsotropic;
+    if (is_disc) luminaire.shape = LuminaireShape::kDisc, luminaire.size_m.setConstant(size_m);
+    luminaire.flux_lm = flux_per_strength * source.strength;
+    state.luminaires.push_back(luminaire);
+    FreeQuantities free;
+    free.position = !source.is_held;
+    free.exponent = free.size = is_disc;
+    state.free.push_back(free);
+  }
+  return state;
+}
+
+bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) {
+  double sum = 0;
+  for (const SparseSource& source : sources) sum += source.strength;
+  return std::all_of(sources.begin(), sources.end(),
+                     [&](const SparseSource& source) { return source.strength > least_share * sum; });
+}
+
+// The luminaires of `found`, refined together on what is not left out.
+std::optional<Trial> Try(const Room& room, const SubProblem& problem, const LightState& given,
+                         const SparseLuminaires& found, const ChooseCountOptions& options) {
+  const auto count = static_cast<int>(found.sources.size());
+  const LightData seen = WithCount(problem.fit, count), all = WithCount(problem.all, count);
+  FitLuminairesOptions fit_options;
+  fit_options.covariance = false;
+  fit_options.max_outer_iterations = 4;
+  fit_options.visibility_order = 2;
+  const double flux_per_strength = seen.observations.empty() ? 1 : M_PI;  // of readings, of photos
+  const LuminaireFit fit = FitLuminaires(
+      room, seen, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
+  if (fit.status == FitStatus::kNoData) return {};
+  LightModel model(room, all);
+  model.FreezeVisibility(fit.state, fit_options.visibility_order);
+  return Trial{count, model.Predict(fit.state, {}, false).value, fit.relative_sigma};
+}
+
+std::vector<std::map<int, GroupScore>> Scores(const SubProblem& problem, const std::vector<Trial>& trials) {
+  double relative_sigma = 1;
+  for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
+  std::vector<std::map<int, GroupScore>> scores;
+  scores.reserve(trials.size());
+  for (const Trial& trial : trials) scores.push_back(ScoreGroups(problem, trial.predicted, relative_sigma));
+  return scores;
+}
+
+size_t BestOf(const std::vector<std::map<int, GroupScore>>& scores) {
+  size_t best = 0;
+  for (size_t i = 1; i < scores.size(); ++i) {
+    if (Mean(scores[i]) < Mean(scores[best])) best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
+                                 const KnownPositions& known_positions, const ChooseCountOptions& options) {
+  const int least = std::max(1, static_cast<int>(known_positions.size()));
+  if (options.max_count < least)
+    throw std::invalid_argument(
+        "ChooseLuminaireCount: expected max_count of at least 1 and of the known places");
+  const SubProblem problem = CutAll(room, data, options.max_elements);
+  CountChoice choice;
+  if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
+    return choice;
+  std::vector<Trial> trials;
+  constexpr int kPatience = 2;  // numbers that bring no more before the search ends
+  const FirstGuessOptions guess_options;
+  const GroupedLight light = GroupLight(room, WithCount(problem.fit, 1), guess_options.max_elements);
+  const SparseSearch search(room, light, guess_options.grid_m, guess_options.refinements);
+  SparseLuminaires found;
+  for (const std::optional<Eigen::Vector3d>& place : known_positions) {
+    if (!place) continue;
+    found.sources.emplace_back();
+    found.sources.back().luminaire.position = *place;
+    found.sources.back().is_held = true;
+  }
+  for (int count = least; count <= options.max_count; ++count) {
+    found = search.Find(0, count, found.sources);
+    if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
+      break;
+    const std::optional<Trial> trial = Try(room, problem, state, found, options);
+    if (!trial) break;
+    trials.push_back(*trial);
+    if (trials.size() - 1 - BestOf(Scores(problem, trials)) >= kPatience) break;
+  }
+  if (trials.empty()) return choice;
+  const std::vector<std::map<int, GroupScore>> scores = Scores(problem, trials);
+  const size_t best = BestOf(scores);
+  for (size_t i = 0; i < trials.size(); ++i) {
+    const PairedDifference difference = Difference(scores[i], scores[best]);
+    choice.among.push_back(trials[i].count);
+    choice.score.push_back(Mean(scores[i]));
+    choice.standard_error.push_back(difference.standard_error);
+    if (choice.chosen == 0 && difference.mean <= difference.standard_error) choice.chosen = trials[i].count;
+  }
+  choice.reached_max = trials[best].count == options.max_count;
+  return choice;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,314 @@
+#include "inverse/choose/internal/photo_equations.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "calib/luminance/median.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kCauchy = 2.5;    // in scales of the residuals
+constexpr double kMostSquare = 9;  // of a score
+constexpr size_t kFewFacets = 5;   // residuals are then grouped by patch
+constexpr double kRankLimit = 1e-6;
+constexpr int kLightSteps = 6;
+constexpr double kLightConverged = 1e-6;
+
+Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kRankLimit);
+  return qr.compute(matrix).solve(right);
+}
+
+Eigen::MatrixXd BaseOfStates(const std::vector<Eigen::VectorXd>& dimming) {
+  Eigen::MatrixXd all(static_cast<Eigen::Index>(dimming.size()), dimming.front().size());
+  for (size_t s = 0; s < dimming.size(); ++s) all.row(static_cast<Eigen::Index>(s)) = dimming[s].transpose();
+  // Columns of luminaires that are always dimmed alike are one.
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
+  const Eigen::Index rank = (svd.singularValues().array() > kRankLimit * svd.singularValues()[0]).count();
+  return svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal();
+}
+
+// Light that no row sees stays where it is.
+Eigen::MatrixXd Damped(Eigen::MatrixXd normal) {
+  normal.diagonal().array() += 1e-10 * normal.trace();
+  return normal;
+}
+
+// min over B of sum w (y - ln(U B))^2, from `light`. Steps that would leave a state without light are
+// shortened.
+void FitLight(const Eigen::MatrixXd& base, const Eigen::VectorXd& y, const Eigen::VectorXd& weight,
+              Eigen::Ref<Eigen::VectorXd> light) {
+  Eigen::VectorXd modelled = base * light;
+  for (int round = 0; round < kLightSteps; ++round) {
+    const Eigen::MatrixXd of_light = modelled.cwiseInverse().asDiagonal() * base;
+    const Eigen::MatrixXd weighted = weight.asDiagonal() * of_light;
+    const Eigen::VectorXd residual = y.array() - modelled.array().log();
+    const Eigen::VectorXd step =
+        Damped(weighted.transpose() * of_light).ldlt().solve(weighted.transpose() * residual);
+    const Eigen::VectorXd change = base * step;
+    const double most = -change.cwiseQuotient(modelled).minCoeff();
+    const double length = most > 0.8 ? 0.8 / most : 1;
+    light += length * step;
+    modelled += length * change;
+    if (change.cwiseQuotient(modelled).cwiseAbs().maxCoeff() < kLightConverged) return;
+  }
+}
+
+}  // namespace
+
+PhotoEquations::PhotoEquations(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
+                               const std::vector<PhotoSample>& samples, int max_elements)
+    : base_(BaseOfStates(dimming)) {
+  std::map<int, std::vector<PhotoSample>> by_element;
+  for (const PhotoSample& sample : samples) {
+    // What shines with everything off is nothing that adds up.
+    if (base_.row(sample.state).squaredNorm() > 0) by_element[sample.element].push_back(sample);
+  }
+  for (auto at = by_element.begin(); at != by_element.end();) {
+    std::set<int> states;
+    for (const PhotoSample& sample : at->second) states.insert(sample.state);
+    const size_t own = std::min(states.size(), static_cast<size_t>(base_.cols()));
+    at = at->second.size() > own ? std::next(at) : by_element.erase(at);
+  }
+  const int most = std::max(1, max_elements);
+  const int stride = std::max(1, (static_cast<int>(by_element.size()) + most - 1) / most);
+  std::set<int> facets;
+  for (const Patch& patch : patches.patches) facets.insert(patch.facet);
+  int counter = 0;
+  for (const auto& [index, of_element] : by_element) {
+    if (counter++ % stride != 0) continue;
+    const int patch = patches.elements[static_cast<size_t>(index)].patch;
+    const int facet = patches.patches[static_cast<size_t>(patch)].facet;
+    ElementRows element{rows(),
+                        static_cast<int>(of_element.size()),
+                        patch % kFolds,
+                        facets.size() < kFewFacets ? patch : facet,
+                        {},
+                        {}};
+    element.base.resize(element.count, base_.cols());
+    std::set<int> cameras;
+    for (int i = 0; i < element.count; ++i) {
+      const PhotoSample& sample = of_element[static_cast<size_t>(i)];
+      element.base.row(i) = base_.row(sample.state);
+      cameras.insert(sample.camera);
+    }
+    element.cameras.assign(cameras.begin(), cameras.end());
+    rows_.insert(rows_.end(), of_element.begin(), of_element.end());
+    elements_.push_back(std::move(element));
+  }
+}
+
+const PhotoSample& PhotoEquations::RowOf(const ElementRows& element, int i) const {
+  return rows_[static_cast<size_t>(element.first) + static_cast<size_t>(i)];
+}
+
+Eigen::VectorXd PhotoEquations::Corrected(const RadiometryUnknowns& unknowns, const Eigen::VectorXd& x,
+                                          const ElementRows& element) const {
+  Eigen::VectorXd y(element.count);
+  for (int i = 0; i < element.count; ++i) {
+    const PhotoSample& sample = RowOf(element, i);
+    const size_t camera = static_cast<size_t>(sample.camera);
+    y[i] = sample.log_value;
+    if (unknowns.exponent[camera] >= 0) y[i] += x[unknowns.exponent[camera]] * sample.log_share;
+    if (unknowns.first_gain >= 0) y[i] -= x[unknowns.first_gain + sample.photo];
+    double power = 1;
+    for (int k = 0; unknowns.vignetting[camera] >= 0 && k < unknowns.order; ++k)
+      y[i] -= x[unknowns.vignetting[camera] + k] * (power *= sample.radius2);
+  }
+  return y;
+}
+
+Eigen::VectorXd PhotoEquations::Power(const RadiometryUnknowns& unknowns, const Eigen::VectorXd& x,
+                                      const ElementRows& element) const {
+  Eigen::VectorXd power = Eigen::VectorXd::Ones(element.count);
+  for (int i = 0; i < element.count; ++i) {
+    const int at = unknowns.exponent[static_cast<size_t>(RowOf(element, i).camera)];
+    if (at >= 0) power[i] = 1 / (1 + x[at]);
+  }
+  return power;
+}
+
+Eigen::VectorXd PhotoEquations::Weights(const Fit& fit, const ElementRows& element) const {
+  Eigen::VectorXd weight(element.count);
+  for (int i = 0; i < element.count; ++i) {
+    const double sigma = RowOf(element, i).relative_sigma;
+    weight[i] = fit.weight[element.first + i] / (sigma * sigma + common_sigma_ * common_sigma_);
+  }
+  return weight;
+}
+
+PhotoEquations::Fit PhotoEquations::Start(const RadiometryUnknowns& unknowns) const {
+  Fit fit;
+  fit.x = Eigen::VectorXd::Zero(unknowns.count);
+  fit.weight = Eigen::VectorXd::Ones(rows());
+  fit.light.resize(base_.cols(), elements());
+  for (int e = 0; e < elements(); ++e) {
+    const ElementRows& element = elements_[static_cast<size_t>(e)];
+    const Eigen::VectorXd value = Corrected(unknowns, fit.x, element).array().exp();
+    // Relative residuals, linear in the light.
+    const Eigen::MatrixXd& base = element.base;
+    const Eigen::VectorXd light =
+        LeastSquares(value.cwiseInverse().asDiagonal() * base, Eigen::VectorXd::Ones(element.count));
+    fit.light.col(e) = light;
+    // Exposures that are far off can ask for negative light: then evenly from all that is on.
+    if (!((base * light).array() > 0.2 * value.array()).all())
+      fit.light.col(e) =
+          LeastSquares(base_, Eigen::VectorXd::Constant(base_.rows(), std::exp(value.array().log().mean())));
+    if (!((base * fit.light.col(e)).array() > 0).all()) fit.light.col(e).setConstant(std::nan(""));
+  }
+  return fit;
+}
+
+// Few unknowns touch an element: those of its cameras, and a gain a row.
+std::vector<int> PhotoEquations::UnknownsOf(const RadiometryUnknowns& unknowns,
+                                            const ElementRows& element) const {
+  std::vector<int> unknown;
+  unknown.reserve(static_cast<size_t>(element.count) + 4 * element.cameras.size());
+  for (const int camera : element.cameras) {
+    const size_t c = static_cast<size_t>(camera);
+    for (int k = 0; unknowns.vignetting[c] >= 0 && k < unknowns.order; ++k)
+      unknown.push_back(unknowns.vignetting[c] + k);
+    if (unknowns.exponent[c] >= 0) unknown.push_back(unknowns.exponent[c]);
+  }
+  for (int i = 0; unknowns.first_gain >= 0 && i < element.count; ++i)
+    unknown.push_back(unknowns.first_gain + RowOf(element, i).photo);
+  return unknown;
+}
+
+Eigen::MatrixXd PhotoEquations::Derivatives(const RadiometryUnknowns& unknowns, const ElementRows& element,
+                                            const std::vector<int>& unknown,
+                                            const Eigen::VectorXd& scaled_residual) const {
+  const size_t gains = unknowns.first_gain >= 0 ? static_cast<size_t>(element.count) : 0;
+  const size_t of_cameras = unknown.size() - gains;
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(element.count, static_cast<Eigen::Index>(unknown.size()));
+  for (int i = 0; i < element.count; ++i) {
+    const PhotoSample& sample = RowOf(element, i);
+    const size_t camera = static_cast<size_t>(sample.camera);
+    for (size_t a = 0; a < of_cameras; ++a) {
+      const int k = unknown[a] - unknowns.vignetting[camera];
+      double& derivative = jacobian(i, static_cast<Eigen::Index>(a));
+      if (unknowns.vignetting[camera] >= 0 && k >= 0 && k < unknowns.order)
+        derivative = -std::pow(sample.radius2, k + 1);
+      if (unknown[a] == unknowns.exponent[camera]) derivative = sample.log_share - scaled_residual[i];
+    }
+    if (gains > 0) jacobian(i, static_cast<Eigen::Index>(of_cameras) + i) = -1;
+  }
+  return jacobian;
+}
+
+void PhotoEquations::AddElement(const RadiometryUnknowns& unknowns, const Fit& fit, Eigen::Index index,
+                                Sums& sums) const {
+  const ElementRows& element = elements_[static_cast<size_t>(index)];
+  const Eigen::VectorXd power = Power(unknowns, fit.x, element);
+  const Eigen::VectorXd weight = Weights(fit, element).cwiseProduct(power.cwiseAbs2());
+  const Eigen::VectorXd modelled = element.base * fit.light.col(index);
+  const Eigen::VectorXd residual = Corrected(unknowns, fit.x, element) - modelled.array().log().matrix();
+  sums.cost += weight.dot(residual.cwiseAbs2()) / 2;
+  const std::vector<int> unknown = UnknownsOf(unknowns, element);
+  const Eigen::MatrixXd jacobian = Derivatives(unknowns, element, unknown, power.cwiseProduct(residual));
+  const Eigen::MatrixXd of_light = modelled.cwiseInverse().asDiagonal() * element.base;
+  const Eigen::MatrixXd weighted = weight.asDiagonal() * jacobian;
+  const Eigen::MatrixXd mixed = of_light.transpose() * weighted;
+  const Eigen::MatrixXd normal =
+      jacobian.transpose() * weighted -
+      mixed.transpose() * Damped(of_light.transpose() * weight.asDiagonal() * of_light).ldlt().solve(mixed);
+  const Eigen::VectorXd right = -weighted.transpose() * residual;
+  for (size_t a = 0; a < unknown.size(); ++a) {
+    sums.right[unknown[a]] += right[static_cast<Eigen::Index>(a)];
+    for (size_t b = 0; b < unknown.size(); ++b)
+      sums.normal(unknown[a], unknown[b]) +=
+          normal(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+  }
+}
+
+std::vector<PhotoEquations::Sums> PhotoEquations::Linearize(const RadiometryUnknowns& unknowns,
+                                                            Fit& fit) const {
+  const Sums none{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count),
+                  Eigen::VectorXd::Zero(unknowns.count), 0};
+  std::vector<Sums> by_fold(kFolds, none);
+  tbb::parallel_for(0, kFolds, [&](int fold) {
+    for (int e = 0; e < elements(); ++e) {
+      const ElementRows& element = elements_[static_cast<size_t>(e)];
+      if (element.fold != fold || !fit.light.col(e).allFinite()) continue;
+      FitLight(element.base, Corrected(unknowns, fit.x, element),
+               Weights(fit, element).cwiseProduct(Power(unknowns, fit.x, element).cwiseAbs2()),
+               fit.light.col(e));
+      AddElement(unknowns, fit, e, by_fold[static_cast<size_t>(fold)]);
+    }
+  });
+  return by_fold;
+}
+
+void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const {
+  std::vector<double> in_sigmas, absolute;
+  in_sigmas.reserve(rows_.size());
+  absolute.reserve(rows_.size());
+  double own = unknowns.count;
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(rows());
+  for (int e = 0; e < elements(); ++e) {
+    const ElementRows& element = elements_[static_cast<size_t>(e)];
+    if (!fit.light.col(e).allFinite()) continue;
+    own += static_cast<double>(base_.cols());
+    const Eigen::VectorXd residual =
+        Power(unknowns, fit.x, element).array() *
+        (Corrected(unknowns, fit.x, element).array() - (element.base * fit.light.col(e)).array().log());
+    for (int i = 0; i < element.count; ++i) {
+      const double sigma = RowOf(element, i).relative_sigma;
+      z[element.first + i] = std::abs(residual[i]) / std::hypot(sigma, common_sigma_);
+      in_sigmas.push_back(z[element.first + i]);
+      absolute.push_back(std::abs(residual[i]));
+    }
+  }
+  if (in_sigmas.empty()) return;
+  // Residuals about fitted light are smaller than the noise.
+  const double count = static_cast<double>(in_sigmas.size());
+  const double freedom = std::sqrt(count / std::max(1.0, count - own));
+  fit.scale = std::max(1.0, 1.4826 * freedom * Median(in_sigmas));
+  fit.sigma = 1.4826 * freedom * Median(absolute);
+  fit.weight = 1 / (1 + (z.array() / (kCauchy * fit.scale)).square());
+}
+
+std::map<int, GroupScore> PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit& fit,
+                                                const Eigen::VectorXd& x, int fold) const {
+  std::map<int, GroupScore> scores;
+  for (int e = 0; e < elements(); ++e) {
+    const ElementRows& element = elements_[static_cast<size_t>(e)];
+    if (element.fold != fold || !fit.light.col(e).allFinite()) continue;
+    const Eigen::VectorXd y = Corrected(unknowns, x, element), power = Power(unknowns, x, element);
+    Eigen::VectorXd light = fit.light.col(e);
+    FitLight(element.base, y, Weights(fit, element).cwiseProduct(power.cwiseAbs2()), light);
+    const Eigen::VectorXd residual = power.array() * (y.array() - (element.base * light).array().log());
+    GroupScore& score = scores[element.group];
+    for (int i = 0; i < element.count; ++i) {
+      const double sigma = std::hypot(RowOf(element, i).relative_sigma, common_sigma_);
+      score.sum += std::min(std::pow(residual[i] / sigma, 2), kMostSquare);
+      ++score.count;
+    }
+  }
+  return scores;
+}
+
+std::map<int, Eigen::VectorXd> PhotoEquations::GradientByGroup(const RadiometryUnknowns& unknowns,
+                                                               const Fit& fit) const {
+  std::map<int, Eigen::VectorXd> gradient;
+  for (int e = 0; e < elements(); ++e) {
+    const ElementRows& element = elements_[static_cast<size_t>(e)];
+    if (!fit.light.col(e).allFinite()) continue;
+    Sums sums{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count), Eigen::VectorXd::Zero(unknowns.count),
+              0};
+    AddElement(unknowns, fit, e, sums);
+    const auto of_group = gradient.try_emplace(element.group, Eigen::VectorXd::Zero(unknowns.count)).first;
+    of_group->second += sums.right;
+  }
+  return gradient;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,275 @@
+#include "inverse/choose/internal/refine_luminaire.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "forward/luminaire/luminaire_parts.h"
+
+namespace luxfit {
+namespace {
+
+constexpr size_t kFewestGroups = 4;  // fewer have no standard error to speak of
+
+struct FittedCandidate {
+  std::string name;
+  FittedModel fitted;
+};
+
+std::string Formatted(const char* format, double a, double b = 0) {
+  char text[80];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+// Nodes up to 90 degrees; to 180 where light goes up or something above the lamp was measured.
+std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const Luminaire& luminaire,
+                             double step_deg) {
+  double lowest = 1;  // cosine of gamma
+  const auto see = [&](const Eigen::Vector3d& p) {
+    lowest = std::min(lowest, luminaire.aim.dot((p - luminaire.position).normalized()));
+  };
+  for (const Observation& o : problem.all.observations)
+    see(room.patches.elements[static_cast<size_t>(o.element)].center);
+  for (const Reading& reading : problem.all.readings) see(reading.sensor.position);
+  constexpr double kBarelyAbove = -0.1;
+  const double last_deg =
+      lowest < kBarelyAbove || luminaire.distribution == Distribution::kIsotropic ? 180 : 90;
+  std::vector<double> gamma_rad;
+  const int steps = static_cast<int>(std::lround(last_deg / step_deg));
+  gamma_rad.reserve(static_cast<size_t>(steps) + 1);
+  for (int j = 0; j <= steps; ++j) gamma_rad.push_back(j * last_deg / steps * M_PI / 180);
+  return gamma_rad;
+}
+
+Luminaire WithTable(Luminaire luminaire, const std::vector<double>& gamma_rad) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  std::vector<double> intensity;
+  intensity.reserve(gamma_rad.size());
+  for (const double gamma : gamma_rad) {
+    const Eigen::Vector3d direction = std::cos(gamma) * luminaire.aim + std::sin(gamma) * axes.along;
+    intensity.push_back(IntensityPerLumen(luminaire, axes, direction).cd_per_lm);
+  }
+  // A node at 0 is at its bound, where a first step may leave it.
+  const double floor = 1e-3 * *std::max_element(intensity.begin(), intensity.end());
+  for (double& i : intensity) i = std::max(i, floor);
+  luminaire.distribution = Distribution::kMeasured;
+  luminaire.table = std::make_shared<IntensityTable>(RotationalTable(gamma_rad, intensity));
+  return luminaire;
+}
+
+class Refiner {
+ public:
+  Refiner(const Room& room, const SubProblem& problem, OpenRefinements open, const RefineOptions& options)
+      : room_(room), problem_(problem), open_(open), options_(options) {}
+
+  RefinedLuminaire Run() {
+    const size_t k = static_cast<size_t>(problem_.luminaire);
+    result_.luminaire = problem_.state.luminaires[k];
+    result_.free = problem_.state.free[k];
+    const bool can_judge =
+        std::any_of(problem_.left_out.begin(), problem_.left_out.end(), [](bool out) { return out; });
+    if (!can_judge || !(open_.heading || open_.aim || open_.table || open_.emission)) return result_;
+    if (open_.heading) ChooseHeading();
+    held_ = Fit(result_.luminaire, result_.free);
+    if (open_.aim) TakeBest({AimStep()});
+    while (open_.table || open_.emission) {
+      if (held_.relative_sigma <= options_.good_enough && !open_.table_asked_for) break;
+      std::vector<Step> steps;
+      if (open_.table) steps.push_back(TableStep());
+      if (open_.emission && !open_.table_asked_for) steps.push_back(EmissionStep());
+      if (!TakeBest(steps)) break;
+    }
+    return result_;
+  }
+
+ private:
+  struct Step {
+    RefinementKind kind = RefinementKind::kTable;
+    std::vector<FittedCandidate> candidates;  // the first: as it was
+    int chosen = 0;
+    double gain = 0, standard_error = 0;  // of the best over the first
+  };
+
+  FittedModel Fit(const Luminaire& luminaire, const FreeQuantities& free) const {
+    return FitModel(room_, problem_, luminaire, free,
+                    {options_.max_outer_iterations, options_.max_inner_iterations});
+  }
+
+  // From four sides; all have as many parameters, so the lowest score wins.
+  void ChooseHeading() {
+    Refinement record;
+    record.kind = RefinementKind::kHeading;
+    FreeQuantities free = result_.free;
+    free.heading = true;
+    std::vector<FittedCandidate> candidates;
+    for (const int degrees : {0, 90, 180, 270}) {
+      Luminaire start = result_.luminaire;
+      const LuminaireAxes axes = AxesOf(start);
+      const double angle = degrees * M_PI / 180;
+      start.heading = std::cos(angle) * axes.along - std::sin(angle) * axes.across;
+      candidates.push_back({"from " + std::to_string(degrees) + " deg", Fit(start, free)});
+    }
+    const double sigma = SmallestSigma(candidates);
+    std::vector<std::map<int, GroupScore>> scores;
+    for (size_t c = 0; c < candidates.size(); ++c) {
+      scores.push_back(ScoreGroups(problem_, candidates[c].fitted.predicted, sigma));
+      record.among.push_back(candidates[c].name);
+      record.score.push_back(Mean(scores[c]));
+      record.effective_parameters.push_back(1);
+      if (record.score[c] < record.score[static_cast<size_t>(record.chosen)])
+        record.chosen = static_cast<int>(c);
+    }
+    const auto best = static_cast<size_t>(record.chosen);
+    record.standard_error = Difference(scores[0], scores[best]).standard_error;
+    Keep(candidates[best].fitted);
+    result_.steps.push_back(std::move(record));
+  }
+
+  Step AimStep() const {
+    FreeQuantities free = held_.free;
+    free.tilt = true;
+    Step step{RefinementKind::kAim, {{"as given", held_}, {"estimated", Fit(held_.luminaire, free)}}};
+    return Judged(std::move(step));
+  }
+
+  Step TableStep() const {
+    Step step{RefinementKind::kTable, {{ToString(held_.luminaire.distribution), held_}}};
+    std::vector<LuminaireShape> shapes{held_.luminaire.shape};
+    const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
+    if (may_be_point && !open_.table_asked_for) shapes.push_back(LuminaireShape::kPoint);
+    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire, options_.node_step_deg);
+    for (const LuminaireShape shape : shapes) {
+      Luminaire start = WithTable(held_.luminaire, nodes);
+      FreeQuantities free = held_.free;
+      start.shape = shape;
+      free.size = free.size && shape != LuminaireShape::kPoint;
+      free.exponent = false;
+      for (const double sigma : {0.01, 0.03, 0.1, 0.3}) {
+        free.table_sigma = sigma;
+        FittedModel fitted = Fit(start, free);
+        start = fitted.luminaire;  // the next, freer one starts from here
+        step.candidates.push_back(
+            {"table " + ToString(shape) + Formatted(", smoothness %g", sigma), std::move(fitted)});
+      }
+    }
+    return Judged(std::move(step));
+  }
+
+  Step EmissionStep() const {
+    Step step{RefinementKind::kEmission, {{"even", held_}}};
+    FreeQuantities free = held_.free;
+    free.emission_sigma = 1;
+    int without_gain = 0;
+    double best = Score(step.candidates.front());
+    for (const int cells : {2, 3, 4, 6, 8}) {
+      // Finer ones cost the square: no further where two in a row brought nothing.
+      if (without_gain == 2) break;
+      Luminaire start = held_.luminaire;
+      start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
+      step.candidates.push_back({Formatted("%g x %g cells", cells, cells), Fit(start, free)});
+      const double score = Score(step.candidates.back());
+      without_gain = score < best ? 0 : without_gain + 1;
+      best = std::min(best, score);
+    }
+    return Judged(std::move(step));
+  }
+
+  // By the model error of what is held, so that candidates can be compared before all are there.
+  double Score(const FittedCandidate& candidate) const {
+    return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
+  }
+
+  static double SmallestSigma(const std::vector<FittedCandidate>& candidates) {
+    double sigma = 1;
+    for (const FittedCandidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
+    return sigma;
+  }
+
+  // The fewest effective parameters within one standard error of the best.
+  Step Judged(Step step) const {
+    const double sigma = SmallestSigma(step.candidates);
+    std::vector<std::map<int, GroupScore>> scores;
+    size_t best = 0;
+    for (size_t c = 0; c < step.candidates.size(); ++c) {
+      scores.push_back(ScoreGroups(problem_, step.candidates[c].fitted.predicted, sigma));
+      if (Mean(scores[c]) < Mean(scores[best])) best = c;
+    }
+    const PairedDifference gain = Difference(scores[0], scores[best]);
+    step.gain = gain.mean;
+    step.standard_error = gain.standard_error;
+    const bool forced = open_.table_asked_for && step.kind == RefinementKind::kTable;
+    const bool tells = scores[0].size() >= kFewestGroups && gain.mean > gain.standard_error;
+    std::optional<size_t> chosen;
+    for (size_t c = forced ? 1 : 0; c < scores.size() && (tells || forced); ++c) {
+      const PairedDifference worse = Difference(scores[c], scores[best]);
+      if (c != best && worse.mean > worse.standard_error) continue;
+      const auto parts = [&](size_t i) { return step.candidates[i].fitted.effective_parts; };
+      if (!chosen || parts(c) < parts(*chosen)) chosen = c;
+    }
+    step.chosen = static_cast<int>(chosen.value_or(0));
+    return step;
+  }
+
+  // Records all steps, takes the most telling; false if none tells.
+  bool TakeBest(const std::vector<Step>& steps) {
+    const Step* best = nullptr;
+    for (const Step& step : steps) {
+      if (step.chosen > 0 && (best == nullptr || step.gain > best->gain)) best = &step;
+    }
+    for (const Step& step : steps) {
+      const bool taken = &step == best;
+      // A step that another one went before is tried again.
+      if (taken || best == nullptr) Record(step);
+      if (!taken && best != nullptr) continue;
+      if (step.kind == RefinementKind::kTable) open_.table = open_.table_asked_for = false;
+      if (step.kind == RefinementKind::kEmission) open_.emission = false;
+    }
+    if (best == nullptr) return false;
+    held_ = best->candidates[static_cast<size_t>(best->chosen)].fitted;
+    Keep(held_);
+    // A point has no cells.
+    if (held_.luminaire.shape != LuminaireShape::kRectangle) open_.emission = false;
+    return true;
+  }
+
+  void Record(const Step& step) {
+    Refinement record;
+    record.kind = step.kind;
+    record.chosen = step.chosen;
+    record.standard_error = step.standard_error;
+    const double sigma = SmallestSigma(step.candidates);
+    for (const FittedCandidate& c : step.candidates) {
+      record.among.push_back(c.name);
+      record.score.push_back(Mean(ScoreGroups(problem_, c.fitted.predicted, sigma)));
+      record.effective_parameters.push_back(c.fitted.effective_parts);
+    }
+    result_.steps.push_back(std::move(record));
+  }
+
+  void Keep(const FittedModel& fitted) {
+    result_.luminaire = fitted.luminaire;
+    result_.free = fitted.free;
+    result_.changed = true;
+  }
+
+  const Room& room_;
+  const SubProblem& problem_;
+  OpenRefinements open_;
+  const RefineOptions& options_;
+  RefinedLuminaire result_;
+  FittedModel held_;
+};
+
+}  // namespace
+
+RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open,
+                                 const RefineOptions& options) {
+  return Refiner(room, problem, open, options).Run();
+}
+
+}  // namespace luxfit

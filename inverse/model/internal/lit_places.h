@@ -1,0 +1,37 @@
+// Places where a luminaire may be, with the direct light that lobes of several widths and aims give from
+// there.
+//
+// Columns hold D_il, illuminance per lumen at sensor i of lobe l, without a cosine of its own for sensors
+// hidden by the mesh or nearer than 0.1 m: 0 there. World frame, m, lx/lm.
+// Source: forward/direct/direct_light.h.
+#ifndef LUXFIT_INVERSE_MODEL_INTERNAL_LIT_PLACES_H_
+#define LUXFIT_INVERSE_MODEL_INTERNAL_LIT_PLACES_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "forward/light/room.h"
+
+namespace luxfit {
+
+struct Lobe {
+  Distribution distribution;
+  double exponent;
+  Eigen::Vector3d aim;
+};
+// Those that are tried.
+const std::vector<Lobe>& Lobes();
+
+struct LitPlaces {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::MatrixXf> columns;  // of each position: sensors x lobes
+};
+LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions);
+
+// Cell centres of a grid through the box, so that none lies on a wall.
+std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_MODEL_INTERNAL_LIT_PLACES_H_

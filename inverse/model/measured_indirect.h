@@ -1,0 +1,30 @@
+// Light from other surfaces as the photos measured it: interreflection with no solve.
+//
+//   I_es = sum_j F_ej Y_js         relative luminance that it gives a white element (albedo 1)
+//   Y_es = rho_m(e) (I_es + c / pi * sum_k d_sk Phi_k D_ek)
+//
+// F: form factors, Y_js: mean relative luminance of patch j in state s, c: camera scale, D: direct
+// illuminance of luminaire k. With I known, a luminaire is fitted to what it lights directly, with no
+// radiosity solution: this finds luminaires quickly. Patches that no photo shows get the mean of their facet,
+// of their material, or of all: an error of the model, so the last word belongs to the radiosity.
+//
+// Once a radiosity model fits, its own I is as good, without the photos' noise, and hardly changes with the
+// distribution or shape of one luminaire: models of luminaires are compared with that.
+// Source: Yu, Debevec, Malik, Hawkins (1999), "Inverse global illumination", sec. 4.1.
+#ifndef LUXFIT_INVERSE_MODEL_MEASURED_INDIRECT_H_
+#define LUXFIT_INVERSE_MODEL_MEASURED_INDIRECT_H_
+
+#include <Eigen/Core>
+
+#include "inverse/model/light_model.h"
+
+namespace luxfit {
+
+// `data` with Observation::relative_indirect filled in and its readings taken out (indirect_is_held).
+LightData WithMeasuredIndirect(const Room& room, const LightData& data);
+// The same with the indirect light of the radiosity model `light`.
+LightData WithModelledIndirect(const Room& room, const LightData& data, const LightState& light);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_MODEL_MEASURED_INDIRECT_H_

@@ -1,0 +1,135 @@
+#include "inverse/model/predicted_places.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
+
+#include "forward/light/illuminance.h"
+#include "inverse/model/light_model.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kLeftOutVariance = 1e-3;
+
+// Everything that a fit may have had free.
+LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
+                   const Eigen::VectorXd& albedo) {
+  LightState state;
+  state.luminaires = luminaires;
+  for (const Luminaire& luminaire : luminaires) {
+    FreeQuantities free;
+    free.exponent = free.size = free.tilt = free.heading = true;
+    free.table_sigma = luminaire.distribution == Distribution::kMeasured ? 1 : 0;
+    free.emission_sigma = luminaire.emission.size() > 0 ? 1 : 0;
+    state.free.push_back(free);
+  }
+  state.albedo = albedo;
+  state.albedo_free.assign(room.scene.materials.size(), true);
+  state.camera_scale_free = false;
+  return state;
+}
+
+// Each luminaire alone, at every place.
+LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
+  LightData data;
+  for (Eigen::Index k = 0; k < luminaires; ++k)
+    data.dimming.emplace_back(Eigen::VectorXd::Unit(luminaires, k));
+  data.readings.reserve(places.size() * static_cast<size_t>(luminaires));
+  for (const Sensor& place : places) {
+    for (int k = 0; k < static_cast<int>(luminaires); ++k) {
+      Reading reading;
+      reading.sensor = place;
+      reading.state = k;
+      data.readings.push_back(reading);
+    }
+  }
+  return data;
+}
+
+struct KnownParameters {
+  std::vector<Parameter> parameters;
+  Eigen::MatrixXd covariance;
+  std::vector<std::string> left_out;
+};
+
+// The camera's and the meter's own scales change no light.
+bool ChangesLight(const std::string& name) {
+  return name != "log camera scale" && name != "log meter scale" && name.rfind("log gain of sensor", 0) != 0;
+}
+
+KnownParameters FindByName(const std::vector<Parameter>& possible, const NamedCovariance& given) {
+  KnownParameters known;
+  std::vector<Eigen::Index> rows;
+  for (size_t i = 0; i < given.names.size(); ++i) {
+    const auto at = std::find_if(possible.begin(), possible.end(),
+                                 [&](const Parameter& p) { return p.name == given.names[i]; });
+    if (at != possible.end()) {
+      known.parameters.push_back(*at);
+      rows.push_back(static_cast<Eigen::Index>(i));
+    } else if (ChangesLight(given.names[i])) {
+      known.left_out.push_back(given.names[i]);
+    }
+  }
+  known.covariance = given.covariance(rows, rows);
+  return known;
+}
+
+// S of J Sigma J^T, its columns by falling variance of the relative predictions.
+Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
+  if (jacobian.cols() == 0) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> root(0.5 * (covariance + covariance.transpose()));
+  const Eigen::VectorXd sigmas = root.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Eigen::MatrixXd whole = jacobian * root.eigenvectors() * sigmas.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(whole.transpose() * whole);
+  const Eigen::VectorXd& variance = modes.eigenvalues();  // ascending
+  const double all = variance.cwiseMax(0).sum();
+  if (!(all > 0)) return {};
+  Eigen::Index kept = variance.size();
+  for (double left = 0; kept > 1; --kept) {
+    left += std::max(0.0, variance[variance.size() - kept]);
+    if (left > kLeftOutVariance * all) break;
+  }
+  return whole * modes.eigenvectors().rightCols(kept).rowwise().reverse();
+}
+
+PredictedPlaces WithoutCovariance(const Room& room, const std::vector<Luminaire>& luminaires,
+                                  const Eigen::VectorXd& albedo, const std::vector<Sensor>& places) {
+  const Receivers receivers = MakeReceivers(room, {}, places);
+  const Illuminance light =
+      ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, luminaires), luminaires, albedo);
+  PredictedPlaces result{light.total.cast<double>(), light.direct.cast<double>(), {}, {}};
+  for (size_t k = 0; k < luminaires.size(); ++k) {
+    result.total_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
+    result.direct_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
+  }
+  return result;
+}
+
+}  // namespace
+
+PredictedPlaces PredictPlaces(const Room& room, const std::vector<Luminaire>& luminaires,
+                              const Eigen::VectorXd& albedo, const std::vector<Sensor>& places,
+                              const NamedCovariance& parameters) {
+  const Eigen::Index names = static_cast<Eigen::Index>(parameters.names.size());
+  if (parameters.covariance.rows() != names || parameters.covariance.cols() != names)
+    throw std::invalid_argument("PredictPlaces: expected a covariance of as many rows as names");
+  if (room.sparse || names == 0 || !parameters.covariance.allFinite())
+    return WithoutCovariance(room, luminaires, albedo, places);
+  const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
+  const LightState state = AllFree(room, luminaires, albedo);
+  const KnownParameters known = FindByName(FreeParameters(room, state), parameters);
+  const LightData data = DataOf(places, lamps);
+  LightModel model(room, data);
+  model.FreezeVisibility(state);
+  const Prediction predicted = model.Predict(state, known.parameters, true);
+  const Eigen::Index rows = static_cast<Eigen::Index>(places.size());
+  PredictedPlaces result;
+  result.total_lx = Eigen::Map<const RowMajorMatrix>(predicted.value.data(), rows, lamps);
+  result.direct_lx = Eigen::Map<const RowMajorMatrix>(predicted.reading_direct_lx.data(), rows, lamps);
+  result.factor = FactorOf(predicted.jacobian, known.covariance);
+  result.left_out = known.left_out;
+  return result;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,215 @@
+#include "inverse/study/degrade.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace luxfit {
+namespace {
+
+void ExpectNotNegative(double value, const char* what) {
+  if (!(value >= 0)) throw std::invalid_argument(std::string(what) + ": expected >= 0");
+}
+
+void Scale(Observation& o, double factor) {
+  o.relative_luminance *= factor;
+  o.relative_rgb *= factor;
+  o.variance *= factor * factor;
+}
+
+// `count` of the values, drawn at random.
+std::set<int> Draw(const std::set<int>& values, int count, std::mt19937_64& rng) {
+  if (count < 0 || count > static_cast<int>(values.size()))
+    throw std::invalid_argument("degrade: expected to leave out 0 to " + std::to_string(values.size()) +
+                                ", got " + std::to_string(count));
+  std::vector<int> order(values.begin(), values.end());
+  std::shuffle(order.begin(), order.end(), rng);
+  return {order.begin(), order.begin() + count};
+}
+
+std::set<int> ViewsOf(const std::vector<Observation>& observations) {
+  std::set<int> views;
+  for (const Observation& o : observations) views.insert(o.view);
+  return views;
+}
+
+std::set<int> StatesOf(const std::vector<Observation>& observations) {
+  std::set<int> states;
+  for (const Observation& o : observations) states.insert(o.state);
+  return states;
+}
+
+std::vector<Eigen::Vector3d> CornersOf(const Facet& facet) {
+  std::vector<Eigen::Vector3d> corners{facet.PointAt(0, 0), facet.PointAt(1, 0), facet.PointAt(0, 1)};
+  if (facet.kind == FacetKind::kParallelogram) corners.push_back(facet.PointAt(1, 1));
+  return corners;
+}
+
+bool LiesOnBox(const Facet& facet, const Eigen::AlignedBox3d& box, double tolerance_m) {
+  const std::vector<Eigen::Vector3d> corners = CornersOf(facet);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double plane : {box.min()[axis], box.max()[axis]}) {
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](const Eigen::Vector3d& p) { return std::abs(p[axis] - plane) < tolerance_m; }))
+        return true;
+    }
+  }
+  return false;
+}
+
+bool ShareACorner(const Facet& a, const Facet& b, double tolerance_m) {
+  for (const Eigen::Vector3d& p : CornersOf(a)) {
+    for (const Eigen::Vector3d& q : CornersOf(b)) {
+      if ((p - q).norm() < tolerance_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Observation> WithPixelNoise(std::vector<Observation> observations, double relative_sigma,
+                                        std::mt19937_64& rng) {
+  ExpectNotNegative(relative_sigma, "WithPixelNoise: relative_sigma");
+  std::normal_distribution<double> normal;
+  for (Observation& o : observations) {
+    const double sigma = relative_sigma / std::sqrt(std::max(1, o.pixels));
+    const double before = o.relative_luminance;
+    // What noise makes negative is no luminance: the darkest that a mean can be.
+    const double factor = std::max(1e-3, 1 + sigma * normal(rng));
+    o.relative_luminance *= factor;
+    o.relative_rgb *= factor;
+    o.variance += std::pow(sigma * before, 2);
+  }
+  return observations;
+}
+
+std::vector<Observation> WithExposureErrors(std::vector<Observation> observations, double log_sigma,
+                                            std::mt19937_64& rng) {
+  ExpectNotNegative(log_sigma, "WithExposureErrors: log_sigma");
+  std::normal_distribution<double> normal;
+  std::map<std::pair<int, int>, double> gains;
+  for (const Observation& o : observations) gains[{o.view, o.state}] = 1;
+  for (auto& [photo, gain] : gains) gain = std::exp(log_sigma * normal(rng));
+  for (Observation& o : observations) Scale(o, gains.at({o.view, o.state}));
+  return observations;
+}
+
+std::vector<Observation> WithoutViews(const std::vector<Observation>& observations, int dropped,
+                                      std::mt19937_64& rng) {
+  const std::set<int> out = Draw(ViewsOf(observations), dropped, rng);
+  std::vector<Observation> kept;
+  for (const Observation& o : observations) {
+    if (out.count(o.view) == 0) kept.push_back(o);
+  }
+  return kept;
+}
+
+std::vector<Observation> WithoutStates(const std::vector<Observation>& observations, int dropped,
+                                       std::mt19937_64& rng) {
+  const std::set<int> out = Draw(StatesOf(observations), dropped, rng);
+  std::vector<Observation> kept;
+  for (const Observation& o : observations) {
+    if (out.count(o.state) == 0) kept.push_back(o);
+  }
+  return kept;
+}
+
+int CountViews(const std::vector<Observation>& observations) {
+  return static_cast<int>(ViewsOf(observations).size());
+}
+
+int CountStates(const std::vector<Observation>& observations) {
+  return static_cast<int>(StatesOf(observations).size());
+}
+
+std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double sigma_m,
+                                       std::mt19937_64& rng) {
+  ExpectNotNegative(sigma_m, "WithMovedTags: sigma_m");
+  std::normal_distribution<double> normal;
+  for (SurveyedTag& tag : survey) {
+    for (int axis = 0; axis < 3; ++axis) tag.center_in_world[axis] += sigma_m * normal(rng);
+  }
+  return survey;
+}
+
+std::vector<std::vector<int>> LoosePieces(const Scene& scene) {
+  constexpr double kToleranceM = 1e-3;
+  const Eigen::AlignedBox3d box = scene.Bounds();
+  std::vector<int> loose;
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    if (!LiesOnBox(scene.facets[f], box, kToleranceM)) loose.push_back(static_cast<int>(f));
+  }
+  std::vector<size_t> piece(loose.size());
+  std::iota(piece.begin(), piece.end(), size_t{0});
+  for (size_t a = 0; a < loose.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      if (piece[a] == piece[b] || !ShareACorner(scene.facets[static_cast<size_t>(loose[a])],
+                                                scene.facets[static_cast<size_t>(loose[b])], kToleranceM))
+        continue;
+      const size_t from = std::max(piece[a], piece[b]), to = std::min(piece[a], piece[b]);
+      std::replace(piece.begin(), piece.end(), from, to);
+    }
+  }
+  std::map<size_t, std::vector<int>> by_piece;
+  for (size_t i = 0; i < loose.size(); ++i) by_piece[piece[i]].push_back(loose[i]);
+  std::vector<std::vector<int>> pieces;
+  pieces.reserve(by_piece.size());
+  for (const auto& [key, facets] : by_piece) pieces.push_back(facets);
+  return pieces;
+}
+
+Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng) {
+  const std::vector<std::vector<int>> pieces = LoosePieces(scene);
+  std::set<int> all, out;
+  for (size_t p = 0; p < pieces.size(); ++p) all.insert(static_cast<int>(p));
+  for (const int p : Draw(all, dropped, rng)) {
+    for (const int f : pieces[static_cast<size_t>(p)]) out.insert(f);
+  }
+  Scene kept;
+  std::map<int, int> material_of;  // what it was, what it is
+  for (size_t f = 0; f < scene.facets.size(); ++f) {
+    if (out.count(static_cast<int>(f)) > 0) continue;
+    Facet facet = scene.facets[f];
+    const auto [place, is_new] = material_of.try_emplace(facet.material, kept.materials.size());
+    if (is_new) kept.materials.push_back(scene.materials[static_cast<size_t>(facet.material)]);
+    facet.material = place->second;
+    kept.facets.push_back(facet);
+  }
+  return kept;
+}
+
+std::vector<Luminaire> WithLuminairesTogether(std::vector<Luminaire> luminaires, double distance_m) {
+  ExpectNotNegative(distance_m, "WithLuminairesTogether: distance_m");
+  if (luminaires.size() < 2)
+    throw std::invalid_argument("WithLuminairesTogether: expected two luminaires or more");
+  size_t first = 0, second = 1;
+  const auto distance = [&](size_t a, size_t b) {
+    return (luminaires[a].position - luminaires[b].position).norm();
+  };
+  for (size_t a = 0; a < luminaires.size(); ++a) {
+    for (size_t b = a + 1; b < luminaires.size(); ++b) {
+      if (distance(a, b) < distance(first, second)) first = a, second = b;
+    }
+  }
+  Eigen::Vector3d &p = luminaires[first].position, &q = luminaires[second].position;
+  const Eigen::Vector3d middle = 0.5 * (p + q);
+  const Eigen::Vector3d along = (q - p).norm() > 0 ? (q - p).normalized() : Eigen::Vector3d::UnitX();
+  p = middle - 0.5 * distance_m * along;
+  q = middle + 0.5 * distance_m * along;
+  return luminaires;
+}
+
+Eigen::VectorXd WithRaisedAlbedo(const Eigen::VectorXd& albedo, double share) {
+  if (!(share >= 0 && share <= 1)) throw std::invalid_argument("WithRaisedAlbedo: expected a share in 0..1");
+  constexpr double kWhite = 0.95;
+  return albedo.unaryExpr([&](double rho) { return std::max(rho, rho + share * (kWhite - rho)); });
+}
+
+}  // namespace luxfit

@@ -1,0 +1,184 @@
+// The commands that a newcomer meets first, as typed: init, doctor, explain, help, completions, manual pages.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "apps/commands/explain_command.h"
+#include "apps/session/session.h"
+#include "tests/support/program.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kOffice = std::string(LUXFIT_FIXTURES) + "/office";
+
+support::ProgramRun InitOffice(const std::string& out) {
+  return support::RunProgram("init --photos " + kOffice + "/photos --mesh " + kOffice + "/room.obj --tags " +
+                             kOffice + "/tags.json -o " + out);
+}
+
+std::vector<std::string> CommandsOfHelp() {
+  const std::string help = support::RunProgram("--help").output;
+  std::vector<std::string> commands;
+  const std::regex line("\n  ([a-z]+) {2,}");
+  for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at)
+    commands.push_back((*at)[1]);
+  return commands;
+}
+
+TEST(InitTest, WritesASessionThatReads) {
+  const TempFolder folder;
+  const support::ProgramRun init = InitOffice(folder.Path("mine"));
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(init.output, HasSubstr("exposure_s of 49 photos"));
+  const Session session = ReadSession(folder.Path("mine/session.toml"));
+  const Session office = ReadSession(kOffice + "/session.toml");
+  EXPECT_EQ(session.photos.size(), office.photos.size());
+  EXPECT_EQ(session.tags.survey.size(), office.tags.survey.size());
+  EXPECT_EQ(session.states.size(), office.states.size());
+  EXPECT_EQ(session.cameras[0].intrinsics, office.cameras[0].intrinsics);
+  EXPECT_EQ(session.scene->unit, "m");
+  for (size_t i = 0; i < office.photos.size(); ++i) EXPECT_EQ(session.photos[i].view, office.photos[i].view);
+}
+
+TEST(InitTest, MarksEveryGuess) {
+  const TempFolder folder;
+  ASSERT_EQ(InitOffice(folder.Path("mine")).status, 0);
+  std::istringstream lines(folder.Read("mine/session.toml"));
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_set = line.find('=') != std::string::npos && line[0] != '#';
+    const bool was_told = line.rfind("name", 0) == 0 || line.rfind("id ", 0) == 0 ||
+                          line.rfind("mesh", 0) == 0 || line.rfind("map", 0) == 0;
+    if (is_set && !was_told) {
+      EXPECT_THAT(line, HasSubstr("# GUESS: "));
+    }
+  }
+}
+
+TEST(InitTest, WritesOverNothing) {
+  const TempFolder folder;
+  folder.Write("mine/photos.csv", "precious\n");
+  const support::ProgramRun init = InitOffice(folder.Path("mine"));
+  EXPECT_EQ(init.status, 2);
+  EXPECT_THAT(init.output, HasSubstr("photos.csv: expected a new file, found one"));
+  EXPECT_EQ(folder.Read("mine/photos.csv"), "precious\n");
+  EXPECT_FALSE(fs::exists(folder.Path("mine/session.toml")));
+}
+
+TEST(InitTest, GuessesTheUnit) {
+  const TempFolder folder;
+  folder.Write("room.obj", "v 0 0 0\nv 6000 0 0\nv 6000 4000 0\nv 0 4000 0\nusemtl floor\nf 1 2 3 4\n");
+  const support::ProgramRun init =
+      support::RunProgram("init --photos " + kOffice + "/photos --mesh " + folder.Path("room.obj") + " -o " +
+                          folder.Path("mine"));
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(folder.Read("mine/session.toml"), HasSubstr("unit = \"mm\""));
+}
+
+TEST(DoctorTest, SaysWhatASessionLacks) {
+  const support::ProgramRun good = support::RunProgram("doctor " + kOffice + "/session.toml");
+  EXPECT_EQ(good.status, 0);
+  EXPECT_THAT(good.output, AllOf(HasSubstr("9 of 10 views show tags"),
+                                 HasSubstr("no surveyed tag is seen in v08"), Not(HasSubstr("bad "))));
+  const TempFolder folder;
+  ASSERT_EQ(InitOffice(folder.Path("mine")).status, 0);
+  const support::ProgramRun bad = support::RunProgram("doctor " + folder.Path("mine/session.toml"));
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.output, AllOf(HasSubstr("bad   v00_A.png"), HasSubstr("fill in exposure_s"),
+                                HasSubstr("nothing fixes the absolute scale")));
+}
+
+// Codes that the sources give to warnings, by the ways in which they do.
+std::set<std::string> WarningCodesOfSources() {
+  const std::regex after_push(
+      R"((?:warnings|notes)\.push_back\(\s*\{\s*(?:[a-z.]+,\s*|"",\s*|-1,\s*|id,\s*)*"([a-z_]+)\")");
+  std::set<std::string> codes;
+  for (const char* room : {"apps", "apps/internal", "calib", "calib/internal"}) {
+    for (const auto& entry : fs::directory_iterator(fs::path(LUXFIT_FIXTURES).parent_path() / room)) {
+      if (entry.path().extension() != ".cc") continue;
+      std::ifstream file(entry.path());
+      const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+      for (std::sregex_iterator at(text.begin(), text.end(), after_push), end; at != end; ++at)
+        codes.insert((*at)[1]);
+    }
+  }
+  return codes;
+}
+
+TEST(ExplainTest, KnowsEveryWarning) {
+  const std::set<std::string> codes = WarningCodesOfSources();
+  EXPECT_GT(codes.size(), 40U) << "the expression finds too few";
+  for (const std::string& code : codes) {
+    EXPECT_THAT(ExplainedWarnings(), Contains(code));
+    EXPECT_THAT(ExplanationOf(code), HasSubstr("Mend: ")) << code;
+  }
+}
+
+TEST(ExplainTest, KnowsKeysAndSuggests) {
+  EXPECT_THAT(support::RunProgram("explain camera.response").output, HasSubstr("linear"));
+  const support::ProgramRun typo = support::RunProgram("explain camera.respons");
+  EXPECT_EQ(typo.status, 2);
+  EXPECT_THAT(typo.output, HasSubstr("did you mean \"camera.response\"?"));
+}
+
+TEST(HelpTest, EveryCommandShowsAnExampleOfItself) {
+  const std::vector<std::string> commands = CommandsOfHelp();
+  EXPECT_GT(commands.size(), 15U);
+  for (const std::string& command : commands) {
+    const support::ProgramRun help = support::RunProgram(command + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.output, AllOf(HasSubstr("Example:"), HasSubstr("luxfit " + command))) << command;
+  }
+}
+
+TEST(HelpTest, SuggestsCommandsAndOptions) {
+  const support::ProgramRun command = support::RunProgram("simulat x -o y");
+  EXPECT_EQ(command.status, 2);
+  EXPECT_THAT(command.output, HasSubstr("did you mean \"simulate\"?"));
+  const support::ProgramRun option = support::RunProgram("run x -o y --jsn");
+  EXPECT_EQ(option.status, 2);
+  EXPECT_THAT(option.output, HasSubstr("did you mean \"--json\"?"));
+}
+
+TEST(ShellTest, BashCompletes) {
+  const TempFolder folder;
+  folder.Write("luxfit.bash", support::RunProgram("completion bash").output);
+  folder.Write("try.bash",
+               "source " + folder.Path("luxfit.bash") +
+                   "\nCOMP_WORDS=(luxfit regis); COMP_CWORD=1; _luxfit; echo \"${COMPREPLY[@]}\"\n"
+                   "COMP_WORDS=(luxfit run --dry); COMP_CWORD=2; _luxfit; echo \"${COMPREPLY[@]}\"\n");
+  const int status =
+      std::system(("bash " + folder.Path("try.bash") + " >" + folder.Path("out") + " 2>&1").c_str());
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(folder.Read("out"), "register\n--dry-run\n");
+}
+
+TEST(ShellTest, ZshReadsItsScript) {
+  if (std::system("command -v zsh >/dev/null") != 0) GTEST_SKIP() << "zsh is not installed";
+  const TempFolder folder;
+  folder.Write("_luxfit", support::RunProgram("completion zsh").output);
+  EXPECT_EQ(std::system(("zsh -n " + folder.Path("_luxfit")).c_str()), 0);
+}
+
+TEST(ShellTest, ManualPagesOfAllCommands) {
+  const TempFolder folder;
+  EXPECT_EQ(support::RunProgram("man -o " + folder.Path("man")).status, 0);
+  for (const std::string& command : CommandsOfHelp())
+    EXPECT_THAT(folder.Read("man/luxfit-" + command + ".1"),
+                AllOf(HasSubstr(".SH EXAMPLE"), HasSubstr(".SH EXIT STATUS")))
+        << command;
+  EXPECT_THAT(folder.Read("man/luxfit.1"), HasSubstr("luxfit\\-run (1)"));
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,119 @@
+// The program on corners of known truth: what it writes, what it says, and its exit status.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "calib/lens/camera_file.h"
+#include "calib/targets/corners_file.h"
+#include "tests/support/board_views.h"
+#include "tests/support/program.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/test_rng.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string CornersOf(const CalibrationInput& input, int camera) {
+  std::vector<ImageCorners> images;
+  for (const CalibrationImage& image : input.images) {
+    if (image.camera == camera) images.push_back({image.name + ".png", image.corners});
+  }
+  return CornersFile(images, static_cast<int>(input.target.points.size()));
+}
+
+std::string CameraToml(const std::string& id) {
+  return "[[camera]]\nid = \"" + id + "\"\ncalibration_corners = \"" + id +
+         ".vnl\"\nimage_size = [1280, 960]\n" +
+         "board = { type = \"chessboard\", columns = 12, rows = 9, square_size_m = 0.05 }\n";
+}
+
+class CalibrateTest : public testing::Test {
+ protected:
+  support::ProgramRun Calibrate(const std::string& flags = "") {
+    return support::RunProgram("calibrate " + folder_.Path("session.toml") + " -o " + folder_.Path("out") +
+                               flags);
+  }
+  TempFolder folder_;
+};
+
+TEST_F(CalibrateTest, ARigIsWrittenInEveryFormatThatHoldsIt) {
+  auto rng = support::TestRng();
+  support::BoardViewsOptions views;
+  views.images = 14;
+  Eigen::Isometry3d second = Eigen::Isometry3d::Identity();
+  second.translation().x() = -0.1;
+  Camera truth = support::OpenCv8Camera();
+  truth.distortion = {-0.2, 0.06, 1e-3, -5e-4};
+  const support::BoardViews rig(support::GridTarget(), {truth, truth},
+                                {Eigen::Isometry3d::Identity(), second}, views, rng);
+  folder_.Write("cam0.vnl", CornersOf(rig.input(), 0));
+  folder_.Write("cam1.vnl", CornersOf(rig.input(), 1));
+  folder_.Write("session.toml",
+                CameraToml("cam0") + CameraToml("cam1") + "[calibration]\nlens = \"opencv4\"\n");
+  const support::ProgramRun run = Calibrate(" --json 2>/dev/null");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json artifact = json::parse(run.output.substr(run.output.find('{')));
+  EXPECT_EQ(artifact["format"], "luxfit-calibrate-1");
+  EXPECT_EQ(artifact["status"], "done");
+  ASSERT_EQ(artifact["groups"].size(), 1U);
+  const json& group = artifact["groups"][0];
+  EXPECT_TRUE(group["is_rig"]);
+  EXPECT_NEAR(group["cameras"][1]["position_in_rig_m"][0], 0.1, 1e-3);
+  EXPECT_EQ(group["images"].size(), 28U);
+  for (const char* name : {"cam0.yaml", "cam1.cameramodel", "camchain.yaml", "cameras.txt"}) {
+    const std::vector<FiledCamera> read = ReadCameraFile(folder_.Path("out/" + std::string(name)));
+    EXPECT_NEAR(read.back().camera.fx_px, truth.fx_px, 2) << name;
+  }
+  EXPECT_EQ(folder_.Read("out/cam0_uncertainty.svg").rfind("<svg", 0), 0U);
+  EXPECT_NE(folder_.Read("out/corner_residuals.csv").find("\"cam1_3.png\",\"cam1\","), std::string::npos);
+  EXPECT_EQ(ReadCornersFile(folder_.Path("out/corners.vnl"), 108).size(), 28U);
+  EXPECT_FALSE(folder_.Read("out/stages/calibrate.json").empty());
+}
+
+TEST_F(CalibrateTest, WhatFailsAGateIsMarkedAndEndsWithOne) {
+  auto rng = support::TestRng();
+  support::BoardViewsOptions views;
+  views.images = 10;
+  views.tilt_deg = 2;
+  folder_.Write("cam0.vnl", CornersOf(support::ViewsOf(support::OpenCv8Camera(), views, rng), 0));
+  folder_.Write("session.toml", CameraToml("cam0") + "[calibration]\nlens = \"opencv4\"\n");
+  const support::ProgramRun run = Calibrate();
+  EXPECT_EQ(run.status, 1) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("NOT USABLE"));
+  EXPECT_THAT(run.output, HasSubstr("never tilted"));
+  EXPECT_THAT(folder_.Read("out/cam0.yaml"), HasSubstr("# NOT USABLE as it is:"));
+  EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cam0.yaml"))) << "marked, but still the format";
+  EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cam0.cameramodel")));
+  EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cameras.txt")));
+  EXPECT_EQ(json::parse(folder_.Read("out/stages/calibrate.json"))["status"], "undetermined");
+}
+
+TEST_F(CalibrateTest, CamerasThatAreNoRigAreCalibratedAlone) {
+  auto rng = support::TestRng();
+  support::BoardViewsOptions views;
+  views.images = 12;
+  folder_.Write("cam0.vnl", CornersOf(support::ViewsOf(support::OpenCv8Camera(), views, rng), 0));
+  folder_.Write("cam1.vnl", CornersOf(support::ViewsOf(support::OpenCv8Camera(), views, rng), 0));
+  folder_.Write("session.toml",
+                CameraToml("cam0") + CameraToml("cam1") + "[calibration]\nlens = \"opencv5\"\n");
+  const support::ProgramRun run = Calibrate();
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("do not fit cameras fixed to each other"));
+  EXPECT_EQ(json::parse(folder_.Read("out/stages/calibrate.json"))["groups"].size(), 2U);
+}
+
+TEST_F(CalibrateTest, InputErrorsNameTheirFile) {
+  folder_.Write("cam0.vnl", "# filename x y level\na.png 1 2 0\n");
+  folder_.Write("session.toml", CameraToml("cam0"));
+  EXPECT_EQ(Calibrate().status, 2);
+  EXPECT_THAT(Calibrate().output, HasSubstr("cam0.vnl:2: corners: expected 108 rows for a.png"));
+  folder_.Write("session.toml", "name = \"none\"\n");
+  EXPECT_THAT(Calibrate().output, HasSubstr("expected a camera with calibration_images"));
+}
+
+}  // namespace
+}  // namespace luxfit

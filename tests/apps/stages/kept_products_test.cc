@@ -1,0 +1,120 @@
+// What stages keep comes back as it went in, to the last bit.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/stages/internal/linearized_json.h"
+#include "apps/stages/internal/observations_json.h"
+#include "apps/stages/registration_json.h"
+
+namespace luxfit {
+namespace {
+
+// Through the bytes that are written.
+nlohmann::json ThroughCbor(const nlohmann::json& json) {
+  return nlohmann::json::from_cbor(nlohmann::json::to_cbor(json));
+}
+
+TEST(KeptProductsTest, Registration) {
+  Session session;
+  session.cameras.resize(2);
+  session.cameras[0].id = "left";
+  session.cameras[1].id = "right";
+  RegisteredSession before;
+  before.cameras.resize(2);
+  before.cameras[0].fx_px = 1.0 / 3;
+  before.cameras[1].lens = LensModel::kSplined;
+  before.cameras[1].spline = {3, 2, 2, 90, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}};
+  RegisteredView view;
+  view.view = "v00";
+  view.camera = 1;
+  view.cam_from_world =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) * Eigen::Translation3d(0.1, -2, 1.0 / 7);
+  view.covariance.setRandom();
+  view.points_used = 7;
+  before.registration.views = {view};
+  before.registration.focal_scale = {1, 1.01};
+  before.registration.notes = {{"v01", -1, "no_tags", "message", "remedy"}};
+  SurveyedTag tag;
+  tag.center_in_world = {0.1, 0.2, 0.3};
+  tag.normal_in_world = Eigen::Vector3d::UnitX();
+  tag.up_in_world = Eigen::Vector3d::UnitZ();
+  before.registration.placed_tags = {tag};
+  before.registration.converged = true;
+  const RegisteredSession after = RegistrationFromJson(ThroughCbor(RegistrationJson(session, before)));
+  EXPECT_EQ(after.cameras.at(0).fx_px, before.cameras[0].fx_px);
+  EXPECT_EQ(after.cameras.at(1).lens, LensModel::kSplined);
+  EXPECT_EQ(after.cameras.at(1).spline.control_points, before.cameras[1].spline.control_points);
+  const RegisteredView& again = after.registration.views.at(0);
+  EXPECT_EQ(again.cam_from_world.matrix(), view.cam_from_world.matrix());
+  EXPECT_EQ(again.covariance, view.covariance);
+  EXPECT_EQ(again.points_used, 7);
+  EXPECT_EQ(after.registration.focal_scale, before.registration.focal_scale);
+  EXPECT_EQ(after.registration.notes.at(0).code, "no_tags");
+  EXPECT_EQ(after.registration.placed_tags.at(0).center_in_world, Eigen::Vector3d(0.1, 0.2, 0.3));
+  EXPECT_TRUE(after.registration.IsUsable());
+}
+
+TEST(KeptProductsTest, Linearized) {
+  const Eigen::VectorXd counts = Eigen::Vector3d(0, 100, 255);
+  const Eigen::VectorXd exposure = Eigen::Vector3d(0, 0.3, 1), sigma = Eigen::Vector3d(0.1, 0.01, 0.02);
+  Session read;
+  read.cameras.resize(1);
+  Session before = read;
+  before.cameras[0].full_scale_counts = 255;
+  before.cameras[0].response_curve =
+      CameraResponse(counts, {exposure, exposure, exposure}).WithRelativeSigma({sigma, sigma, sigma});
+  before.cameras[0].vignetting_model = Vignetting{{10, 20}, 30, Eigen::Vector2d(-0.1, 0.02)};
+  SessionPhoto photo;
+  photo.file = "a.png";
+  photo.view = "v";
+  photo.state = "s";
+  photo.iso = 200;
+  photo.bracket = {{"a.png", 0.5, 3}, {"b.png", 1.0 / 3, 4}};
+  before.photos = {photo};
+  const Session after = WithLinearized(read, ThroughCbor(LinearizedJson(before)));
+  ASSERT_EQ(after.photos.size(), 1U);
+  EXPECT_EQ(after.photos[0].bracket.at(1).relative_exposure_s, 1.0 / 3);
+  EXPECT_EQ(after.photos[0].iso, 200);
+  EXPECT_FALSE(after.photos[0].f_number);
+  const SessionCamera& camera = after.cameras[0];
+  EXPECT_EQ(camera.full_scale_counts, 255);
+  EXPECT_EQ(camera.vignetting_model->coefficients, Eigen::Vector2d(-0.1, 0.02));
+  for (const double count : {0.0, 57.0, 100.0, 250.0}) {
+    EXPECT_EQ(camera.response_curve->Exposure(1, count),
+              before.cameras[0].response_curve->Exposure(1, count));
+    EXPECT_EQ(camera.response_curve->RelativeSigma(2, count),
+              before.cameras[0].response_curve->RelativeSigma(2, count));
+  }
+}
+
+TEST(KeptProductsTest, Observations) {
+  SessionObservations before;
+  Observation o;
+  o.element = 123456;
+  o.view = -1;
+  o.state = 3;
+  o.pixels = 17;
+  o.relative_luminance = 1.0 / 3;
+  o.variance = 1e-300;
+  o.relative_rgb = {0.1, 0.2, 0.7};
+  before.observations = {o, Observation{}};
+  SeenPlace place;
+  place.position = {0.1, 0.2, 0.3};
+  place.states = {0, 2};
+  place.area_m2 = std::numeric_limits<double>::quiet_NaN();
+  before.seen = {place};
+  const SessionObservations after = ObservationsFromJson(ThroughCbor(ObservationsJson(before)));
+  ASSERT_EQ(after.observations.size(), 2U);
+  EXPECT_EQ(after.observations[0].element, o.element);
+  EXPECT_EQ(after.observations[0].view, -1);
+  EXPECT_EQ(after.observations[0].relative_luminance, o.relative_luminance);
+  EXPECT_EQ(after.observations[0].variance, o.variance);
+  EXPECT_EQ(after.observations[0].relative_rgb, o.relative_rgb);
+  ASSERT_EQ(after.seen.size(), 1U);
+  EXPECT_EQ(after.seen[0].states, place.states);
+  EXPECT_TRUE(std::isnan(after.seen[0].area_m2));
+}
+
+}  // namespace
+}  // namespace luxfit

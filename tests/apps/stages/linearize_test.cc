@@ -1,0 +1,385 @@
+#include "apps/stages/internal/linearize.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+
+#include "apps/stages/internal/observed_light.h"
+#include "tests/support/camera_model.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/test_dng.h"
+
+namespace luxfit {
+namespace {
+
+using testing::AnyOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr int kWidth = 160, kHeight = 120;
+
+// A session of one camera in a folder of its own, whose photos a camera model shoots.
+class LinearizeTest : public testing::Test {
+ protected:
+  LinearizeTest() : scene_(support::LogRamp(kHeight, kWidth, 2e-3, 3)) {
+    folder_.Write("cam0.yaml", "%YAML:1.0\n");
+    context_.out = folder_.Path("out");
+  }
+
+  // Photo `name`, of an exposure that the camera took.
+  void Shoot(const std::string& name, double exposure_s) {
+    const Photo photo = support::Shoot(model_, scene_, exposure_s, rng_);
+    cv::Mat image(kHeight, kWidth, model_.bits == 8 ? CV_8UC3 : CV_16UC3);
+    for (int v = 0; v < kHeight; ++v) {
+      for (int u = 0; u < kWidth; ++u) {
+        for (int c = 0; c < 3; ++c) {
+          const float count = photo.rgb_counts[static_cast<size_t>(2 - c)](v, u);
+          if (model_.bits == 8) {
+            image.at<cv::Vec3b>(v, u)[c] = static_cast<unsigned char>(count);
+          } else {
+            image.at<cv::Vec3w>(v, u)[c] = static_cast<unsigned short>(count);
+          }
+        }
+      }
+    }
+    cv::imwrite(folder_.Path(name), image);
+  }
+
+  void WriteSession(const std::string& camera_keys, const std::string& rows,
+                    const std::string& states = "on = { A = 1 }", const std::string& rest = "") {
+    folder_.Write("session.toml", "[[camera]]\nid = \"cam0\"\nintrinsics = \"cam0.yaml\"\n" + camera_keys +
+                                      "\n[photos]\ntable = \"photos.csv\"\n[states]\n" + states + "\n" +
+                                      rest);
+    folder_.Write("photos.csv", "file,camera,view,state,exposure_s,aperture,iso\n" + rows);
+  }
+
+  Session Linearized() { return LinearizeSession(ReadSession(folder_.Path("session.toml")), context_); }
+
+  std::string Refusal() {
+    try {
+      Linearized();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  LuminanceImage Luminance(const Session& session, size_t photo = 0) const {
+    Camera camera;
+    camera.width_px = kWidth;
+    camera.height_px = kHeight;
+    return ReadLuminance(session, session.photos[photo], camera);
+  }
+
+  std::vector<std::string> WarningCodes() const {
+    std::vector<std::string> codes;
+    for (const Warning& warning : context_.warnings) codes.push_back(warning.code);
+    return codes;
+  }
+
+  TempFolder folder_;
+  support::CameraModel model_;
+  std::array<ImagePlane, 3> scene_;
+  std::mt19937_64 rng_{7};
+  RunContext context_;
+};
+
+TEST_F(LinearizeTest, PlainPhotosStayAsTheyAre) {
+  Shoot("a.png", 0.25);
+  Shoot("b.png", 0.25);
+  WriteSession("", "a.png,cam0,v0,on,0.25,,\nb.png,cam0,v1,on,0.25,,\n");
+  const Session session = Linearized();
+  ASSERT_THAT(session.photos, SizeIs(2));
+  for (const SessionPhoto& photo : session.photos) {
+    ASSERT_THAT(photo.bracket, SizeIs(1));
+    EXPECT_EQ(photo.bracket[0].relative_exposure_s, 0.25);
+  }
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  EXPECT_THAT(context_.choices, IsEmpty());
+  const LuminanceImage image = Luminance(session),
+                       direct = ToRelativeLuminance(ReadPhoto(folder_.Path("a.png")), 0.25);
+  EXPECT_TRUE((image.relative_luminance == direct.relative_luminance).all());
+  EXPECT_TRUE((image.valid == direct.valid).all());
+  EXPECT_EQ(image.variance.size(), 0);
+  EXPECT_THAT(folder_.Read("out/stages/linearize.json"), HasSubstr("luxfit-linearize-1"));
+}
+
+TEST_F(LinearizeTest, RowsOfOneViewAndStateAreMerged) {
+  std::string rows;
+  for (const double exposure : {0.125, 4.0, 0.5}) {
+    const std::string name = "e" + std::to_string(exposure) + ".png";
+    Shoot(name, exposure);
+    rows += name + ",cam0,v0,on," + std::to_string(exposure) + ",,\n";
+  }
+  WriteSession("", rows);
+  const Session session = Linearized();
+  ASSERT_THAT(session.photos, SizeIs(1));
+  ASSERT_THAT(session.photos[0].bracket, SizeIs(3));
+  EXPECT_THAT(session.photos[0].file, HasSubstr("e4.0"));
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  const LuminanceImage image = Luminance(session);
+  ASSERT_TRUE(image.valid.all());
+  // Column means of 120 pixels; the darkest has 160 electrons of noise 13.
+  for (int u = 0; u < kWidth; ++u)
+    EXPECT_NEAR(image.relative_luminance.col(u).mean() / scene_[0](0, u), 1, 0.03) << u;
+}
+
+TEST_F(LinearizeTest, AnExposureThatLiesIsNamedAndCorrected) {
+  const std::vector<double> taken{4, 1, 0.5, 0.0625}, stated{4, 1, 0.25, 0.0625};
+  std::string rows;
+  for (size_t i = 0; i < taken.size(); ++i) {
+    const std::string name = "e" + std::to_string(i) + ".png";
+    Shoot(name, taken[i]);
+    rows += name + ",cam0,v0,on," + std::to_string(stated[i]) + ",,\n";
+  }
+  WriteSession("", rows);
+  const Session session = Linearized();
+  ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos.csv:4 (e2.png)"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("ISO"));
+  for (const SessionExposure& exposure : session.photos[0].bracket) {
+    const size_t i = static_cast<size_t>(exposure.line - 2);
+    EXPECT_NEAR(exposure.relative_exposure_s / taken[i], 1, 0.01) << i;
+  }
+}
+
+TEST_F(LinearizeTest, IsoAndApertureCount) {
+  Shoot("a.png", 0.25);
+  Shoot("b.png", 0.25);
+  WriteSession("", "a.png,cam0,v0,on,0.25,4,100\nb.png,cam0,v1,on,0.25,5.6,200\n");
+  const Session session = Linearized();
+  EXPECT_DOUBLE_EQ(session.photos[0].bracket[0].relative_exposure_s, 0.25);
+  EXPECT_NEAR(session.photos[1].bracket[0].relative_exposure_s, 0.25 * 2 * std::pow(4 / 5.6, 2), 1e-12);
+}
+
+TEST_F(LinearizeTest, SettingsKnownOfSomePhotosOnlyAreWarnedOf) {
+  Shoot("a.png", 0.25);
+  Shoot("b.png", 0.25);
+  WriteSession("", "a.png,cam0,v0,on,0.25,4,100\nb.png,cam0,v1,on,0.25,4,\n");
+  Linearized();
+  ASSERT_THAT(WarningCodes(), ElementsAre("exposure_incomplete"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("iso is known of 1 of the 2 photos"));
+}
+
+TEST_F(LinearizeTest, TimesThatTheTableLeavesOutComeFromThePhoto) {
+  support::TestDng dng;
+  dng.width_px = kWidth;
+  dng.height_px = kHeight;
+  dng.mosaic.assign(static_cast<size_t>(kWidth) * kHeight, 3000);
+  dng.black = {500, 500, 500, 500};
+  dng.white = 15500;
+  dng.exposure_s = {1, 8};
+  support::WriteTestDng(folder_.Path("a.dng"), dng);
+  WriteSession("", "a.dng,cam0,v0,on,,,\n");
+  const Session session = Linearized();
+  EXPECT_DOUBLE_EQ(session.photos[0].bracket[0].relative_exposure_s, 0.125);
+  EXPECT_NEAR(Luminance(session).relative_luminance(5, 5), 2500.0 / 15000 / 0.125, 1e-5);
+  EXPECT_THAT(context_.warnings, IsEmpty());
+
+  WriteSession("", "a.dng,cam0,v0,on,0.5,,\n");
+  Linearized();
+  ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
+  EXPECT_THAT(context_.warnings[0].message,
+              HasSubstr("exposure_s is 0.5 in the table and 0.125 in the photo's own"));
+
+  WriteSession("black_level = 500", "a.dng,cam0,v0,on,0.125,,\n");
+  const Session with_black = Linearized();
+  EXPECT_THROW(Luminance(with_black), std::runtime_error);
+}
+
+TEST_F(LinearizeTest, ATimeThatNobodyStatesIsAskedFor) {
+  Shoot("a.png", 0.25);
+  WriteSession("", "a.png,cam0,v0,on,,,\n");
+  EXPECT_THAT(Refusal(), HasSubstr("photos.csv:2: exposure_s: expected the exposure time in s"));
+}
+
+TEST_F(LinearizeTest, AnEstimatedResponseServesAgainAsAFile) {
+  model_.bits = 8;
+  model_.full_scale_counts = 255;
+  model_.response = support::SrgbEncoded;
+  std::string rows;
+  for (const double exposure : {8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125}) {
+    const std::string name = "e" + std::to_string(exposure) + ".png";
+    Shoot(name, exposure);
+    rows += name + ",cam0,v0,on," + std::to_string(exposure) + ",,\n";
+  }
+  WriteSession("response = \"estimate\"", rows);
+  const Session estimated = Linearized();
+  ASSERT_THAT(context_.choices, SizeIs(1));
+  EXPECT_EQ(context_.choices[0].what, "response of cam0");
+  const LuminanceImage image = Luminance(estimated);
+  // Up to one factor: ratios of columns to the middle one.
+  const auto ratio_error = [&](const LuminanceImage& of) {
+    double worst = 0;
+    const double middle = of.relative_luminance.col(80).mean() / scene_[0](0, 80);
+    for (int u = 20; u < kWidth; ++u)
+      worst = std::max(worst, std::abs(of.relative_luminance.col(u).mean() / scene_[0](0, u) / middle - 1));
+    return worst;
+  };
+  EXPECT_LT(ratio_error(image), 0.03);
+
+  std::filesystem::copy_file(folder_.Path("out/response_cam0.csv"), folder_.Path("curve.csv"));
+  WriteSession("response = \"curve.csv\"", rows);
+  context_ = {};
+  context_.out = folder_.Path("out");
+  EXPECT_LT(ratio_error(Luminance(Linearized())), 0.03);
+}
+
+TEST_F(LinearizeTest, AResponseThatNothingDeterminesIsRefusedWithTheRemedy) {
+  model_.bits = 8;
+  model_.full_scale_counts = 255;
+  Shoot("a.png", 1);
+  WriteSession("response = \"estimate\"", "a.png,cam0,v0,on,1,,\n");
+  EXPECT_THAT(Refusal(), HasSubstr("camera[0].response: expected photos that determine it"));
+  EXPECT_THAT(Refusal(), HasSubstr("three exposures"));
+}
+
+TEST_F(LinearizeTest, AFlatFieldTakesVignettingAway) {
+  const auto transmission = [](int v, int u) {
+    return static_cast<float>(support::NaturalVignetting(
+        std::hypot(u - (kWidth - 1) / 2.0, v - (kHeight - 1) / 2.0) / (std::hypot(kWidth, kHeight) / 2),
+        0.6));
+  };
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      for (ImagePlane& plane : scene_) plane(v, u) = 0.8f * transmission(v, u);
+    }
+  }
+  Shoot("flat.png", 1);
+  for (ImagePlane& plane : scene_) plane *= 0.5f;
+  Shoot("a.png", 1);
+  WriteSession("vignetting = \"flat.png\"", "a.png,cam0,v0,on,1,,\n");
+  const LuminanceImage image = Luminance(Linearized());
+  for (const auto& [v, u] : {std::pair(0, 0), std::pair(50, 70), std::pair(100, 140)})
+    EXPECT_NEAR(image.relative_luminance.block(v, u, 20, 20).mean() / 0.4, 1, 0.01) << v;
+}
+
+TEST_F(LinearizeTest, AmbientReadingsAreSubtractedWhereTheyWereTaken) {
+  folder_.Write("luxmeter.csv",
+                "id,x_m,y_m,z_m,nx,ny,nz,state,lux\n"
+                "L1,1,2,0.75,0,0,1,on,320\nL1,1,2,0.75,0,0,1,off,20\nL2,1,3,0.75,0,0,1,on,200\n");
+  Shoot("a.png", 1);
+  WriteSession("", "a.png,cam0,v0,on,1,,\n", "on = { A = 1 }\noff = {}",
+               "[luxmeter]\nreadings = \"luxmeter.csv\"\n");
+  const Session session = Linearized();
+  ASSERT_THAT(session.luxmeter.readings, SizeIs(2));
+  EXPECT_EQ(session.luxmeter.readings[0].illuminance_lx, 300);
+  EXPECT_EQ(session.luxmeter.readings[0].ambient_lx, 20);
+  EXPECT_EQ(session.luxmeter.readings[1].illuminance_lx, 200);
+  ASSERT_THAT(WarningCodes(), ElementsAre("ambient_in_readings"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("L2"));
+}
+
+// Eight views that look straight at one wall of 40 x 30 elements, each from another place.
+class ObservedLightTest : public LinearizeTest {
+ protected:
+  ObservedLightTest() {
+    std::string rows;
+    for (int view = 0; view < 8; ++view) {
+      const std::string name = "v" + std::to_string(view);
+      folder_.Write(name + ".png", "");
+      rows += name + ".png,cam0," + name + ",on,0.25,,\n";
+    }
+    WriteSession("vignetting = \"estimate\"", rows);
+    session_ = ReadSession(folder_.Path("session.toml"));
+    RunContext quiet = context_;
+    session_ = WithBrackets(std::move(session_), quiet);
+    Camera camera;
+    camera.width_px = 640;
+    camera.height_px = 480;
+    camera.fx_px = camera.fy_px = 400;
+    camera.cx_px = 319.5;
+    camera.cy_px = 239.5;
+    registered_.cameras = {camera};
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 40; ++x) {
+        Element element;
+        element.center = {0.1 * x, 0.1 * y, 0};
+        element.normal = element.origin = element.edge_u = element.edge_v = Eigen::Vector3d::Zero();
+        // Patches of 5 x 5.
+        element.patch = y / 5 * 8 + x / 5;
+        patches_.elements.push_back(element);
+      }
+    }
+    Patch patch;
+    patch.center = patch.origin = patch.edge_u = patch.edge_v = Eigen::Vector3d::Zero();
+    patches_.patches.assign(48, patch);
+    for (int view = 0; view < 8; ++view) {
+      RegisteredView one;
+      one.view = "v" + std::to_string(view);
+      // Camera frame: the wall lies ahead.
+      one.cam_from_world = Eigen::Translation3d(-0.4 - 0.45 * view, -0.5 - 0.25 * view, 2.0);
+      registered_.registration.views.push_back(one);
+    }
+  }
+
+  // `exposure_factor`: by how much a view's photo was longer than stated.
+  std::vector<Observation> Observe(bool vignetted, const std::vector<double>& exposure_factor) {
+    std::normal_distribution<double> noise(0, 0.005);
+    const Vignetting frame = NoVignetting(640, 480);
+    std::vector<Observation> observations;
+    for (int view = 0; view < 8; ++view) {
+      for (int e = 0; e < static_cast<int>(patches_.elements.size()); ++e) {
+        const Eigen::Vector2d pixel = Project(
+            registered_.cameras[0], registered_.registration.views[static_cast<size_t>(view)].cam_from_world *
+                                        patches_.elements[static_cast<size_t>(e)].center);
+        if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() > 639 || pixel.y() > 479) continue;
+        double value = 0.2 + 0.1 * std::sin(0.3 * e);
+        truth_[e] = value;
+        if (vignetted)
+          value *= support::NaturalVignetting((pixel - frame.center_px).norm() / frame.radius_px, 0.7);
+        value *= exposure_factor[static_cast<size_t>(view)] * (1 + noise(rng_));
+        observations.push_back({e, view, 0, 20, value, 1e-8, Eigen::Vector3d::Constant(value)});
+      }
+    }
+    return observations;
+  }
+
+  Session session_;
+  RegisteredSession registered_;
+  Patches patches_;
+  std::map<int, double> truth_;
+};
+
+TEST_F(ObservedLightTest, VignettingAndSmallGainsAreTakenOut) {
+  const std::vector<double> factors{1, 1.01, 0.99, 1.005, 1, 0.995, 1.01, 0.99};
+  nlohmann::json artifact;
+  const auto corrected =
+      WithSelfCalibration(session_, registered_, patches_, Observe(true, factors), context_, artifact);
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  ASSERT_THAT(context_.choices, SizeIs(1));
+  double scale = 0;
+  for (const Observation& o : corrected) scale += o.relative_luminance / truth_[o.element];
+  scale /= static_cast<double>(corrected.size());
+  double squares = 0;
+  for (const Observation& o : corrected)
+    squares += std::pow(o.relative_luminance / truth_[o.element] / scale - 1, 2);
+  // Noise of 0.5 % stays; the corners were 66 % down.
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(corrected.size())), 0.008);
+}
+
+TEST_F(ObservedLightTest, OnlyThePhotoThatLiesIsNamed) {
+  std::vector<double> factors(8, 1.0);
+  nlohmann::json artifact;
+  WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  EXPECT_EQ(context_.choices.at(0).chosen, "as recorded");
+  factors[3] = 2;
+  const auto corrected =
+      WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
+  ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos.csv:5 (v3.png)"));
+  // The prior of the eight holds their mean, which the one that is off moves a little.
+  EXPECT_THAT(context_.warnings[0].message, AnyOf(HasSubstr("1.99"), HasSubstr("2.00")));
+  // It is as bright as the others then.
+  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / truth_[o.element], 1, 0.04);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,107 @@
+// What a change in a session's files redoes: the office of fixtures/, one thing changed at a time.
+#include "apps/stages/stage_inputs.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/stages/stage_cache.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+class StageInputsTest : public ::testing::Test {
+ protected:
+  StageInputsTest() {
+    fs::copy(fs::path(LUXFIT_FIXTURES) / "office", folder_.Path("office"), fs::copy_options::recursive);
+    before_ = Now();
+  }
+
+  SessionInputs Now() const { return InputsOfStages(ReadSession(folder_.Path("office/session.toml")), ""); }
+
+  TempFolder folder_;
+  SessionInputs before_;
+};
+
+TEST_F(StageInputsTest, NothingChangedIsNothing) {
+  folder_.Replace("office/session.toml", "name =", "# a comment more\nname =");
+  const SessionInputs now = Now();
+  EXPECT_THAT(ChangedInputs(before_.linearize, now.linearize), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.registration, now.registration), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.observe, now.observe), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.result, now.result), IsEmpty());
+}
+
+TEST_F(StageInputsTest, AReadingTouchesTheFitAlone) {
+  folder_.Replace("office/luxmeter.csv", "341.73", "342");
+  const SessionInputs now = Now();
+  EXPECT_THAT(ChangedInputs(before_.observe, now.observe), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.result, now.result), ElementsAre("readings"));
+}
+
+TEST_F(StageInputsTest, ALuminaireTouchesTheFitAlone) {
+  folder_.Write("office/session.toml",
+                folder_.Read("office/session.toml") +
+                    "\n[[luminaire]]\nid = \"A\"\nflux_lm = 3600\nflux_sigma_lm = 100\n");
+  const SessionInputs now = Now();
+  EXPECT_THAT(ChangedInputs(before_.observe, now.observe), IsEmpty());
+  EXPECT_FALSE(ChangedInputs(before_.result, now.result).empty());
+}
+
+TEST_F(StageInputsTest, APhotoTouchesAllThatLooksAtIt) {
+  fs::copy_file(folder_.Path("office/photos/v00_A.png"), folder_.Path("office/photos/v00_B.png"),
+                fs::copy_options::overwrite_existing);
+  const SessionInputs now = Now();
+  for (const auto& [earlier, later] : {std::pair(before_.linearize, now.linearize),
+                                       {before_.registration, now.registration},
+                                       {before_.observe, now.observe},
+                                       {before_.result, now.result}})
+    EXPECT_THAT(ChangedInputs(earlier, later), ElementsAre("photo v00_B.png"));
+}
+
+TEST_F(StageInputsTest, TheTagMapLeavesLuminanceAlone) {
+  folder_.Write("office/tags.json", folder_.Read("office/tags.json") + "\n");
+  const SessionInputs now = Now();
+  EXPECT_THAT(ChangedInputs(before_.linearize, now.linearize), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.registration, now.registration), ElementsAre("[tags]"));
+}
+
+TEST(StageCacheTest, RepeatsProductAndSayings) {
+  const TempFolder folder;
+  const StageInputs inputs = {{"photo a", "1"}};
+  folder.Write("stages/register.json", "{}");
+  int computed = 0;
+  const auto run = [&](const StageInputs& with) {
+    RunContext context;
+    context.out = folder.Path("");
+    context.is_quiet = true;
+    const nlohmann::json product = CachedStage("register", with, context, [&] {
+      ++computed;
+      context.warnings.push_back({"code", "message", "remedy"});
+      context.choices.push_back({"what", "a", {"a", "b"}, "because"});
+      context.undetermined = true;
+      return nlohmann::json{{"value", 0.1}};
+    });
+    EXPECT_EQ(product.at("value"), 0.1);
+    EXPECT_TRUE(context.undetermined);
+    EXPECT_EQ(context.warnings.at(0).remedy, "remedy");
+    EXPECT_THAT(context.choices.at(0).among, ElementsAre("a", "b"));
+  };
+  run(inputs);
+  run(inputs);
+  EXPECT_EQ(computed, 1);
+  run({{"photo a", "2"}});
+  EXPECT_EQ(computed, 2);
+  folder.Write("stages/register.cbor", "not CBOR at all");
+  run({{"photo a", "2"}});
+  EXPECT_EQ(computed, 3) << "a broken file counts as none";
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,99 @@
+// The warnings and errors that a user gets for the mesh of a session.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/stages/stages.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A room of 2 x 2 x 2 m that faces inwards; its floor is the first face, its ceiling the last.
+constexpr char kVertices[] =
+    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nusemtl wall\n";
+constexpr char kFloor[] = "f 1 2 3 4\n", kCeiling[] = "f 5 8 7 6\n";
+constexpr char kWalls[] = "f 1 4 8 5\nf 2 6 7 3\nf 1 5 6 2\nf 4 3 7 8\n";
+
+class StageRoomTest : public testing::Test {
+ protected:
+  std::vector<Warning> WarningsOf(const std::string& faces, double metres_per_unit = 1) {
+    folder_.Write("room.obj", kVertices + faces);
+    Session session;
+    session.path = "session.toml";
+    session.scene = SessionScene{folder_.Path("room.obj"), metres_per_unit, "m", {}};
+    RunContext context;
+    LoadRoom(session, context);
+    return context.warnings;
+  }
+
+  std::vector<std::string> CodesOf(const std::string& faces) {
+    std::vector<std::string> codes;
+    for (const Warning& warning : WarningsOf(faces)) codes.push_back(warning.code);
+    return codes;
+  }
+
+  const TempFolder folder_;
+};
+
+const std::string kRoom = std::string(kFloor) + kWalls + kCeiling;
+
+TEST_F(StageRoomTest, ACleanRoomHasNoWarnings) { EXPECT_THAT(CodesOf(kRoom), IsEmpty()); }
+
+TEST_F(StageRoomTest, EachDefectIsWarnedOfOnce) {
+  EXPECT_THAT(CodesOf(std::string(kFloor) + kWalls), ElementsAre("open_mesh"));
+  EXPECT_THAT(CodesOf(std::string("f 4 3 2 1\n") + kWalls + kCeiling), ElementsAre("flipped_facets"));
+  EXPECT_THAT(CodesOf(kRoom + "f 3 4 1 2\n"), ElementsAre("duplicate_facets"));
+  EXPECT_THAT(CodesOf(kRoom + "v 1 0.5 0\nv 1.5 0.5 0\nv 1.5 1 0\nusemtl rug\nf 9 10 11\n"),
+              ElementsAre("coplanar_overlap"));
+  EXPECT_THAT(CodesOf(kRoom + "f 1 2 2\n"), ElementsAre("facets_dropped"));
+  EXPECT_THAT(CodesOf("f 4 3 2 1\nf 6 7 8 5\nf 5 8 4 1\nf 3 7 6 2\nf 2 6 5 1\nf 8 7 3 4\n"),
+              ElementsAre("inside_out"));
+}
+
+TEST_F(StageRoomTest, AWarningTellsWhereHowMuchAndWhatToDo) {
+  const Warning open = WarningsOf(std::string(kFloor) + kWalls).at(0);
+  EXPECT_THAT(open.message, HasSubstr("4 edges (8 m)"));
+  EXPECT_THAT(open.message, HasSubstr("% of the rays"));
+  EXPECT_THAT(open.message, HasSubstr("2.000)"));
+  EXPECT_THAT(open.remedy, HasSubstr("close the mesh"));
+}
+
+TEST_F(StageRoomTest, AMeshInMillimetresReadAsMetresIsRefused) {
+  try {
+    WarningsOf(kRoom, 1000);
+    FAIL() << "expected an error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.unit: expected a room"));
+    EXPECT_THAT(error.what(), HasSubstr("2000 m x 2000 m x 2000 m"));
+  }
+}
+
+// A crowd of triangles in the air: more form factors than a laptop holds.
+TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
+  constexpr int kTriangles = 25000;
+  std::string crowd = kRoom;
+  for (int i = 0; i < kTriangles; ++i) {
+    const std::string x = std::to_string(0.1 + 0.01 * (i % 170)), y = std::to_string(0.1 + 0.01 * (i / 170)),
+                      near_x = std::to_string(0.105 + 0.01 * (i % 170)),
+                      near_y = std::to_string(0.105 + 0.01 * (i / 170));
+    crowd += "v " + x + " " + y + " 1\nv " + near_x + " " + y + " 1\nv " + x + " " + near_y +
+             " 1\nf -3 -2 -1\nf -3 -1 -2\n";
+  }
+  try {
+    WarningsOf(crowd);
+    FAIL() << "expected an error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.mesh: expected patches whose form factors fit"));
+  }
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,60 @@
+#include "apps/text/process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+class ProcessTest : public testing::Test {
+ protected:
+  ProcessEnd Run(const std::string& script, double time_limit_s = 0) const {
+    return RunProcess({"sh", "-c", script},
+                      {folder_.Path("log"), time_limit_s, {{"LUXFIT_GREETING", "hello"}}});
+  }
+  TempFolder folder_;
+};
+
+TEST_F(ProcessTest, StatusOutputAndEnvironmentArrive) {
+  EXPECT_TRUE(Run("echo $LUXFIT_GREETING; echo there >&2").IsSuccess());
+  EXPECT_THAT(folder_.Read("log"), testing::HasSubstr("hello\nthere\n"));
+  const ProcessEnd failed = Run("exit 3");
+  EXPECT_FALSE(failed.IsSuccess());
+  EXPECT_EQ(failed.Describe(), "ended with status 3");
+  EXPECT_THAT(folder_.Read("log"), testing::HasSubstr("hello"));  // appended, not replaced
+}
+
+TEST_F(ProcessTest, SignalsAreNamed) {
+  EXPECT_THAT(Run("kill -ABRT $$").Describe(), testing::HasSubstr("was ended by signal 6"));
+}
+
+// The grandchild must go too, or it would hold the machine for a minute.
+TEST_F(ProcessTest, WhatTakesTooLongIsStoppedWithItsChildren) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessEnd end = Run("sleep 60 & wait", 0.1);
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_FALSE(end.IsSuccess());
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+}
+
+TEST_F(ProcessTest, MissingProgramsNameTheirPackage) {
+  EXPECT_FALSE(IsInstalled("luxfit-no-such-program"));
+  EXPECT_TRUE(IsInstalled("sh"));
+  try {
+    RunProcess({"luxfit-no-such-program"}, {folder_.Path("log"), 0, {}});
+    FAIL() << "expected MissingProgram";
+  } catch (const MissingProgram& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("install the package luxfit-no-such-program"));
+  }
+}
+
+TEST_F(ProcessTest, ALogThatCannotBeWrittenIsNamed) {
+  EXPECT_THROW(RunProcess({"sh", "-c", "true"}, {folder_.Path("none/log"), 0, {}}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/image.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/test_dng.h"
+
+namespace luxfit {
+namespace {
+
+// LibRaw refuses pictures of less than 22 px a side.
+constexpr int kWidth = 40, kHeight = 32;
+constexpr std::array<std::uint32_t, 4> kBlack{500, 512, 520, 530};
+
+size_t Place(int u, int v) { return static_cast<size_t>(2 * (v % 2) + u % 2); }
+// Of the mosaic red green / green blue.
+size_t ChannelAt(int u, int v) { return std::array<size_t, 4>{0, 1, 1, 2}[Place(u, v)]; }
+
+// `truth`: counts above black of a channel at a place.
+template <typename Truth>
+support::TestDng MosaicOf(const Truth& truth) {
+  support::TestDng dng;
+  dng.width_px = kWidth;
+  dng.height_px = kHeight;
+  dng.black = kBlack;
+  dng.white = 15000;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      dng.mosaic.push_back(static_cast<std::uint16_t>(truth(ChannelAt(u, v), u, v) + kBlack[Place(u, v)]));
+    }
+  }
+  return dng;
+}
+
+TEST(RawPhotoTest, LinearGradientsComeBackInEveryChannelWithBlackOfEveryPlaceSubtracted) {
+  const auto truth = [](size_t c, int u, int v) { return 1000.0 * (c + 1) + 20 * u + 30 * v; };
+  const TempFolder folder;
+  support::WriteTestDng(folder.Path("a.dng"), MosaicOf(truth));
+  const Photo photo = ReadPhoto(folder.Path("a.dng"));
+  ASSERT_EQ(photo.width_px(), kWidth);
+  ASSERT_EQ(photo.height_px(), kHeight);
+  EXPECT_TRUE(photo.is_black_subtracted);
+  EXPECT_EQ(photo.full_scale_counts, 15000 - 530);
+  EXPECT_EQ(photo.saturation_counts, 15000 - 530);
+  // Bilinear interpolation is exact on linear functions, away from the border, whose sums are lopsided.
+  for (int v = 1; v + 1 < kHeight; ++v) {
+    for (int u = 1; u + 1 < kWidth; ++u) {
+      for (size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(photo.rgb_counts[c](v, u), truth(c, u, v), 1e-2) << c << " at " << u << ", " << v;
+      }
+    }
+  }
+}
+
+TEST(RawPhotoTest, NoiseBelowBlackStaysNegative) {
+  const TempFolder folder;
+  support::WriteTestDng(folder.Path("a.dng"),
+                        MosaicOf([](size_t, int u, int) { return u % 4 < 2 ? 7 : -7; }));
+  const Photo photo = ReadPhoto(folder.Path("a.dng"));
+  EXPECT_EQ(photo.rgb_counts[0].minCoeff(), -7.0f);
+  EXPECT_NEAR(photo.rgb_counts[1].mean(), 0, 0.3);
+}
+
+TEST(RawPhotoTest, WhatIsNoRawIsNamed) {
+  const TempFolder folder;
+  folder.Write("a.dng", "II*\0 nothing of the kind");
+  try {
+    ReadPhoto(folder.Path("a.dng"));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(),
+                testing::StartsWith(folder.Path("a.dng") + ": cannot read the photo, expected RAW"));
+  }
+}
+
+TEST(ExposureMetadataTest, ComesFromExif) {
+  const TempFolder folder;
+  support::TestDng dng = MosaicOf([](size_t, int, int) { return 100; });
+  dng.exposure_s = {1, 60};
+  dng.f_number = {28, 5};
+  dng.iso = 200;
+  support::WriteTestDng(folder.Path("a.dng"), dng);
+  const ExposureMetadata metadata = ReadExposureMetadata(folder.Path("a.dng"));
+  ASSERT_TRUE(metadata.exposure_s && metadata.f_number && metadata.iso);
+  EXPECT_DOUBLE_EQ(*metadata.exposure_s, 1.0 / 60);
+  EXPECT_DOUBLE_EQ(*metadata.f_number, 5.6);
+  EXPECT_DOUBLE_EQ(*metadata.iso, 200);
+}
+
+TEST(ExposureMetadataTest, ZeroTimesAreNone) {
+  const TempFolder folder;
+  support::TestDng dng = MosaicOf([](size_t, int, int) { return 100; });
+  dng.exposure_s = {0, 1};
+  dng.f_number = {1, 0};
+  support::WriteTestDng(folder.Path("a.dng"), dng);
+  const ExposureMetadata metadata = ReadExposureMetadata(folder.Path("a.dng"));
+  EXPECT_FALSE(metadata.exposure_s.has_value());
+  EXPECT_FALSE(metadata.f_number.has_value());
+  EXPECT_TRUE(metadata.iso.has_value());
+}
+
+TEST(ExposureMetadataTest, FilesWithoutExifSayNothing) {
+  const TempFolder folder;
+  folder.Write("a.pfm", "PF\n1 1\n-1\n");
+  for (const char* name : {"a.pfm", "missing.jpg"}) {
+    const ExposureMetadata metadata = ReadExposureMetadata(folder.Path(name));
+    EXPECT_FALSE(metadata.exposure_s || metadata.f_number || metadata.iso) << name;
+  }
+}
+
+}  // namespace
+}  // namespace luxfit

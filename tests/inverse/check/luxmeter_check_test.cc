@@ -1,0 +1,45 @@
+#include "inverse/check/luxmeter_check.h"
+
+#include <gtest/gtest.h>
+
+namespace luxfit {
+namespace {
+
+CheckedReading Checked(double measured_lx, double predicted_lx, double measured_sigma_lx = 0,
+                       double predicted_sigma_lx = 0) {
+  return {measured_lx, predicted_lx, measured_sigma_lx, predicted_sigma_lx};
+}
+
+TEST(SummarizeLuxmeter, MeanErrorIsOfTheMeanReading) {
+  // Errors 10, 5, 0 lx of readings 100, 50, 250: mean 5 lx, of the mean 133.33 lx 3.75 %; the worst of its
+  // own value 10 %.
+  const LuxmeterSummary summary = SummarizeLuxmeter({Checked(100, 110), Checked(50, 45), Checked(250, 250)});
+  EXPECT_EQ(summary.readings_checked, 3);
+  EXPECT_NEAR(summary.mean_abs_error_lx, 5, 1e-12);  // double rounding, here and below
+  EXPECT_NEAR(summary.mean_abs_error_percent, 3.75, 1e-12);
+  EXPECT_NEAR(summary.max_abs_error_percent, 10, 1e-12);
+}
+
+TEST(SummarizeLuxmeter, NoReadingsGiveZeros) {
+  const LuxmeterSummary summary = SummarizeLuxmeter({});
+  EXPECT_EQ(summary.readings_checked, 0);
+  EXPECT_EQ(summary.mean_abs_error_lx, 0);
+  EXPECT_EQ(summary.mean_abs_error_percent, 0);
+  EXPECT_EQ(summary.max_abs_error_percent, 0);
+}
+
+TEST(SummarizeLuxmeter, AReadingOfNothingHasNoPercentOfItsOwn) {
+  const LuxmeterSummary summary = SummarizeLuxmeter({Checked(0, 3), Checked(100, 101)});
+  EXPECT_NEAR(summary.max_abs_error_percent, 1, 1e-12);   // double rounding
+  EXPECT_NEAR(summary.mean_abs_error_percent, 4, 1e-12);  // 2 of 50 lx
+  EXPECT_EQ(SummarizeLuxmeter({Checked(0, 3)}).mean_abs_error_percent, 0);
+}
+
+TEST(ZScore, AddsTheSigmasInSquares) {
+  EXPECT_NEAR(ZScore(Checked(110, 100, 3, 4)), 2, 1e-12);  // 10 / 5
+  EXPECT_NEAR(ZScore(Checked(95, 100, 5, 0)), -1, 1e-12);  // below the prediction is negative
+  EXPECT_EQ(ZScore(Checked(110, 100)), 0);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,100 @@
+#include "inverse/check/luxmeter_findings.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace luxfit {
+namespace {
+
+// 4 places in 3 states, all as predicted, sigma 2 %.
+std::vector<NamedReading> Agreeing() {
+  std::vector<NamedReading> readings;
+  for (const char* state : {"A", "B", "all"}) {
+    for (const char* id : {"L1", "L2", "L3", "L4"}) {
+      const double lx = 100.0 + 10 * static_cast<double>(readings.size());
+      readings.push_back({id, state, {lx, lx, 0.02 * lx, 0.01 * lx}});
+    }
+  }
+  return readings;
+}
+
+TEST(LuxmeterFindings, QuantilesOfTheNormal) {
+  // Tables: Abramowitz and Stegun (1964), table 26.5.
+  EXPECT_NEAR(NormalQuantile(0.5), 0, 1e-12);
+  EXPECT_NEAR(NormalQuantile(0.975), 1.959963985, 1e-8);
+  EXPECT_NEAR(NormalQuantile(0.001), -3.090232306, 1e-8);
+  EXPECT_THROW(NormalQuantile(0), std::invalid_argument);
+  EXPECT_THROW(NormalQuantile(1), std::invalid_argument);
+}
+
+TEST(LuxmeterFindings, ReadingsThatAgreeAreLeftAlone) {
+  const LuxmeterFindings findings = FindDisagreements(Agreeing());
+  EXPECT_FALSE(findings.has_common_factor);
+  EXPECT_TRUE(findings.disagreements.empty());
+  EXPECT_NEAR(findings.z_limit, -NormalQuantile(0.025 / 12), 1e-12);
+  EXPECT_TRUE(FindDisagreements({}).disagreements.empty());
+}
+
+TEST(LuxmeterFindings, OneReadingOffIsNamedAlone) {
+  std::vector<NamedReading> readings = Agreeing();
+  readings[5].reading.measured_lx *= 0.8;  // L2 in B
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  EXPECT_FALSE(findings.has_common_factor);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  const Disagreement& d = findings.disagreements[0];
+  EXPECT_EQ(d.of, Disagreement::Of::kReading);
+  EXPECT_EQ(d.id, "L2");
+  EXPECT_EQ(d.state, "B");
+  // 20 % below, sigma hypot(2 %, 1 %) of what is predicted.
+  EXPECT_NEAR(d.z, -0.2 / std::hypot(0.02, 0.01), 1e-9);
+  EXPECT_NE(d.meaning.find("L2 in state B"), std::string::npos) << d.meaning;
+  EXPECT_NE(d.meaning.find("20.0 % below"), std::string::npos) << d.meaning;
+}
+
+TEST(LuxmeterFindings, AllOffAlikeIsAScaleAndNoDisagreement) {
+  std::vector<NamedReading> readings = Agreeing();
+  for (NamedReading& r : readings) r.reading.measured_lx *= 1.15;
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  EXPECT_TRUE(findings.has_common_factor);
+  EXPECT_NEAR(findings.common_factor, 1.15, 1e-12);
+  EXPECT_TRUE(findings.disagreements.empty());
+  EXPECT_NE(findings.common_remedy.find("scale"), std::string::npos);
+}
+
+TEST(LuxmeterFindings, AScaleAndOneReadingAreToldApart) {
+  std::vector<NamedReading> readings = Agreeing();
+  for (NamedReading& r : readings) r.reading.measured_lx *= 1.15;
+  readings[2].reading.measured_lx *= 0.75;
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  EXPECT_TRUE(findings.has_common_factor);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_EQ(findings.disagreements[0].id, "L3");
+  EXPECT_EQ(findings.disagreements[0].state, "A");
+}
+
+TEST(LuxmeterFindings, APlaceThatIsOffInAllStatesIsAPlace) {
+  std::vector<NamedReading> readings = Agreeing();
+  for (NamedReading& r : readings) {
+    if (r.id == "L4") r.reading.measured_lx *= 1.3;
+  }
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_EQ(findings.disagreements[0].of, Disagreement::Of::kPlace);
+  EXPECT_EQ(findings.disagreements[0].id, "L4");
+}
+
+TEST(LuxmeterFindings, AStateThatIsOffIsAState) {
+  std::vector<NamedReading> readings = Agreeing();
+  for (NamedReading& r : readings) {
+    if (r.state == "B") r.reading.measured_lx *= 0.6;
+  }
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_EQ(findings.disagreements[0].of, Disagreement::Of::kState);
+  EXPECT_EQ(findings.disagreements[0].state, "B");
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,105 @@
+#include "inverse/choose/choose_count.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "forward/light/light_tracer.h"
+#include "inverse/model/measured_indirect.h"
+#include "tests/support/closed_forms.h"
+#include "tests/support/scenes.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kRho = 0.5;
+
+Luminaire Downlight(const Eigen::Vector3d& position, double flux_lm) {
+  Luminaire lamp;
+  lamp.position = position;
+  lamp.flux_lm = flux_lm;
+  lamp.distribution = Distribution::kLambertian;
+  return lamp;
+}
+
+// A room of 4 m x 3 m x 2.5 m under some luminaires that are all on, photographed by the light tracer, which
+// shares no patch with the form factors: 1 to 2 % of noise in the indirect light.
+class CountedRoom : public testing::Test {
+ protected:
+  LightData Photograph(const std::vector<Luminaire>& lamps) const {
+    std::vector<Sensor> sensors;
+    std::vector<int> elements;
+    for (size_t e = 0; e < room_.patches.elements.size(); e += 2) {
+      const Element& element = room_.patches.elements[e];
+      sensors.push_back({element.center, element.normal, {}});
+      elements.push_back(static_cast<int>(e));
+    }
+    LightTracerOptions options;
+    options.paths_per_sensor = 512;
+    const TracedIlluminance traced = TraceIlluminance(room_.scene, room_.rays, lamps,
+                                                      Eigen::VectorXd::Constant(1, kRho), sensors, options);
+    LightData data;
+    data.dimming = {Eigen::VectorXd()};
+    for (size_t i = 0; i < elements.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      Observation o;
+      o.element = elements[i];
+      o.relative_luminance =
+          1e-4 * kRho / support::kPi * (traced.direct.row(row).sum() + traced.indirect.row(row).sum());
+      o.variance = std::pow(0.01 * o.relative_luminance, 2);
+      data.observations.push_back(o);
+    }
+    return data;
+  }
+
+  int Count(const std::vector<Luminaire>& lamps, int max = 12) const {
+    ChooseCountOptions options;
+    options.max_count = max;
+    return ChooseLuminaireCount(room_, WithMeasuredIndirect(room_, Photograph(lamps)), unknown_, {}, options)
+        .chosen;
+  }
+
+  Room room_ = MakeRoom(support::ClosedRoom({4, 3, 2.5}), {{0.5, 0.25}, {64}});
+  LightState unknown_ = [] {
+    LightState state;
+    state.albedo = Eigen::VectorXd::Constant(1, 0.5);
+    state.albedo_free = {true};
+    return state;
+  }();
+};
+
+TEST_F(CountedRoom, OneTwoAndThreeAreCounted) {
+  const Luminaire a = Downlight({1.1, 1.2, 2.4}, 2000), b = Downlight({3.1, 2.1, 2.35}, 1500),
+                  c = Downlight({2.9, 0.6, 2.4}, 1000);
+  EXPECT_EQ(Count({a}), 1);
+  EXPECT_EQ(Count({a, b}), 2);
+  EXPECT_EQ(Count({a, b, c}), 3);
+}
+
+// A panel is one luminaire, though several points would do as well.
+TEST_F(CountedRoom, ALargeOneIsNotSeveral) {
+  Luminaire panel = Downlight({2.1, 1.4, 2.4}, 3000);
+  panel.shape = LuminaireShape::kRectangle;
+  panel.size_m = {1.0, 1.0};
+  EXPECT_EQ(Count({panel}), 1);
+}
+
+TEST_F(CountedRoom, TheLargestNumberAllowedIsSaid) {
+  ChooseCountOptions options;
+  options.max_count = 1;
+  const LightData data = WithMeasuredIndirect(
+      room_, Photograph({Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500)}));
+  EXPECT_TRUE(ChooseLuminaireCount(room_, data, unknown_, {}, options).reached_max);
+  options.max_count = 0;
+  EXPECT_THROW(ChooseLuminaireCount(room_, data, unknown_, {}, options), std::invalid_argument);
+}
+
+TEST_F(CountedRoom, NothingSeenIsNothingCounted) {
+  LightData data;
+  data.dimming = {Eigen::VectorXd()};
+  data.indirect_is_held = true;
+  EXPECT_EQ(ChooseLuminaireCount(room_, data, unknown_).chosen, 0);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,279 @@
+#include "inverse/choose/self_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "inverse/choose/internal/photo_equations.h"
+#include "tests/support/test_rng.h"
+
+namespace luxfit {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kViews = 7;
+constexpr double kNoise = 0.003;
+
+// Eight facets of 20 patches with 3 elements each, seen by seven views at places of the image and with
+// shares of full scale that formulas give. Luminance: what formulas give for each luminaire, added up.
+class SelfCalibrationTest : public testing::Test {
+ protected:
+  SelfCalibrationTest() {
+    for (int patch = 0; patch < 160; ++patch) {
+      Patch p;
+      p.center = p.origin = p.edge_u = p.edge_v = Eigen::Vector3d::Zero();
+      p.facet = patch / 20;
+      p.first_element = 3 * patch;
+      p.element_count = 3;
+      patches_.patches.push_back(p);
+      for (int i = 0; i < 3; ++i) {
+        Element element;
+        element.center = element.normal = element.origin = element.edge_u = element.edge_v =
+            Eigen::Vector3d::Zero();
+        element.patch = patch;
+        patches_.elements.push_back(element);
+      }
+    }
+  }
+
+  static double Light(int element, int luminaire) {
+    return 0.05 + 0.04 * std::sin(0.037 * element * (luminaire + 1) + 2.0 * luminaire);
+  }
+
+  struct Camera {
+    std::function<double(int photo)> log_gain = [](int) { return 0.0; };
+    std::function<double(double radius2)> log_vignetting = [](double) { return 0.0; };
+    double power = 1;  // counts go with this power of light
+    bool one_exposure = false;
+  };
+
+  // Photo: view + kViews * state.
+  std::vector<PhotoSample> Photograph(const std::vector<Eigen::VectorXd>& dimming, const Camera& camera) {
+    std::normal_distribution<double> noise(0, kNoise);
+    std::vector<PhotoSample> samples;
+    for (int e = 0; e < static_cast<int>(patches_.elements.size()); ++e) {
+      for (int view = 0; view < kViews; ++view) {
+        if ((e / 3 + 2 * view) % 5 > 2) continue;  // each view sees three fifths
+        const double radius = 0.5 + 0.5 * std::sin(0.11 * e + 1.3 * view);
+        for (int state = 0; state < static_cast<int>(dimming.size()); ++state) {
+          double light = 0;
+          for (Eigen::Index l = 0; l < dimming[static_cast<size_t>(state)].size(); ++l)
+            light += dimming[static_cast<size_t>(state)][l] * Light(e, static_cast<int>(l));
+          PhotoSample sample;
+          sample.element = e;
+          sample.state = state;
+          sample.photo = view + kViews * state;
+          sample.radius2 = radius * radius;
+          const double stated_s = camera.one_exposure ? 1 : 1 + 0.5 * ((view + state) % 3);
+          const double log_exposed = std::log(light * stated_s) + camera.log_gain(sample.photo) +
+                                     camera.log_vignetting(sample.radius2);
+          sample.log_share = camera.power * log_exposed + noise(rng_);
+          sample.log_value = sample.log_share - std::log(stated_s);
+          sample.relative_sigma = kNoise;
+          samples.push_back(sample);
+        }
+      }
+    }
+    return samples;
+  }
+
+  SelfCalibration Calibrate(const std::vector<Eigen::VectorXd>& dimming,
+                            const std::vector<PhotoSample>& samples) const {
+    return SelfCalibrate(patches_, dimming, samples, {true, {true}, {true}});
+  }
+
+  static std::vector<Eigen::VectorXd> OneByOneAndTogether() {
+    return {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(1, 1)};
+  }
+  static std::vector<Eigen::VectorXd> OneByOne() { return {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)}; }
+  static double TrueGain(int photo) { return 0.05 * std::sin(2.3 * photo + 0.7); }
+
+  // rms of estimated - true gains, about their mean.
+  static double GainError(const SelfCalibration& found, const std::function<double(int)>& truth) {
+    Eigen::ArrayXd error(found.log_gain.size());
+    for (Eigen::Index p = 0; p < error.size(); ++p) error[p] = found.log_gain[p] - truth(static_cast<int>(p));
+    return std::sqrt((error - error.mean()).square().mean());
+  }
+
+  std::mt19937_64 rng_ = support::TestRng();
+  Patches patches_;
+};
+
+TEST_F(SelfCalibrationTest, ExactPhotosStayAsRecorded) {
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), Camera()));
+  ASSERT_TRUE(found.is_possible);
+  EXPECT_EQ(found.Chosen().name, "as recorded");
+  EXPECT_EQ(found.log_gain.cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(found.candidates.size(), 16u);
+  EXPECT_NEAR(found.residual_sigma, kNoise, 0.15 * kNoise);
+}
+
+TEST_F(SelfCalibrationTest, GainsOfAllStatesAreFoundWhereTheirLightAddsUp) {
+  Camera camera;
+  camera.log_gain = TrueGain;
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera));
+  EXPECT_EQ(found.Chosen().name, "gains");
+  // About 80 elements of the 300 used show in each photo.
+  EXPECT_LT(GainError(found, TrueGain), 0.001);
+  for (int s = 0; s < 3; ++s) EXPECT_LT(found.state_sigma[s], 0.1 * found.state_prior_sigma[s]);
+}
+
+TEST_F(SelfCalibrationTest, StatesThatNothingTiesAreAsUnsureAsBefore) {
+  Camera camera;
+  camera.log_gain = TrueGain;
+  const SelfCalibration found = Calibrate(OneByOne(), Photograph(OneByOne(), camera));
+  EXPECT_EQ(found.Chosen().name, "gains");
+  for (int s = 0; s < 2; ++s) {
+    EXPECT_GT(found.state_sigma[s], 0.8 * found.state_prior_sigma[s]);
+    EXPECT_LT(found.state_sigma[s], 1.3 * found.state_prior_sigma[s]);
+  }
+  // Within each state they are told.
+  for (int s = 0; s < 2; ++s) {
+    Eigen::ArrayXd error(kViews);
+    for (int v = 0; v < kViews; ++v) error[v] = found.log_gain[v + kViews * s] - TrueGain(v + kViews * s);
+    EXPECT_LT(std::sqrt((error - error.mean()).square().mean()), 0.001);
+  }
+}
+
+TEST_F(SelfCalibrationTest, OnePhotoFarOffLeavesTheOthersAlone) {
+  const auto truth = [](int photo) { return photo == 4 ? std::log(2.0) : 0.0; };
+  Camera camera;
+  camera.log_gain = truth;
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera));
+  EXPECT_TRUE(found.Chosen().gains);
+  for (int p = 0; p < 3 * kViews; ++p) EXPECT_NEAR(found.log_gain[p], truth(p), 0.006) << p;
+}
+
+TEST_F(SelfCalibrationTest, VignettingIsFoundAndGainsAreNotAddedToIt) {
+  Camera camera;
+  camera.log_vignetting = [](double r2) { return -0.4 * r2 - 0.2 * r2 * r2; };
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera));
+  EXPECT_EQ(found.Chosen().name, "vignetting of order 2");
+  PhotoSample sample;
+  for (const double r2 : {0.1, 0.5, 1.0}) {
+    sample.radius2 = r2;
+    EXPECT_NEAR(found.LogCorrection(sample), 0.4 * r2 + 0.2 * r2 * r2, 0.002) << r2;
+  }
+}
+
+TEST_F(SelfCalibrationTest, ResponseIsToldByLightThatAddsUp) {
+  Camera camera;
+  camera.power = 0.85;
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera));
+  EXPECT_EQ(found.Chosen().name, "response exponent");
+  EXPECT_NEAR(1 / (1 + found.exponent[0]), 0.85, 0.003);
+}
+
+TEST_F(SelfCalibrationTest, EverythingAtOnceIsToldApart) {
+  Camera camera;
+  camera.log_gain = TrueGain;
+  camera.power = 1.1;
+  camera.log_vignetting = [](double r2) { return -0.5 * r2; };
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera));
+  EXPECT_EQ(found.Chosen().name, "gains + vignetting of order 1 + response exponent");
+  EXPECT_NEAR(1 / (1 + found.exponent[0]), 1.1, 0.005);
+  EXPECT_NEAR(found.vignetting(0, 0), -0.5, 0.005);
+  EXPECT_LT(GainError(found, TrueGain), 0.002);
+}
+
+// One state and one exposure: an exponent is one with the surfaces' own luminance.
+TEST_F(SelfCalibrationTest, ResponseOfOneLevelIsNotDetermined) {
+  const std::vector<Eigen::VectorXd> one{Eigen::VectorXd::Ones(1)};
+  Camera camera;
+  camera.power = 0.85;
+  camera.log_gain = TrueGain;
+  camera.one_exposure = true;
+  const SelfCalibration found = Calibrate(one, Photograph(one, camera));
+  EXPECT_FALSE(found.Chosen().exponent);
+  for (const RadiometryCandidate& c : found.candidates) {
+    if (c.exponent) {
+      EXPECT_FALSE(c.is_determined) << c.name;
+    }
+  }
+}
+
+TEST_F(SelfCalibrationTest, WhatCalibFixedIsHeld) {
+  Camera camera;
+  camera.log_vignetting = [](double r2) { return -0.4 * r2; };
+  const auto dimming = OneByOneAndTogether();
+  const SelfCalibration found =
+      SelfCalibrate(patches_, dimming, Photograph(dimming, camera), {true, {false}, {false}});
+  EXPECT_EQ(found.candidates.size(), 2u);
+  EXPECT_EQ(found.vignetting.cwiseAbs().maxCoeff(), 0);
+}
+
+TEST_F(SelfCalibrationTest, TooFewSharedSurfacesAreSaid) {
+  std::vector<PhotoSample> samples = Photograph(OneByOneAndTogether(), Camera());
+  samples.resize(40);
+  const SelfCalibration found = Calibrate(OneByOneAndTogether(), samples);
+  EXPECT_FALSE(found.is_possible);
+  EXPECT_THAT(found.message, HasSubstr("fewer than 20 surfaces"));
+  EXPECT_THROW(Calibrate({}, samples), std::invalid_argument);
+}
+
+// Sigmas of gains against their scatter over noise.
+TEST_F(SelfCalibrationTest, SigmasOfGainsAreTheirScatter) {
+  Camera camera;
+  camera.log_gain = TrueGain;
+  double squares = 0;
+  int count = 0;
+  for (int trial = 0; trial < 12; ++trial) {
+    const SelfCalibration found = SelfCalibrate(
+        patches_, OneByOneAndTogether(), Photograph(OneByOneAndTogether(), camera), {true, {false}, {false}});
+    Eigen::ArrayXd error(found.log_gain.size());
+    for (Eigen::Index p = 0; p < error.size(); ++p)
+      error[p] = found.log_gain[p] - TrueGain(static_cast<int>(p));
+    error -= error.mean();
+    for (Eigen::Index p = 0; p < error.size(); ++p, ++count)
+      squares += error[p] * error[p] / found.covariance(p, p);
+  }
+  const double z = std::sqrt(squares / count);
+  // Eight facets judge 21 gains: their own scatter is a sixth.
+  EXPECT_GT(z, 0.75);
+  EXPECT_LT(z, 1.4);
+}
+
+// The gradient of the cost over x alone, each element's light at its optimum, against central differences.
+TEST_F(SelfCalibrationTest, GradientIsThatOfTheEliminatedCost) {
+  Camera camera;
+  camera.log_gain = TrueGain;
+  camera.power = 0.9;
+  const std::vector<PhotoSample> samples = Photograph(OneByOneAndTogether(), camera);
+  const PhotoEquations equations(patches_, OneByOneAndTogether(), samples, 60);
+  RadiometryUnknowns unknowns;
+  unknowns.vignetting = {0};
+  unknowns.order = 3;
+  unknowns.exponent = {3};
+  unknowns.first_gain = 4;
+  unknowns.count = 4 + 3 * kViews;
+  PhotoEquations::Fit fit = equations.Start(unknowns);
+  for (Eigen::Index i = 0; i < fit.x.size(); ++i) fit.x[i] = 0.02 * std::sin(1.7 * static_cast<double>(i));
+  const auto sums = [&](const Eigen::VectorXd& x) {
+    PhotoEquations::Fit at = fit;
+    at.x = x;
+    PhotoEquations::Sums all{{}, Eigen::VectorXd::Zero(unknowns.count), 0};
+    for (const PhotoEquations::Sums& s : equations.Linearize(unknowns, at)) {
+      all.right += s.right;
+      all.cost += s.cost;
+    }
+    return all;
+  };
+  const Eigen::VectorXd gradient = -sums(fit.x).right;
+  for (Eigen::Index i = 0; i < fit.x.size(); ++i) {
+    constexpr double kStep = 1e-4;
+    Eigen::VectorXd above = fit.x, below = fit.x;
+    above[i] += kStep;
+    below[i] -= kStep;
+    const double difference = (sums(above).cost - sums(below).cost) / (2 * kStep);
+    EXPECT_NEAR(gradient[i], difference, 1e-4 * gradient.cwiseAbs().maxCoeff()) << i;
+  }
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,236 @@
+#include "inverse/model/light_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/support/scenes.h"
+
+namespace luxfit {
+namespace {
+
+// A small room with a screen, two lamps and three states. Lamps keep 0.6 m from everything and are no larger
+// than 0.2 m, so that no step changes the order of their quadrature.
+class SmallRoom : public testing::Test {
+ protected:
+  SmallRoom() : room_(MakeRoom(RoomScene(), {{0.5, 0.25}, {64}})) {
+    state_.luminaires.resize(2);
+    Luminaire &a = state_.luminaires[0], &b = state_.luminaires[1];
+    a.id = "A";
+    a.position = Eigen::Vector3d(0.9, 1.1, 1.6);
+    a.aim = Eigen::Vector3d(0.2, -0.1, -1).normalized();
+    a.distribution = Distribution::kCosinePower;
+    a.cosine_exponent = 3;
+    a.shape = LuminaireShape::kRectangle;
+    a.size_m = {0.2, 0.15};
+    a.flux_lm = 700;
+    b.id = "B";
+    b.position = Eigen::Vector3d(2.3, 1.3, 1.5);
+    b.distribution = Distribution::kIsotropic;
+    b.flux_lm = 400;
+    state_.free = {{true, true, true, true, true}, {}};
+    state_.albedo = Eigen::Vector3d(0.6, 0.25, 0.4);
+    state_.albedo_free = {true, true, true};
+    state_.camera_scale = 0.02;
+    data_.dimming = {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0.3, 1)};
+    for (int e = 0; e < static_cast<int>(room_.patches.elements.size()); e += 11) {
+      Observation o;
+      o.element = e;
+      o.state = e % 3;
+      data_.observations.push_back(o);
+    }
+    for (int s = 0; s < 3; ++s) data_.readings.push_back({{{0.5, 0.5, 0.01}, {0, 0, 1}}, s, 100, 1, true});
+  }
+
+  static Scene RoomScene() {
+    Scene scene = support::ClosedRoom({3.2, 2.2, 2.4}, {"wall", "wall", "wall", "wall", "floor", "wall"});
+    support::AddBox(scene, {Eigen::Vector3d(1.55, 0.6, 0.2), Eigen::Vector3d(1.65, 1.6, 1.2)},
+                    support::Facing::kOutward, {"screen"});
+    return scene;
+  }
+
+  Room room_;
+  LightData data_;
+  LightState state_;
+};
+
+TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
+  state_.meter_scale_free = true;
+  state_.meter_scale = 1.07;
+  LightModel model(room_, data_);
+  model.FreezeVisibility(state_);
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera and meter scale.
+  ASSERT_EQ(parameters.size(), 18u);
+  const Eigen::VectorXd x = PackParameters(state_, parameters);
+  const Prediction prediction = model.Predict(state_, parameters, true);
+  ASSERT_EQ(prediction.jacobian.cols(), 18);
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    // Steps and tolerances as in forward's illuminance_test: truncation (h / d)^2 = 3e-4 times a few,
+    // rounding of floats 1e-6 / h of the value. Logarithms and albedos curve less than 1 / r^2.
+    constexpr double kStep = 0.01;
+    const auto values = [&](double step) {
+      return model
+          .Predict(WithParameters(state_, parameters, x + step * Eigen::VectorXd::Unit(x.size(), p)), {},
+                   false)
+          .value;
+    };
+    const Eigen::VectorXd numeric = (values(kStep) - values(-kStep)) / (2 * kStep);
+    const Eigen::VectorXd error = prediction.jacobian.col(p) - numeric;
+    // Observations and readings are in different units: each in its own.
+    const Eigen::Index readings = 3, observations = x.size() > 0 ? numeric.size() - readings : 0;
+    for (const auto& [first, count] : {std::pair{Eigen::Index{0}, observations}, {observations, readings}}) {
+      const double scale = numeric.segment(first, count).cwiseAbs().maxCoeff();
+      const double rounding = 1e-4 * prediction.value.segment(first, count).maxCoeff();
+      EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
+          << parameters[static_cast<size_t>(p)].name;
+    }
+    const bool is_of_meter = parameters[static_cast<size_t>(p)].kind == ParameterKind::kLogMeterScale;
+    const double moved =
+        (is_of_meter ? numeric.tail(readings) : numeric.head(observations)).cwiseAbs().maxCoeff();
+    EXPECT_GT(moved, 0) << parameters[static_cast<size_t>(p)].name;
+  }
+}
+
+TEST_F(SmallRoom, StatesAreSumsOfTheirLuminaires) {
+  LightData one_place;
+  one_place.dimming = data_.dimming;
+  for (int s = 0; s < 3; ++s) {
+    Observation o;
+    o.element = 40;
+    o.state = s;
+    one_place.observations.push_back(o);
+  }
+  one_place.readings = data_.readings;
+  LightModel model(room_, one_place);
+  model.FreezeVisibility(state_);
+  const Eigen::VectorXd value = model.Predict(state_, {}, false).value;
+  ASSERT_EQ(value.size(), 6);
+  EXPECT_NEAR(value[2], 0.3 * value[0] + value[1], 1e-6 * value[2]);  // float rounding
+  EXPECT_NEAR(value[5], 0.3 * value[3] + value[4], 1e-6 * value[5]);
+}
+
+TEST_F(SmallRoom, LuminanceIsAlbedoOverPiTimesIlluminance) {
+  // A reading on the centre of a floor element, facing as it does, and that element's luminance: Y = c rho E
+  // / pi.
+  const RayHit below = room_.rays.Trace({2.6, 0.63, 1}, {0, 0, -1});
+  const int e = room_.patches.ElementAt(below.facet, below.u, below.v);
+  ASSERT_GE(e, 0);
+  const Element& element = room_.patches.elements[static_cast<size_t>(e)];
+  state_.albedo = Eigen::Vector3d(0.1, 0.15, 0.1);
+  LightData data;
+  data.dimming = {Eigen::Vector2d(0, 1)};  // B, all of which the element sees
+  Observation o;
+  o.element = e;
+  data.observations = {o};
+  data.readings = {{{element.center, element.normal}, 0, 100, 1, true}};
+  LightModel model(room_, data);
+  model.FreezeVisibility(state_);
+  const Prediction prediction = model.Predict(state_, {}, false);
+  // Both have the same direct light. The element's indirect light comes from 64 rays: a relative sigma of at
+  // most sqrt(0.25 / 64), were half of them dark; three of those.
+  const double direct_lx = prediction.reading_direct_lx[0], indirect_lx = prediction.value[1] - direct_lx;
+  const double seen_lx = prediction.value[0] * 3.14159265358979323846 / (0.15 * state_.camera_scale);
+  EXPECT_NEAR(seen_lx, prediction.value[1], 3 * indirect_lx * std::sqrt(0.25 / 64));
+  EXPECT_GT(direct_lx, 5 * indirect_lx);  // so that the tolerance is a few percent
+}
+
+TEST_F(SmallRoom, PackAndWithAreInverse) {
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  const Eigen::VectorXd x = PackParameters(state_, parameters);
+  Eigen::VectorXd moved = x;
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const bool tilt = parameters[static_cast<size_t>(i)].name.find("tilt") == 0;
+    moved[i] += tilt ? 0 : 0.01 * static_cast<double>(i + 1);
+  }
+  // Logarithms and exponentials in double.
+  EXPECT_LT((PackParameters(WithParameters(state_, parameters, moved), parameters) - moved).norm(), 1e-12);
+  const LightState same = WithParameters(state_, parameters, x);
+  EXPECT_NEAR((same.luminaires[0].aim - state_.luminaires[0].aim).norm(), 0, 1e-12);
+  EXPECT_NEAR(same.luminaires[0].flux_lm, 700, 1e-9);
+  EXPECT_NEAR(same.camera_scale, 0.02, 1e-12);
+}
+
+TEST_F(SmallRoom, ATiltTurnsTheAimAndKeepsTheHeadingPerpendicular) {
+  std::vector<Parameter> parameters;
+  for (const Parameter& p : FreeParameters(room_, state_)) {
+    if (p.name.find("tilt") == 0) parameters.push_back(p);
+  }
+  ASSERT_EQ(parameters.size(), 2u);
+  const LuminaireAxes axes = AxesOf(state_.luminaires[0]);
+  const Luminaire tilted = WithParameters(state_, parameters, Eigen::Vector2d(0.1, -0.2)).luminaires[0];
+  const Eigen::Vector3d expected =
+      (state_.luminaires[0].aim + 0.1 * axes.along - 0.2 * axes.across).normalized();
+  EXPECT_NEAR((tilted.aim - expected).norm(), 0, 1e-12);  // double rounding
+  EXPECT_NEAR(tilted.heading.dot(tilted.aim), 0, 1e-12);
+  EXPECT_GT(tilted.heading.dot(axes.along), 0.9);
+}
+
+TEST_F(SmallRoom, BoundsKeepThingsPossible) {
+  for (const Parameter& p : FreeParameters(room_, state_)) {
+    EXPECT_LT(p.lower, p.upper) << p.name;
+    EXPECT_FALSE(p.name.empty());
+    if (p.kind == ParameterKind::kAlbedo) {
+      EXPECT_GT(p.lower, 0);
+      EXPECT_LT(p.upper, 1);
+    }
+    if (p.kind == ParameterKind::kLuminaire && static_cast<int>(p.quantity) < 3) {
+      const int axis = static_cast<int>(p.quantity);
+      EXPECT_GT(p.lower, 0);
+      EXPECT_LT(p.upper, room_.scene.Bounds().max()[axis]);
+    }
+  }
+  state_.luminaires[0].position.x() = 50;  // far outside
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  EXPECT_EQ(PackParameters(state_, parameters)[0], parameters[0].upper);
+}
+
+TEST_F(SmallRoom, OnlyWhatIsFreeAndExistsIsAParameter) {
+  state_.free = {{false, true, true, true, false}, {true, false, true, true, false}};
+  state_.luminaires[0].distribution = Distribution::kLambertian;  // has no exponent
+  state_.luminaires[0].shape = LuminaireShape::kDisc;             // has one size
+  state_.albedo_free = {false, true, false};
+  state_.camera_scale_free = false;
+  std::vector<std::string> names;
+  for (const Parameter& p : FreeParameters(room_, state_)) names.push_back(p.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"size along of A", "log flux of A", "position x of B",
+                                             "position y of B", "position z of B", "albedo of floor"}));
+}
+
+TEST_F(SmallRoom, IndicesOutOfRangeAreRefused) {
+  LightData wrong_state = data_, wrong_element = data_;
+  wrong_state.observations[0].state = 3;
+  EXPECT_THROW(LightModel(room_, wrong_state), std::invalid_argument);
+  wrong_element.observations[0].element = static_cast<int>(room_.patches.elements.size());
+  EXPECT_THROW(LightModel(room_, wrong_element), std::invalid_argument);
+  wrong_element.observations[0].element = -1;
+  EXPECT_THROW(LightModel(room_, wrong_element), std::invalid_argument);
+}
+
+TEST_F(SmallRoom, ALampHalfBehindTheScreenIsInPenumbra) {
+  // On the floor beyond the screen, seen past its edge: some elements see part of A, which is 0.2 m long.
+  LightModel model(room_, data_);
+  model.FreezeVisibility(state_);
+  const std::vector<bool> penumbra = model.InPenumbra();
+  ASSERT_EQ(penumbra.size(), data_.observations.size());
+  const LuminaireVisibility visibility =
+      ComputeVisibility(room_, MakeReceivers(room_, {}, {}), state_.luminaires);
+  int mixed = 0;
+  for (size_t i = 0; i < penumbra.size(); ++i) {
+    const Observation& o = data_.observations[i];
+    bool partly = false;
+    for (int k = 0; k < 2; ++k) {
+      const float share = visibility.elements(o.element, k);
+      partly =
+          partly || (data_.dimming[static_cast<size_t>(o.state)][k] > 0 && share > 0.001f && share < 0.999f);
+    }
+    EXPECT_EQ(penumbra[i], partly) << i;
+    mixed += partly;
+  }
+  EXPECT_GT(mixed, 0);
+  EXPECT_LT(mixed, static_cast<int>(penumbra.size()) / 2);
+}
+
+}  // namespace
+}  // namespace luxfit

@@ -1,0 +1,118 @@
+#include "inverse/model/predicted_places.h"
+
+#include <gtest/gtest.h>
+
+#include "forward/light/illuminance.h"
+#include "tests/support/scenes.h"
+
+namespace luxfit {
+namespace {
+
+struct Office {
+  Room room = MakeRoom(support::ClosedRoom({4, 3, 2.5}));
+  std::vector<Luminaire> luminaires;
+  Eigen::VectorXd albedo = Eigen::VectorXd::Constant(1, 0.6);
+  std::vector<Sensor> places = {{{1, 1, 0.8}, {0, 0, 1}, {}}, {{3, 2, 0.8}, {0, 0, 1}, {}}};
+
+  Office() {
+    Luminaire lamp;
+    lamp.id = "A";
+    lamp.position = {1.2, 1.4, 2.4};
+    lamp.shape = LuminaireShape::kDisc;
+    lamp.size_m = {0.3, 0.3};
+    lamp.flux_lm = 1500;
+    luminaires.push_back(lamp);
+    lamp.id = "B";
+    lamp.position = {3.0, 1.8, 2.4};
+    lamp.distribution = Distribution::kCosinePower;
+    lamp.cosine_exponent = 2;
+    lamp.flux_lm = 900;
+    luminaires.push_back(lamp);
+  }
+
+  // Light at the places as the forward model has it, lx, places x luminaires.
+  Eigen::MatrixXd Light(const std::vector<Luminaire>& lamps, const Eigen::VectorXd& rho) const {
+    const Receivers receivers = MakeReceivers(room, {}, places);
+    const Illuminance light =
+        ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, lamps), lamps, rho);
+    Eigen::MatrixXd lux = light.total.cast<double>();
+    for (size_t k = 0; k < lamps.size(); ++k) lux.col(static_cast<Eigen::Index>(k)) *= lamps[k].flux_lm;
+    return lux;
+  }
+};
+
+NamedCovariance Diagonal(const std::vector<std::string>& names, const Eigen::VectorXd& sigma) {
+  return {names, sigma.cwiseAbs2().asDiagonal()};
+}
+
+TEST(PredictedPlaces, ColumnsAreThoseOfTheForwardModel) {
+  const Office office;
+  const PredictedPlaces predicted =
+      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
+                    Diagonal({"log flux of A"}, Eigen::VectorXd::Constant(1, 0.02)));
+  const Eigen::MatrixXd light = office.Light(office.luminaires, office.albedo);
+  EXPECT_LT((predicted.total_lx - light).cwiseAbs().maxCoeff(), 1e-4 * light.maxCoeff());
+  EXPECT_TRUE((predicted.direct_lx.array() < predicted.total_lx.array()).all());
+}
+
+// A flux known to 2 % makes its column uncertain by 2 %, and no other.
+TEST(PredictedPlaces, AFluxMovesItsOwnColumn) {
+  const Office office;
+  const PredictedPlaces predicted =
+      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
+                    Diagonal({"log flux of A", "log camera scale"}, Eigen::Vector2d(0.02, 0.5)));
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    EXPECT_NEAR(predicted.factor.row(2 * i).norm(), 0.02 * predicted.total_lx(i, 0), 1e-9);
+    EXPECT_NEAR(predicted.factor.row(2 * i + 1).norm(), 0, 1e-9);
+  }
+  EXPECT_TRUE(predicted.left_out.empty());
+}
+
+// The factor against finite differences of the forward model: albedo, position, exponent, each by itself.
+TEST(PredictedPlaces, SigmasAreThoseOfFiniteDifferences) {
+  const Office office;
+  const auto moved = [&](const std::string& name, double by) {
+    std::vector<Luminaire> lamps = office.luminaires;
+    Eigen::VectorXd rho = office.albedo;
+    if (name == "position z of B") lamps[1].position.z() += by;
+    if (name == "log exponent of B") lamps[1].cosine_exponent *= std::exp(by);
+    if (name == "albedo of wall") rho[0] += by;
+    return office.Light(lamps, rho);
+  };
+  for (const auto& [name, sigma] : {std::pair<std::string, double>("position z of B", 0.02),
+                                    {"log exponent of B", 0.05},
+                                    {"albedo of wall", 0.01}}) {
+    const PredictedPlaces predicted =
+        PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
+                      Diagonal({name}, Eigen::VectorXd::Constant(1, sigma)));
+    const Eigen::MatrixXd difference = 0.5 * (moved(name, sigma) - moved(name, -sigma));
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        EXPECT_NEAR(predicted.factor.row(2 * i + k).norm(), std::abs(difference(i, k)),
+                    0.02 * difference.cwiseAbs().maxCoeff())
+            << name << " " << i << " " << k;
+      }
+    }
+  }
+}
+
+TEST(PredictedPlaces, UnknownParametersAreNamed) {
+  const Office office;
+  const PredictedPlaces predicted =
+      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
+                    Diagonal({"log flux of A", "gamma node 3 of Z"}, Eigen::Vector2d(0.02, 1)));
+  EXPECT_EQ(predicted.left_out, std::vector<std::string>{"gamma node 3 of Z"});
+  EXPECT_THROW(PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {{"a"}, {}}),
+               std::invalid_argument);
+}
+
+TEST(PredictedPlaces, WithoutACovarianceThereIsLightAlone) {
+  const Office office;
+  const PredictedPlaces predicted =
+      PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {});
+  EXPECT_EQ(predicted.factor.size(), 0);
+  EXPECT_GT(predicted.total_lx.minCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace luxfit
