@@ -202,14 +202,14 @@ TEST(WithRayShares, HolesThatOnlyRaysSawAreReportedOnce) {
   factors.element_to_patch.row(2).setZero();  // an element outside the room
   factors.back_fraction = 0.3;
   factors.escaped_fraction = 0.3;
-  const std::vector<MeshFinding> findings = WithRayShares({}, factors);
+  const std::vector<MeshFinding> findings = WithRayShares({}, RaySharesOf(factors));
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].defect, MeshDefect::kOpenMesh);
   EXPECT_THAT(findings[0].effect, HasSubstr("20 %"));
   EXPECT_EQ(findings[1].defect, MeshDefect::kFlippedFacets);
   factors.element_to_patch.topRows(2).setConstant(0.5f);
   factors.back_fraction = 0;
-  EXPECT_TRUE(WithRayShares({}, factors).empty());
+  EXPECT_TRUE(WithRayShares({}, RaySharesOf(factors)).empty());
 }
 
 }  // namespace
