@@ -24,7 +24,7 @@ bool IsInFiles(const Parameter& parameter) {
           parameter.quantity == LuminaireQuantity::kGammaNode);
 }
 
-bool IsDetermined(const SessionFit& fit, size_t luminaire) {
+bool IsDetermined(const RoomFit& fit, size_t luminaire) {
   const LuminaireFit& solved = fit.fit;
   const bool is_solved = solved.IsUsable() || solved.covariance.size() > 0;
   if (!fit.absolute || !is_solved || !fit.TellsDirectLight() || !fit.luminaire_found[luminaire]) return false;
@@ -69,7 +69,7 @@ PhotometryLabels LabelsOf(const Session& session, const Luminaire& luminaire,
 
 }  // namespace
 
-std::vector<LuminaireFiles> WriteLuminaireFiles(const Session& session, const SessionFit& fit,
+std::vector<LuminaireFiles> WriteLuminaireFiles(const Session& session, const RoomFit& fit,
                                                 const RunContext& context) {
   const std::vector<Luminaire>& luminaires = fit.fit.state.luminaires;
   std::vector<std::string> ids;

@@ -10,7 +10,7 @@
 namespace luxfit {
 
 // By luminaire, relative to OUT; empty names where none were written.
-std::vector<LuminaireFiles> WriteLuminaireFiles(const Session& session, const SessionFit& fit,
+std::vector<LuminaireFiles> WriteLuminaireFiles(const Session& session, const RoomFit& fit,
                                                 const RunContext& context);
 
 }  // namespace luxfit

@@ -1,7 +1,5 @@
 #include "apps/stages/given_luminaire.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <memory>
 
@@ -9,9 +7,6 @@
 
 namespace luxfit {
 namespace {
-
-// Ratios and fluxes in files are rounded to a percent; beyond this one of them is wrong.
-constexpr double kFluxTolerance = 0.03;
 
 Distribution DistributionFrom(const std::string& photometry) {
   if (photometry == "isotropic") return Distribution::kIsotropic;
@@ -27,16 +22,10 @@ LuminaireShape ShapeFrom(const std::string& shape) {
   return LuminaireShape::kPoint;
 }
 
-// A table to be estimated starts as Lambertian, every 7.5 degrees.
 std::shared_ptr<const IntensityTable> GivenTable(const SessionLuminaire& given) {
-  constexpr double kRadPerDeg = M_PI / 180;
-  std::vector<double> gamma_rad, intensity = given.cd_per_klm;
-  for (const double gamma_deg : given.gamma_deg) gamma_rad.push_back(kRadPerDeg * gamma_deg);
-  for (int j = 0; given.gamma_deg.empty() && j <= 12; ++j) {
-    gamma_rad.push_back(kRadPerDeg * 7.5 * j);
-    intensity.push_back(std::max(std::cos(gamma_rad.back()), 1e-3));
-  }
-  return std::make_shared<IntensityTable>(RotationalTable(gamma_rad, intensity));
+  std::vector<double> gamma_rad;
+  for (const double gamma_deg : given.gamma_deg) gamma_rad.push_back(M_PI / 180 * gamma_deg);
+  return std::make_shared<IntensityTable>(RotationalTable(gamma_rad, given.cd_per_klm));
 }
 
 }  // namespace
@@ -55,7 +44,7 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
     luminaire.size_m = result.file->size_m;
     luminaire.flux_lm = result.file->luminaire_flux_lm;
   }
-  if (given.photometry == "table") luminaire.table = GivenTable(given);
+  if (!given.gamma_deg.empty()) luminaire.table = GivenTable(given);
   if (given.shape) {
     const LuminaireShape shape = ShapeFrom(*given.shape);
     // The file's size belongs to the file's shape.
@@ -70,24 +59,6 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
   if (given.heading) luminaire.heading = *given.heading;
   if (given.flux_lm) luminaire.flux_lm = *given.flux_lm;
   return result;
-}
-
-void RecordGivenPhotometry(const GivenLuminaire& given, RunContext& context) {
-  if (!given.file) return;
-  const PhotometryFile& file = *given.file;
-  std::string because = fmt::format("the file's intensities integrate to {:.6g} lm", file.luminaire_flux_lm);
-  for (const std::string& note : file.notes) because += "; " + note;
-  context.choices.push_back(
-      {"photometry of " + given.luminaire.id, file.format + ", C0 along the heading", {}, because});
-  const bool differs =
-      file.stated_flux_lm > 0 && std::abs(file.luminaire_flux_lm / file.stated_flux_lm - 1) > kFluxTolerance;
-  if (differs) {
-    context.warnings.push_back(
-        {"photometry_flux",
-         fmt::format("the photometry of {} states {:.6g} lm, but its intensities integrate to {:.6g} lm",
-                     given.luminaire.id, file.stated_flux_lm, file.luminaire_flux_lm),
-         "the intensities were believed; give flux_lm, or ask the maker for a consistent file"});
-  }
 }
 
 }  // namespace luxfit

@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "apps/session/session.h"
-#include "apps/stages/stages.h"
 #include "forward/luminaire/photometry_file.h"
 
 namespace luxfit {
@@ -20,9 +19,6 @@ struct GivenLuminaire {
   std::optional<PhotometryFile> file;  // where one was named
 };
 GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given);
-
-// What was taken from the file, and what to look at in it, as choices and warnings.
-void RecordGivenPhotometry(const GivenLuminaire& given, RunContext& context);
 
 }  // namespace luxfit
 

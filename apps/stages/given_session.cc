@@ -83,7 +83,7 @@ std::vector<Luminaire> GivenLuminaires(const Session& session, const std::string
     if (flat && !(luminaire.size_m[0] > 0))
       throw MissingKey(session, k, "size_m",
                        "expected the size of a " + ToString(luminaire.shape) + ", got nothing; add size_m");
-    RecordGivenPhotometry(known, context);
+    if (known.file) RecordPhotometryFile(luminaire.id, *known.file, context);
     luminaires.push_back(luminaire);
   }
   return luminaires;

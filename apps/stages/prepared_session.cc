@@ -12,6 +12,8 @@
 #include "apps/stages/registration_json.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/artifact.h"
+#include "inverse/check/luxmeter_check.h"
+#include "inverse/fit/fit_outcome.h"
 
 namespace luxfit {
 namespace {
@@ -25,34 +27,6 @@ Eigen::Vector3d Vector(const json& v) {
   return {at(0), at(1), at(2)};
 }
 
-double NumberOr(const json& value, double otherwise) {
-  return value.is_number() ? value.get<double>() : otherwise;
-}
-
-// What result.json says of the luminaires, so that refits are judged by what users see.
-std::vector<EstimatedLuminaire> LuminairesOf(const json& result, const LuminaireFit& fit) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<EstimatedLuminaire> found;
-  for (const json& l : result.at("luminaires")) {
-    EstimatedLuminaire e;
-    e.id = l.at("id");
-    e.position = Vector(l.at("position_m"));
-    e.position_sigma_m = Vector(l.at("position_sigma_m"));
-    e.flux = NumberOr(l.at("flux_lm"), NumberOr(l.value("flux_relative", json()), kUnknown));
-    e.flux_sigma = NumberOr(l.at("flux_sigma_lm"), kUnknown);
-    if (l.at("flux_lm").is_null() && l.contains("flux_relative")) {
-      for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
-        const Parameter& p = fit.parameters[i];
-        const auto row = static_cast<Eigen::Index>(i);
-        if (p.kind == ParameterKind::kLogFlux && p.name == "log flux of " + e.id)
-          e.flux_sigma = e.flux * std::sqrt(fit.covariance(row, row));
-      }
-    }
-    found.push_back(e);
-  }
-  return found;
-}
-
 // Photos can be laid over the mesh only where the poses are in its frame.
 void ExpectSceneFrame(const Session& session, const RegisteredSession& registered) {
   if (!session.scene || registered.registration.frame.rfind("tag ", 0) != 0) return;
@@ -61,6 +35,20 @@ void ExpectSceneFrame(const Session& session, const RegisteredSession& registere
       ": registration.start: expected where three cameras or more roughly stood, since without a "
       "tag map the poses are in the frame of " +
       registered.registration.frame + ", got nothing; add start or tags.map");
+}
+
+// Of the readings that only check; NaN: there are none.
+double MeanCheckError(const Session& session, const RoomFit& fit) {
+  std::vector<CheckedReading> checked;
+  const std::vector<PredictedReading> predictions = PredictedReadings(fit);
+  for (size_t i = 0; i < predictions.size(); ++i) {
+    const SessionReading& given = session.luxmeter.readings[i];
+    if (given.role != ReadingRole::kCheck || !given.is_measured || !predictions[i].is_known) continue;
+    checked.push_back({given.illuminance_lx, predictions[i].illuminance_lx, fit.data.readings[i].sigma_lx,
+                       predictions[i].sigma_lx});
+  }
+  return checked.empty() ? std::numeric_limits<double>::quiet_NaN()
+                         : SummarizeLuxmeter(checked).mean_abs_error_percent;
 }
 
 }  // namespace
@@ -106,15 +94,10 @@ Refit RefitSession(const Session& session, const Room& room, const SessionObserv
   own.is_quiet = true;
   Refit refit;
   refit.fit = FitSession(session, room, observed, own);
-  const json result = ResultJson(session, room, {}, refit.fit,
-                                 std::vector<LuminaireFiles>(refit.fit.fit.state.luminaires.size()), own);
-  refit.luminaires = LuminairesOf(result, refit.fit.fit);
+  refit.luminaires = EstimatedLuminaires(refit.fit);
   for (const Warning& warning : own.warnings) refit.warnings.push_back(warning.code);
   refit.undetermined = own.undetermined;
-  const json& summary = result.at("summary");
-  refit.mean_lux_error_percent = summary.at("readings_checked").get<int>() > 0
-                                     ? NumberOr(summary.at("mean_abs_error_percent"), NAN)
-                                     : std::numeric_limits<double>::quiet_NaN();
+  refit.mean_lux_error_percent = MeanCheckError(session, refit.fit);
   return refit;
 }
 

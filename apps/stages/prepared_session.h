@@ -36,7 +36,7 @@ RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& i
 // A fit of the session in that state, by all that `luxfit fit` does, without progress lines. Throws as
 // FitSession does.
 struct Refit {
-  SessionFit fit;
+  RoomFit fit;
   std::vector<EstimatedLuminaire> luminaires;  // those found; flux relative where no scale is known
   std::vector<std::string> warnings;           // codes
   bool undetermined = false;                   // exit status 1

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/check_report.h"
 #include "apps/stages/stages.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/check/luxmeter_check.h"
+#include "inverse/fit/fit_outcome.h"
 
 namespace luxfit {
 namespace {
@@ -16,21 +16,6 @@ namespace {
 using nlohmann::json;
 
 json Vector(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-// Standard deviation of a parameter; 0 where it is not free, NaN where the data do not determine it.
-double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {}) {
-  for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
-    const Parameter& p = fit.parameters[i];
-    const bool same =
-        p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
-    if (!same) continue;
-    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.name) == 0;
-    const Eigen::Index row = static_cast<Eigen::Index>(i);
-    // NaN is written as null: no number rather than a confident one.
-    return known ? std::sqrt(fit.covariance(row, row)) : std::numeric_limits<double>::quiet_NaN();
-  }
-  return 0;
-}
 
 json ViewsJson(const Session& session, const Registration& registration) {
   json views = json::array();
@@ -50,7 +35,7 @@ json ViewsJson(const Session& session, const Registration& registration) {
   return views;
 }
 
-json MaterialsJson(const Session& session, const Room& room, const SessionFit& fit) {
+json MaterialsJson(const Session& session, const Room& room, const RoomFit& fit) {
   json materials = json::array();
   for (size_t m = 0; m < room.scene.materials.size(); ++m) {
     const std::string& name = room.scene.materials[m];
@@ -106,7 +91,7 @@ std::string PhotometryName(const Luminaire& luminaire, const SessionLuminaire& g
   return given.photometry_path.empty() ? "table" : given.photometry;
 }
 
-json LuminairesJson(const Session& session, const SessionFit& fit, const std::vector<LuminaireFiles>& files) {
+json LuminairesJson(const Session& session, const RoomFit& fit, const std::vector<LuminaireFiles>& files) {
   json luminaires = json::array();
   for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
     if (!fit.luminaire_found[k]) continue;
@@ -125,7 +110,7 @@ json LuminairesJson(const Session& session, const SessionFit& fit, const std::ve
                   {"shape", ToString(luminaire.shape)},
                   {"size_m", SizeJson(luminaire)}};
     // Without an absolute scale a number of lumens would be made up.
-    const bool is_known = fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[k].flux);
+    const bool is_known = IsFluxKnown(fit, k);
     entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();
     entry["flux_sigma_lm"] =
         is_known ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
@@ -158,45 +143,28 @@ std::string RoleName(ReadingRole role) {
   return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
 }
 
-// A reading is predicted where the fit stands, in lm, and every luminaire that is on was found: else the
-// number would be made up.
-bool IsPredicted(const Session& session, const SessionFit& fit, const std::string& state) {
-  if (!fit.absolute || !fit.fit.IsUsable()) return false;
-  for (const SessionState& s : session.states) {
-    if (s.id != state) continue;
-    for (size_t k = 0; k < session.luminaires.size(); ++k) {
-      const auto on = s.dimming.find(session.luminaires[k].id);
-      if (on != s.dimming.end() && on->second > 0 && !fit.luminaire_found[k]) return false;
-    }
-  }
-  return true;
-}
-
-void AddLuxmeter(const Session& session, const SessionFit& fit, json& result) {
+void AddLuxmeter(const Session& session, const RoomFit& fit, json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
-  const Eigen::Index first = static_cast<Eigen::Index>(fit.data.observations.size());
-  for (size_t i = 0; i < session.luxmeter.readings.size() && fit.fit.predicted.size() > 0; ++i) {
+  const std::vector<PredictedReading> predictions = PredictedReadings(fit);
+  for (size_t i = 0; i < predictions.size(); ++i) {
     const SessionReading& given = session.luxmeter.readings[i];
-    const Eigen::Index row = static_cast<Eigen::Index>(i);
-    const double sigma = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
-    const double model_sigma = fit.fit.relative_sigma * fit.fit.predicted[first + row];
-    const double whole_sigma = std::hypot(sigma, model_sigma);
-    const CheckedReading reading{given.illuminance_lx, fit.fit.predicted[first + row],
-                                 fit.data.readings[i].sigma_lx, whole_sigma};
+    const PredictedReading& prediction = predictions[i];
+    const CheckedReading reading{given.illuminance_lx, prediction.illuminance_lx,
+                                 fit.data.readings[i].sigma_lx, prediction.sigma_lx};
     json entry = {{"id", given.id},
                   {"state", given.state},
                   {"role", RoleName(given.role)},
                   {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
-    const bool predicted = IsPredicted(session, fit, given.state);
+    const bool predicted = prediction.is_known;
     entry["predicted_lux"] = predicted ? json(reading.predicted_lx) : json();
-    entry["direct_lux"] = predicted && fit.TellsDirectLight() ? json(fit.fit.reading_direct_lx[row]) : json();
-    entry["sigma_lux"] = predicted ? json(sigma) : json();
-    entry["prediction_sigma_lux"] = predicted ? json(whole_sigma) : json();
+    entry["direct_lux"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx) : json();
+    entry["sigma_lux"] = predicted ? json(prediction.parameter_sigma_lx) : json();
+    entry["prediction_sigma_lux"] = predicted ? json(prediction.sigma_lx) : json();
     if (predicted) {
       constexpr double kTwoSided95 = 1.96;
-      entry["interval95_lux"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * whole_sigma),
-                                 reading.predicted_lx + kTwoSided95 * whole_sigma};
+      entry["interval95_lux"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * prediction.sigma_lx),
+                                 reading.predicted_lx + kTwoSided95 * prediction.sigma_lx};
     }
     if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
     if (given.is_measured && predicted) entry["z"] = ZScore(reading);
@@ -242,7 +210,7 @@ json WarningsJson(const RunContext& context) {
 }
 
 json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                const SessionFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
+                const RoomFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
   result["session_file"] = session.path;

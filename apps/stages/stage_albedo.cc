@@ -101,7 +101,7 @@ void Record(const Room& room, const PatchAlbedo& albedo, RunContext& context) {
 
 }  // namespace
 
-json AlbedoOfRoom(const Session& session, const Room& room, const SessionFit& fit, const json& result,
+json AlbedoOfRoom(const Session& session, const Room& room, const RoomFit& fit, const json& result,
                   RunContext& context) {
   json artifact = ProvenanceJson("luxfit-albedo-1", context.provenance);
   artifact["session"] = session.name;

@@ -14,7 +14,7 @@
 namespace luxfit {
 
 // The artifact; `result` (ResultJson) has the materials as fitted.
-nlohmann::json AlbedoOfRoom(const Session& session, const Room& room, const SessionFit& fit,
+nlohmann::json AlbedoOfRoom(const Session& session, const Room& room, const RoomFit& fit,
                             const nlohmann::json& result, RunContext& context);
 
 // `result` with what the artifact says of its materials.

@@ -46,6 +46,12 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
 
 }  // namespace
 
+void RunContext::Add(const Findings& more) {
+  warnings.insert(warnings.end(), more.warnings.begin(), more.warnings.end());
+  choices.insert(choices.end(), more.choices.begin(), more.choices.end());
+  undetermined = undetermined || more.undetermined;
+}
+
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)
     : context_(context), stage_(std::move(stage)), start_s_(NowS()) {
   if (line.empty() || context.is_quiet) return;

@@ -25,9 +25,7 @@
 #include "calib/register/registration.h"
 #include "forward/light/room.h"
 #include "forward/room/mesh_check.h"
-#include "inverse/choose/choose_model.h"
-#include "inverse/choose/direct_share.h"
-#include "inverse/model/fit_luminaires.h"
+#include "inverse/fit/fit_room.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
 
@@ -35,28 +33,17 @@ namespace luxfit {
 
 class ProgressLine;
 
-struct Warning {
-  std::string code, message, remedy;
-};
-
-struct Choice {
-  std::string what, chosen;
-  std::vector<std::string> among;
-  std::string because;
-};
-
-// What all stages share: where to write, what was said on the way.
-struct RunContext {
+// What all stages share: where to write, and what was found on the way.
+struct RunContext : Findings {
   std::string out;
   Provenance provenance;
-  std::vector<Warning> warnings;
-  std::vector<Choice> choices;
   std::map<std::string, double> timing_s;
   std::map<std::string, double> expected_s;  // what stages took in the last run into that folder
   std::shared_ptr<ProgressLine> progress;    // of the stage that runs, where lines are printed
   std::vector<std::string> reused_stages;    // not run: those of the last run stand
-  bool undetermined = false;                 // exit status 1
   bool is_quiet = false;                     // no progress lines
+
+  void Add(const Findings& more);
 };
 
 // Measures a stage from its making to its end, adds to context.timing_s, shows a progress line where one is
@@ -117,21 +104,8 @@ struct SessionObservations {
 SessionObservations ObserveSession(const Session& session, const RegisteredSession& registered,
                                    const Room& room, RunContext& context);
 
-struct SessionFit {
-  LuminaireFit fit;
-  LightData data;
-  std::vector<bool> luminaire_found;
-  Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
-  // By luminaire, relative to their mean (inverse/choose/colour_detail.h); empty where they are alike.
-  Eigen::Matrix3Xd tint_rgb;
-  bool absolute = false;                    // whether fluxes are in lm
-  std::optional<DirectShare> direct_share;  // of fits to readings alone with reflectances free
-
-  // Whether light that comes straight is told from light that comes by the walls.
-  bool TellsDirectLight() const { return !direct_share || direct_share->is_determined; }
-};
-SessionFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
-                      RunContext& context);
+RoomFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
+                   RunContext& context);
 
 // What a session gives in full, simulated: the artifact of OUT/stages/simulate.json, which it writes with
 // OUT/illuminance.csv (id,state,lux,direct_lux,indirect_lux of every reading). Patches, rays and bounces are
@@ -159,7 +133,7 @@ struct LuminaireFiles {
 // OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos); `files`
 // by luminaire.
 nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                          const SessionFit& fit, const std::vector<LuminaireFiles>& files,
+                          const RoomFit& fit, const std::vector<LuminaireFiles>& files,
                           const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);

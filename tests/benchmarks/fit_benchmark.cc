@@ -16,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/stages/internal/light_data.h"
 #include "apps/stages/prepared_session.h"
 #include "inverse/model/fit_luminaires.h"
 
@@ -66,9 +65,9 @@ const Start& Moved() {
     RunContext context;
     context.is_quiet = true;
     context.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
-    const SessionFit fitted =
+    const RoomFit fitted =
         FitSession(prepared.session, prepared.room, {prepared.observations, prepared.seen}, context);
-    Start moved{LightOf(prepared.session, prepared.observations).data, fitted.fit.state, {}};
+    Start moved{fitted.data, fitted.fit.state, {}};
     for (size_t k = 0; k < moved.state.luminaires.size(); ++k) {
       Luminaire& luminaire = moved.state.luminaires[k];
       moved.expected.push_back(luminaire.position);

@@ -19,9 +19,10 @@
 #include <vector>
 
 #include "apps/charts/line_chart_svg.h"
-#include "apps/stages/internal/light_data.h"
 #include "apps/stages/prepared_session.h"
+#include "apps/stages/session_light.h"
 #include "apps/text/artifact.h"
+#include "inverse/fit/internal/room_light.h"
 #include "inverse/model/first_guess.h"
 #include "inverse/model/measured_indirect.h"
 #include "tests/support/study_options.h"
@@ -44,7 +45,9 @@ Office PrepareOffice(const std::string& folder) {
   context.out = folder;
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
-  const LightData data = LightOf(office.prepared.session, office.prepared.observations).data;
+  const SessionObservations observed{office.prepared.observations, office.prepared.seen};
+  const LightData data =
+      LightOf(RoomObservationsOf(office.prepared.session, office.prepared.room, observed)).data;
   office.data = WithMeasuredIndirect(office.prepared.room, data);
   for (const EstimatedLuminaire& lamp : ReadTruth(kOffice + "truth.json"))
     office.truth.push_back(lamp.position);

@@ -23,9 +23,9 @@ namespace {
 
 constexpr int kNamedFiles = 3;
 
-using Findings = std::vector<DoctorFinding>;
+using DoctorFindings = std::vector<DoctorFinding>;
 
-void ExamineMesh(const Session& session, Findings& findings) {
+void ExamineMesh(const Session& session, DoctorFindings& findings) {
   if (!session.scene) {
     findings.push_back(
         {Health::kNote, "no [scene]: all light is taken as direct", "give the mesh of the room"});
@@ -81,7 +81,7 @@ LookedAt LookAt(const Session& session, const SessionPhoto& photo, const std::op
 }
 
 void ExamineTags(const Session& session, const std::map<std::string, std::vector<int>>& tags_of_view,
-                 Findings& findings) {
+                 DoctorFindings& findings) {
   std::vector<std::string> without;
   std::set<int> unknown;
   for (const auto& [view, tags] : tags_of_view) {
@@ -110,7 +110,7 @@ void ExamineTags(const Session& session, const std::map<std::string, std::vector
                         "survey them too"});
 }
 
-void ExaminePhotos(const Session& session, Findings& findings) {
+void ExaminePhotos(const Session& session, DoctorFindings& findings) {
   if (session.photos.empty()) {
     findings.push_back({Health::kNote, "no [photos]: the fit is to readings alone", ""});
     return;
@@ -146,7 +146,7 @@ void ExaminePhotos(const Session& session, Findings& findings) {
 }
 
 // States that tell luminaires apart: as many independent ones as there are luminaires.
-void ExamineStates(const Session& session, Findings& findings) {
+void ExamineStates(const Session& session, DoctorFindings& findings) {
   if (session.luminaires.empty()) return;
   Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(session.states.size()),
                                                   static_cast<Eigen::Index>(session.luminaires.size()));
@@ -169,7 +169,7 @@ void ExamineStates(const Session& session, Findings& findings) {
   }
 }
 
-void ExamineReadings(const Session& session, Findings& findings) {
+void ExamineReadings(const Session& session, DoctorFindings& findings) {
   const auto& readings = session.luxmeter.readings;
   const auto count = [&](ReadingRole role) {
     return std::count_if(readings.begin(), readings.end(),
@@ -195,7 +195,7 @@ void ExamineReadings(const Session& session, Findings& findings) {
 }  // namespace
 
 std::vector<DoctorFinding> ExamineSession(const Session& session) {
-  Findings findings;
+  DoctorFindings findings;
   ExamineMesh(session, findings);
   ExaminePhotos(session, findings);
   if (!session.lights) {

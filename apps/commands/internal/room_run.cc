@@ -12,8 +12,8 @@
 #include "apps/export/luminaire_files.h"
 #include "apps/report/report.h"
 #include "apps/session/earlier_result.h"
-#include "apps/stages/count_luminaires.h"
 #include "apps/stages/prepared_session.h"
+#include "apps/stages/session_light.h"
 #include "apps/stages/stage_albedo.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/artifact.h"
@@ -48,11 +48,12 @@ struct RoomResult {
   Room room;
 };
 
-RoomResult FitRoom(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
+RoomResult FitAndDescribe(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
   const StageTimer total(context, "total", "");
   PreparedSession prepared = PrepareSession(std::move(session), inputs, context);
-  session = WithCountedLuminaires(std::move(prepared.session), prepared.room, prepared.observations, context);
-  const SessionFit fit = FitSession(session, prepared.room, {prepared.observations, prepared.seen}, context);
+  const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen)};
+  session = WithCountedLuminaires(std::move(prepared.session), prepared.room, observed, context);
+  const RoomFit fit = FitSession(session, prepared.room, observed, context);
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
   json result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
   if (what == RoomRun::kFitAndAlbedo) {
@@ -122,7 +123,7 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
   if (!options.earlier_luminaires.empty())
     session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
-  RoomResult made = FitRoom(std::move(session), inputs, what, context);
+  RoomResult made = FitAndDescribe(std::move(session), inputs, what, context);
   made.result["timing_s"] = context.timing_s;
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);

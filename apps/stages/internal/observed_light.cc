@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/stages/internal/light_data.h"
 #include "apps/stages/internal/linearize.h"
+#include "apps/stages/session_light.h"
 #include "apps/text/suggest.h"
 #include "inverse/choose/self_calibration.h"
 

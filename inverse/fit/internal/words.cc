@@ -1,4 +1,4 @@
-#include "apps/stages/internal/fit_words.h"
+#include "inverse/fit/internal/words.h"
 
 #include <fmt/format.h>
 
@@ -45,14 +45,14 @@ std::vector<std::string> NamesOf(const DetailChoice& choice) {
 
 }  // namespace
 
-void WarnOfInterchangeable(const Session& session, const std::vector<int>& group, RunContext& context) {
+void WarnOfInterchangeable(const RoomObservations& given, const std::vector<int>& group, Findings& findings) {
   std::vector<std::string> ids;
   for (const int k : group) {
-    const SessionLuminaire& given = session.luminaires[static_cast<size_t>(k)];
-    if (!given.position_m && !session.count_is_estimated) ids.push_back(given.id);
+    const KnownLuminaire& known = given.luminaires[static_cast<size_t>(k)];
+    if (!known.position_m && given.luminaires_are_named) ids.push_back(known.luminaire.id);
   }
   if (ids.size() < 2) return;
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"luminaires_interchangeable",
        fmt::format(
            "luminaires {} are always on together: their places are found, but not which is at which; they "
@@ -61,17 +61,17 @@ void WarnOfInterchangeable(const Session& session, const std::vector<int>& group
        fmt::format("photograph {} without the others, or give position_m", ids.front())});
 }
 
-void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std::vector<SeenPlace>& seen,
-                      RunContext& context) {
+void RecordFirstGuess(const RoomObservations& given, const FirstGuess& guess,
+                      const std::vector<SeenPlace>& seen, Findings& findings) {
   const std::vector<std::string> among = {"seen in photos", "search over places"};
   for (size_t k = 0; k < guess.luminaires.size(); ++k) {
     const LuminaireGuess& luminaire = guess.luminaires[k];
     if (!luminaire.found || luminaire.seen_candidates == 0) continue;
     const std::string explains = fmt::format("leaves {:.1f} % of the direct light unexplained (rms)",
                                              100 * luminaire.relative_residual);
-    const std::string what = "first guess of " + session.luminaires[k].id;
+    const std::string what = "first guess of " + given.luminaires[k].luminaire.id;
     if (!luminaire.seen) {
-      context.choices.push_back(
+      findings.choices.push_back(
           {what, among[1], among,
            fmt::format("none of the {} bright places in the photos explains its light as well as the place "
                        "found, which {}",
@@ -82,7 +82,7 @@ void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std
     const std::string area = std::isfinite(place.area_m2)
                                  ? fmt::format(", {:.3f} m2 if it faces down", place.area_m2)
                                  : std::string();
-    context.choices.push_back(
+    findings.choices.push_back(
         {what, among[0], among,
          fmt::format(
              "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
@@ -91,8 +91,8 @@ void RecordFirstGuess(const Session& session, const FirstGuess& guess, const std
   }
 }
 
-void RecordStarts(const Session& session, const StartComparison& comparison, RunContext& context) {
-  const std::string id = session.luminaires[static_cast<size_t>(comparison.luminaire)].id;
+void RecordStarts(const RoomObservations& given, const StartComparison& comparison, Findings& findings) {
+  const std::string id = given.luminaires[static_cast<size_t>(comparison.luminaire)].luminaire.id;
   const auto place = [](const Eigen::Vector3d& p) {
     return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
   };
@@ -105,7 +105,7 @@ void RecordStarts(const Session& session, const StartComparison& comparison, Run
                           place(comparison.end[i]));
   }
   const auto chosen = static_cast<size_t>(comparison.chosen);
-  context.choices.push_back(
+  findings.choices.push_back(
       {"start of " + id, among[chosen], among,
        fmt::format(
            "the search found several places that explain its light; of {} starts {} ended within 1 cm of "
@@ -116,7 +116,7 @@ void RecordStarts(const Session& session, const StartComparison& comparison, Run
   std::string others;
   for (const int rival : comparison.rivals)
     others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)]);
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"starts_disagree",
        fmt::format("luminaire {} may hang at {} as well as at {}: both explain its light equally, within one "
                    "standard error; the latter was kept",
@@ -126,44 +126,45 @@ void RecordStarts(const Session& session, const StartComparison& comparison, Run
                    id, id)});
 }
 
-void RecordChoice(const Session& session, const LuminaireChoice& choice, RunContext& context) {
+void RecordChoice(const RoomObservations& given, const LuminaireChoice& choice, Findings& findings) {
   std::string scores;
   for (size_t i = 0; i < choice.among.size(); ++i) {
     scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
   }
   const size_t chosen = static_cast<size_t>(choice.chosen);
-  context.choices.push_back(
-      {"photometry and shape of " + session.luminaires[static_cast<size_t>(choice.luminaire)].id,
+  findings.choices.push_back(
+      {"photometry and shape of " + given.luminaires[static_cast<size_t>(choice.luminaire)].luminaire.id,
        choice.among[chosen], choice.among,
        "simplest within one standard error of the best on patches left out (mean squared normalised "
        "error: " +
            scores + ")"});
 }
 
-void WarnOfContradiction(const Session& session, const Contradiction& found, RunContext& context) {
-  const SessionLuminaire& given = session.luminaires[static_cast<size_t>(found.luminaire)];
+void WarnOfContradiction(const RoomObservations& given, const Contradiction& found, Findings& findings) {
+  const KnownLuminaire& known = given.luminaires[static_cast<size_t>(found.luminaire)];
+  const std::string& id = known.luminaire.id;
   const Luminaire& better = found.better;
   std::string lobe = ToString(better.distribution);
   if (better.distribution == Distribution::kCosinePower)
     lobe += fmt::format(" {:.2f}", better.cosine_exponent);
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"photometry_contradicted",
        fmt::format(
            "what is given of luminaire {} ({}{}) does not explain its light: a {} {} at ({:.2f}, {:.2f}, "
            "{:.2f}) m leaves {:.0f} % of the squared error on patches left out; position and flux fitted "
            "with what is given are not as sure as their sigmas say",
-           given.id, given.photometry, given.shape ? ", " + *given.shape : "", lobe, ToString(better.shape),
-           better.position.x(), better.position.y(), better.position.z(),
+           id, known.photometry_name, known.shape_is_known ? ", " + ToString(known.luminaire.shape) : "",
+           lobe, ToString(better.shape), better.position.x(), better.position.y(), better.position.z(),
            100 * found.score_better / found.score_given),
        fmt::format("check photometry, shape and aim of {}, or set photometry = \"auto\" and leave shape out",
-                   given.id)});
+                   id)});
 }
 
-void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vector3d& start,
-               RunContext& context) {
+void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eigen::Vector3d& start,
+               Findings& findings) {
   const std::string held = NameOf(start);
-  context.choices.push_back(
-      {"aim of " + session.luminaires[static_cast<size_t>(choice.luminaire)].id,
+  findings.choices.push_back(
+      {"aim of " + given.luminaires[static_cast<size_t>(choice.luminaire)].luminaire.id,
        choice.is_free ? "estimated" : held,
        {held, "estimated"},
        fmt::format("simplest within one standard error of the best on patches left out (mean squared "
@@ -172,8 +173,8 @@ void RecordAim(const Session& session, const AimChoice& choice, const Eigen::Vec
                    held, choice.score_held, choice.score_free, choice.standard_error)});
 }
 
-void RecordRefinement(const Session& session, const Refinement& step, RunContext& context) {
-  const std::string& id = session.luminaires[static_cast<size_t>(step.luminaire)].id;
+void RecordRefinement(const RoomObservations& given, const Refinement& step, Findings& findings) {
+  const std::string& id = given.luminaires[static_cast<size_t>(step.luminaire)].luminaire.id;
   std::string scores;
   for (size_t i = 0; i < step.among.size(); ++i) {
     scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", step.among[i], step.score[i]);
@@ -183,14 +184,14 @@ void RecordRefinement(const Session& session, const Refinement& step, RunContext
   const bool is_heading = step.kind == RefinementKind::kHeading;
   const std::string rule =
       is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
-  context.choices.push_back(
+  findings.choices.push_back(
       {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
        fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
                    "one's difference from the first {:.3f})",
                    rule, scores, step.standard_error)});
 }
 
-void RecordDirectShare(const DirectShare& share, RunContext& context) {
+void RecordDirectShare(const DirectShare& share, Findings& findings) {
   std::vector<std::string> among;
   std::string shares;
   for (const DirectShareCandidate& c : share.candidates) {
@@ -200,11 +201,11 @@ void RecordDirectShare(const DirectShare& share, RunContext& context) {
   }
   const std::string interval =
       fmt::format("{:.2f}, 95 % interval {:.2f} to {:.2f}", share.share, share.lower, share.upper);
-  context.choices.push_back({"direct share of the readings", interval, among,
-                             "over all luminaire models that explain the readings as well: " + shares});
+  findings.choices.push_back({"direct share of the readings", interval, among,
+                              "over all luminaire models that explain the readings as well: " + shares});
   if (share.is_determined) return;
-  context.undetermined = true;
-  context.warnings.push_back(
+  findings.undetermined = true;
+  findings.warnings.push_back(
       {"direct_share_undetermined",
        "the readings do not tell light that comes straight from light that comes by the walls: the direct "
        "share is " +
@@ -213,7 +214,7 @@ void RecordDirectShare(const DirectShare& share, RunContext& context) {
        "reflectances in [scene.albedo] or the luminaires' photometry"});
 }
 
-void WarnOfMisfit(const Room& room, const SessionFit& result, RunContext& context) {
+void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
   const LuminaireFit& fit = result.fit;
   constexpr double kUnexplained = 0.25;                     // weight of five sigmas and more
   constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
@@ -238,7 +239,7 @@ void WarnOfMisfit(const Room& room, const SessionFit& result, RunContext& contex
       worst += fmt::format("{}{} ({:.0f} %)", worst.empty() ? "" : ", ", material,
                            100.0 * count.first / count.second);
   }
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"model_misfit",
        fmt::format(
            "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no "
@@ -250,45 +251,45 @@ void WarnOfMisfit(const Room& room, const SessionFit& result, RunContext& contex
        "[states] does not name"});
 }
 
-void RecordOutcome(const Session& session, const LuminaireFit& fit, RunContext& context) {
-  if (!session.count_is_estimated)
-    context.choices.push_back(
-        {"number of luminaires", std::to_string(session.luminaires.size()), {}, "given by the session"});
+void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findings& findings) {
+  if (given.luminaires_are_named)
+    findings.choices.push_back(
+        {"number of luminaires", std::to_string(given.luminaires.size()), {}, "given by the session"});
   if (fit.status == FitStatus::kNotConverged) {
-    context.warnings.push_back(
+    findings.warnings.push_back(
         {"not_converged", fit.message,
          "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
   }
   if (!fit.IsUsable()) {
-    context.undetermined = true;
+    findings.undetermined = true;
     if (fit.null_directions.empty())
-      context.warnings.push_back(
+      findings.warnings.push_back(
           {"parameters_undetermined", fit.message,
            "more readings or views, one luminaire switched alone, or give what is known "
            "of them"});
     for (const NullDirection& direction : fit.null_directions)
-      context.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
+      findings.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
   }
   for (const std::string& name : fit.at_bound) {
-    context.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
-                                "check the mesh around it, or give what is known of it"});
+    findings.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
+                                 "check the mesh around it, or give what is known of it"});
   }
 }
 
-void RecordDetail(const SceneDetail& detail, RunContext& context) {
+void RecordDetail(const SceneDetail& detail, Findings& findings) {
   const std::string why_all = "the radiosity system is factored once: every bounce costs the same as one";
   if (!detail.is_compared) {
-    context.choices.push_back({"bounces", "all", {}, why_all});
+    findings.choices.push_back({"bounces", "all", {}, why_all});
     return;
   }
-  context.choices.push_back(
+  findings.choices.push_back(
       {"bounces", "all", NamesOf(detail.bounces),
        fmt::format(
            "{}; {} would do: the fewest within one standard error of the best on patches left out (mean "
            "squared normalised error: {})",
            why_all, detail.bounces.Chosen().name, ScoresOf(detail.bounces))});
   const auto record = [&](const std::string& what, const DetailChoice& choice, double size_m, double error) {
-    context.choices.push_back(
+    findings.choices.push_back(
         {what + " size",
          fmt::format("{:.2g} m", size_m),
          {fmt::format("{:.2g} m", 2 * size_m), fmt::format("{:.2g} m", size_m)},
@@ -301,7 +302,7 @@ void RecordDetail(const SceneDetail& detail, RunContext& context) {
   record("patch", detail.patches, detail.patch_size_m, detail.patch_error);
   record("element", detail.elements, detail.element_size_m, detail.element_error);
   if (detail.IsFineEnough()) return;
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"elements_too_coarse",
        fmt::format(
            "patches of {:.2g} m err by {:.2g} % of the light, elements of {:.2g} m by {:.2g} %: more than "
@@ -312,8 +313,8 @@ void RecordDetail(const SceneDetail& detail, RunContext& context) {
        "close to a luminaire"});
 }
 
-void RecordColours(const Session& session, const Room& room, const ColourDetail& colours,
-                   RunContext& context) {
+void RecordColours(const RoomObservations& given, const Room& room, const ColourDetail& colours,
+                   Findings& findings) {
   std::string coloured, grey;
   for (size_t m = 0; m < colours.materials.size(); ++m) {
     const DetailChoice& choice = colours.materials[m];
@@ -322,13 +323,13 @@ void RecordColours(const Session& session, const Room& room, const ColourDetail&
     list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", room.scene.materials[m], ScoresOf(choice));
   }
   if (coloured.empty() && grey.empty()) {
-    context.choices.push_back({"colour",
-                               "luminance",
-                               {"luminance", "rgb"},
-                               "readings and fluxes are photometric; no photo tells a material's colour"});
+    findings.choices.push_back({"colour",
+                                "luminance",
+                                {"luminance", "rgb"},
+                                "readings and fluxes are photometric; no photo tells a material's colour"});
     return;
   }
-  context.choices.push_back(
+  findings.choices.push_back(
       {"colour",
        coloured.empty() ? "luminance" : "rgb",
        {"luminance", "rgb"},
@@ -340,10 +341,10 @@ void RecordColours(const Session& session, const Room& room, const ColourDetail&
   std::string tints;
   for (Eigen::Index k = 0; k < colours.tint.cols(); ++k) {
     if (colours.tint.col(k).allFinite())
-      tints += fmt::format("; {} {:.3f} {:.3f} {:.3f}", session.luminaires[static_cast<size_t>(k)].id,
+      tints += fmt::format("; {} {:.3f} {:.3f} {:.3f}", given.luminaires[static_cast<size_t>(k)].luminaire.id,
                            colours.tint(0, k), colours.tint(1, k), colours.tint(2, k));
   }
-  context.choices.push_back(
+  findings.choices.push_back(
       {"colour of the luminaires", colours.luminaires.Chosen().name, NamesOf(colours.luminaires),
        fmt::format(
            "the simplest within one standard error of the best on patches left out (mean squared normalised "

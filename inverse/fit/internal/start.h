@@ -1,15 +1,15 @@
-// What a fit starts from: what the session gives, completed by a first guess.
+// Makes the start of a fit: what is given, completed by a first guess.
 //
 // Reflectances and the camera's scale are known, to be estimated, or out of reach; luminaires have the place,
 // flux and photometry that are given, and what the guess says of the rest. What is given with a sigma becomes
 // a prior.
-#ifndef LUXFIT_APPS_STAGES_INTERNAL_FIT_START_H_
-#define LUXFIT_APPS_STAGES_INTERNAL_FIT_START_H_
+#ifndef LUXFIT_INVERSE_FIT_INTERNAL_START_H_
+#define LUXFIT_INVERSE_FIT_INTERNAL_START_H_
 
 #include <vector>
 
-#include "apps/stages/internal/light_data.h"
-#include "apps/stages/stages.h"
+#include "forward/light/room.h"
+#include "inverse/fit/internal/room_light.h"
 
 namespace luxfit {
 
@@ -22,10 +22,10 @@ struct FitStart {
 };
 
 // `guess_from`: the data of `light` with the indirect light that photos measured, or readings alone. Records
-// choices, warns of what is not determined. Throws as ReadGivenLuminaire does.
-FitStart StartFit(const Session& session, const Room& room, const SessionLight& light,
-                  const LightData& guess_from, const std::vector<SeenPlace>& seen, RunContext& context);
+// choices, warns of what is not determined.
+FitStart StartFit(const Room& room, const RoomObservations& given, const RoomLight& light,
+                  const LightData& guess_from, Findings& findings);
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_APPS_STAGES_INTERNAL_FIT_START_H_
+#endif  // LUXFIT_INVERSE_FIT_INTERNAL_START_H_

@@ -1,0 +1,117 @@
+#include "apps/stages/session_light.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/stages/given_luminaire.h"
+#include "inverse/fit/count_luminaires.h"
+
+namespace luxfit {
+namespace {
+
+KnownPhotometry PhotometryOf(const SessionLuminaire& given) {
+  if (!given.photometry_path.empty()) return KnownPhotometry::kFile;
+  if (given.photometry == "auto") return KnownPhotometry::kNothing;
+  if (given.photometry != "table") return KnownPhotometry::kLobe;
+  return given.gamma_deg.empty() ? KnownPhotometry::kTableOpen : KnownPhotometry::kTable;
+}
+
+KnownLuminaire KnownOf(const SessionLuminaire& given) {
+  KnownLuminaire known;
+  GivenLuminaire read = ReadGivenLuminaire(given);
+  known.luminaire = std::move(read.luminaire);
+  known.file = std::move(read.file);
+  known.photometry = PhotometryOf(given);
+  known.photometry_name = given.photometry;
+  known.shape_is_known = given.shape.has_value();
+  known.position_m = given.position_m;
+  known.position_sigma_m = given.position_sigma_m;
+  known.aim = given.aim;
+  known.heading = given.heading;
+  known.flux_lm = given.flux_lm;
+  known.flux_sigma_lm = given.flux_sigma_lm;
+  known.is_held = given.is_held;
+  return known;
+}
+
+Meter MeterOf(const Session& session) {
+  const SessionLuxmeter& given = session.luxmeter;
+  Meter meter;
+  meter.common_sigma = given.common_sigma;
+  meter.sensor_sigma = given.sensor_sigma;
+  std::map<std::string, int> sensors;
+  for (const SessionReading& reading : given.readings) {
+    MeterReading taken;
+    taken.sensor = {reading.position_m, reading.normal, given.response};
+    taken.state = std::max(0, StateIndex(session, reading.state));
+    taken.illuminance_lx = reading.illuminance_lx;
+    taken.ambient_lx = reading.ambient_lx;
+    taken.used = reading.role != ReadingRole::kCheck;
+    if (!reading.sensor.empty())
+      taken.sensor_index = sensors.emplace(reading.sensor, static_cast<int>(sensors.size())).first->second;
+    meter.readings.push_back(taken);
+  }
+  meter.sensor_count = static_cast<int>(sensors.size());
+  return meter;
+}
+
+// By material of the room's mesh: the luminance reflectance that the session gives.
+std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room) {
+  std::vector<std::optional<double>> known(room.scene.materials.size());
+  for (size_t m = 0; session.scene && m < known.size(); ++m) {
+    const auto given = session.scene->known_albedo_rgb.find(room.scene.materials[m]);
+    if (given != session.scene->known_albedo_rgb.end())
+      known[m] = LuminanceWeights(session).dot(given->second);
+  }
+  return known;
+}
+
+// Relative luminance 1 is full scale at 1 s.
+std::optional<double> CameraScale(const Session& session) {
+  if (session.cameras.empty() || !(session.cameras[0].cdm2_per_count_s > 0)) return std::nullopt;
+  const SessionCamera& camera = session.cameras[0];
+  return 1 / (camera.cdm2_per_count_s * (camera.full_scale_counts - camera.black_level_counts));
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
+  std::vector<Eigen::VectorXd> by_state;
+  for (const SessionState& state : session.states) {
+    Eigen::VectorXd dimming = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(session.luminaires.size()));
+    for (size_t k = 0; k < session.luminaires.size(); ++k) {
+      const auto on = state.dimming.find(session.luminaires[k].id);
+      if (on != state.dimming.end()) dimming[static_cast<Eigen::Index>(k)] = on->second;
+    }
+    by_state.push_back(std::move(dimming));
+  }
+  return by_state;
+}
+
+RoomObservations RoomObservationsOf(const Session& session, const Room& room,
+                                    const SessionObservations& observed) {
+  RoomObservations given;
+  for (const SessionLuminaire& luminaire : session.luminaires) given.luminaires.push_back(KnownOf(luminaire));
+  given.luminaires_are_named = !session.count_is_estimated;
+  given.dimming = DimmingOf(session);
+  given.observations = observed.observations;
+  given.seen = observed.seen;
+  given.meter = MeterOf(session);
+  given.albedo = KnownAlbedo(session, room);
+  given.camera_scale = CameraScale(session);
+  return given;
+}
+
+Session WithCountedLuminaires(Session session, const Room& room, const SessionObservations& observed,
+                              RunContext& context) {
+  if (!session.count_is_estimated) return session;
+  const StageTimer timer(context, "count", "how many luminaires there are");
+  const int count =
+      CountLuminaires(room, RoomObservationsOf(session, room, observed), session.max_luminaires, context);
+  return WithMoreLuminaires(std::move(session), count);
+}
+
+}  // namespace luxfit

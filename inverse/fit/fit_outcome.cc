@@ -1,0 +1,78 @@
+#include "inverse/fit/fit_outcome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace luxfit {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Whether every luminaire that is on in the state was found.
+bool IsLit(const RoomFit& fit, int state) {
+  const Eigen::VectorXd& dimming = fit.data.dimming[static_cast<size_t>(state)];
+  for (size_t k = 0; k < fit.luminaire_found.size(); ++k)
+    if (dimming[static_cast<Eigen::Index>(k)] > 0 && !fit.luminaire_found[k]) return false;
+  return true;
+}
+
+}  // namespace
+
+double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity) {
+  for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
+    const Parameter& p = fit.parameters[i];
+    const bool same =
+        p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
+    if (!same) continue;
+    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.name) == 0;
+    const auto row = static_cast<Eigen::Index>(i);
+    return known ? std::sqrt(fit.covariance(row, row)) : kUnknown;
+  }
+  return 0;
+}
+
+bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
+  return fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[luminaire].flux);
+}
+
+std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit) {
+  std::vector<EstimatedLuminaire> found;
+  for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
+    if (!fit.luminaire_found[k]) continue;
+    const Luminaire& luminaire = fit.fit.state.luminaires[k];
+    const int index = static_cast<int>(k);
+    EstimatedLuminaire estimated;
+    estimated.id = luminaire.id;
+    estimated.position = luminaire.position;
+    for (int axis = 0; axis < 3; ++axis)
+      estimated.position_sigma_m[axis] =
+          SigmaOf(fit.fit, ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis));
+    const bool has_flux = !fit.absolute || IsFluxKnown(fit, k);
+    estimated.flux = has_flux ? luminaire.flux_lm : kUnknown;
+    estimated.flux_sigma =
+        has_flux ? luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index) : kUnknown;
+    found.push_back(estimated);
+  }
+  return found;
+}
+
+std::vector<PredictedReading> PredictedReadings(const RoomFit& fit) {
+  std::vector<PredictedReading> readings;
+  if (fit.fit.predicted.size() == 0) return readings;
+  const auto first = static_cast<Eigen::Index>(fit.data.observations.size());
+  for (size_t i = 0; i < fit.data.readings.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    PredictedReading reading;
+    reading.is_known = fit.absolute && fit.IsUsable() && IsLit(fit, fit.data.readings[i].state);
+    reading.illuminance_lx = fit.fit.predicted[first + row];
+    reading.direct_lx = fit.fit.reading_direct_lx[row];
+    reading.parameter_sigma_lx = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
+    reading.sigma_lx =
+        std::hypot(reading.parameter_sigma_lx, fit.fit.relative_sigma * reading.illuminance_lx);
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,264 @@
+#include "inverse/fit/fit_room.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "forward/luminaire/photometry.h"
+#include "inverse/albedo/albedo_rgb.h"
+#include "inverse/choose/choose_model.h"
+#include "inverse/choose/colour_detail.h"
+#include "inverse/choose/contradiction.h"
+#include "inverse/choose/scene_detail.h"
+#include "inverse/choose/several_starts.h"
+#include "inverse/fit/internal/room_light.h"
+#include "inverse/fit/internal/start.h"
+#include "inverse/fit/internal/words.h"
+#include "inverse/model/measured_indirect.h"
+
+namespace luxfit {
+namespace {
+
+// A class because each step adds to the same few things.
+class RoomFitter {
+ public:
+  RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
+      : room_(room), given_(given), options_(options), light_(LightOf(given)) {
+    RecordReadings(given.meter, light_, result_.findings);
+    result_.data = light_.data;
+  }
+
+  RoomFit Run() {
+    const auto step = Begin(
+        "fit", fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
+                           result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
+    LightState state = StartByParts();
+    SettleScale(state);
+    LuminaireFit fit = FitToAll(state);
+    if (fit.IsUsable() && AsksForDirectShare()) {
+      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, start_.priors);
+      RecordDirectShare(*result_.direct_share, result_.findings);
+    }
+    result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
+    CompareDetails(fit);
+    result_.fit = std::move(fit);
+    WarnOfMisfit(room_, result_, result_.findings);
+    RecordOutcome(given_, result_.fit, result_.findings);
+    return std::move(result_);
+  }
+
+ private:
+  // Held for as long as the step goes on.
+  std::shared_ptr<void> Begin(const std::string& step, const std::string& words) const {
+    return options_.on_step ? options_.on_step(step, words) : nullptr;
+  }
+
+  // A start that needs no more than a few steps of the whole problem: places, models and fluxes of the
+  // luminaires. Photos hold the indirect light that they measured for that; readings alone need the
+  // radiosity.
+  LightState StartByParts() {
+    const bool photos = !result_.data.observations.empty();
+    LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
+    {
+      const auto step = Begin("guess", "where the luminaires may be");
+      start_ = StartFit(room_, given_, light_, data, result_.findings);
+      result_.luminaire_found = start_.luminaire_found;
+    }
+    LightState state = start_.state;
+    // Without readings, a flux tells the camera's scale, or it is given.
+    if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;
+    if (photos) state.meter_scale_free = false;
+    LightData part = data;
+    part.observations = ThinElements(data.observations, options_.max_elements_to_choose);
+    FitLuminairesOptions quick;
+    quick.covariance = false;
+    LuminaireFit fit = FitLuminaires(room_, part, state, start_.priors, quick);
+    if (fit.status == FitStatus::kNoData) return start_.state;
+    if (photos) {
+      // With the radiosity solved, so that the models are compared in its light.
+      part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
+      part.indirect_is_held = false;
+      fit = FitLuminaires(room_, part, fit.state, start_.priors, quick);
+      data = WithModelledIndirect(room_, result_.data, fit.state);
+    }
+    if (!fit.IsUsable()) return start_.state;
+    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
+    for (const StartComparison& c : starts.comparisons) RecordStarts(given_, c, result_.findings);
+    state = ChooseModels(data, starts.state);
+    state.camera_scale_free = start_.state.camera_scale_free;
+    state.meter_scale_free = start_.state.meter_scale_free;
+    return state;
+  }
+
+  LightState ChooseModels(const LightData& data, const LightState& state) {
+    const auto step = Begin("choose", "the simplest model of each luminaire that the data support");
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      const KnownLuminaire& known = given_.luminaires[k];
+      const bool found = result_.luminaire_found[k];
+      open_.push_back({found && known.photometry == KnownPhotometry::kNothing,
+                       found && !known.shape_is_known && known.photometry != KnownPhotometry::kFile,
+                       found && !known.aim.has_value(), RefinementsOf(k)});
+    }
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, start_.priors);
+    for (const LuminaireChoice& c : choice.choices) RecordChoice(given_, c, result_.findings);
+    for (const AimChoice& c : choice.aims)
+      RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
+    for (const Refinement& r : choice.refinements) RecordRefinement(given_, r, result_.findings);
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, start_.priors))
+      WarnOfContradiction(given_, c, result_.findings);
+    return choice.state;
+  }
+
+  // What detail the data ask for, at the fitted state; materials that are as good grey are given as grey.
+  void CompareDetails(const LuminaireFit& fit) {
+    const auto step = Begin("detail", "");
+    RecordDetail(CompareDetail(room_, result_.data, fit), result_.findings);
+    const ColourDetail colours = CompareColours(room_, result_.data, fit);
+    RecordColours(given_, room_, colours, result_.findings);
+    if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) result_.tint_rgb = colours.tint;
+    for (size_t m = 0; m < colours.materials.size(); ++m) {
+      const Eigen::Index material = static_cast<Eigen::Index>(m);
+      if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)
+        result_.albedo_rgb.col(material).setConstant(fit.state.albedo[material]);
+    }
+  }
+
+  // A size that shrank to nothing beside the others' light is a point.
+  LightState WithoutVanishedSizes(LightState state) {
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      Luminaire& luminaire = state.luminaires[k];
+      if (!state.free[k].size || !HasVanished(luminaire)) continue;
+      result_.findings.choices.push_back(
+          {"shape of " + luminaire.id,
+           "point",
+           {ToString(luminaire.shape), "point"},
+           "its size shrank to nothing in the fit of all luminaires together"});
+      luminaire.shape = LuminaireShape::kPoint;
+      luminaire.size_m.setZero();
+      state.free[k].size = false;
+    }
+    return state;
+  }
+
+  // The whole problem: on a part of the elements until nothing moves, then on all of them.
+  LuminaireFit FitToAll(const LightState& start) {
+    const auto step = Begin("refine", "the whole problem, interreflection solved");
+    LightData part = result_.data;
+    part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
+    if (part.observations.size() == result_.data.observations.size())
+      return FitLuminaires(room_, result_.data, start, start_.priors);
+    FitLuminairesOptions options;
+    options.covariance = false;
+    LuminaireFit near = FitLuminaires(room_, part, start, start_.priors, options);
+    if (near.status == FitStatus::kNoData) return near;
+    const LightState refined = WithoutVanishedSizes(near.state);
+    options.covariance = true;
+    options.start_is_near = true;
+    options.initial_relative_sigma = near.relative_sigma;
+    return FitLuminaires(room_, result_.data, refined, start_.priors, options);
+  }
+
+  // What is open of a luminaire beyond its simple model.
+  OpenRefinements RefinementsOf(size_t k) const {
+    const KnownLuminaire& known = given_.luminaires[k];
+    const Luminaire& start = start_.state.luminaires[k];
+    OpenRefinements open;
+    if (!result_.luminaire_found[k] || known.is_held) return open;
+    const bool is_file = known.photometry == KnownPhotometry::kFile;
+    open.heading = is_file && !known.heading && !IsSymmetricAboutAim(*start.table);
+    open.table_asked_for = known.photometry == KnownPhotometry::kTableOpen;
+    open.aim = (is_file || open.table_asked_for) && !known.aim;
+    open.table = known.photometry == KnownPhotometry::kNothing || open.table_asked_for;
+    // Finer models of the luminaire would take up what is the walls', while these are not known.
+    if (AsksForDirectShare()) {
+      open.table = open.table_asked_for;
+      return open;
+    }
+    open.emission = !is_file && known.photometry != KnownPhotometry::kTable &&
+                    known.luminaire.emission.size() == 0 &&
+                    (!known.shape_is_known || known.luminaire.shape == LuminaireShape::kRectangle);
+    return open;
+  }
+
+  // Reflectances that only readings speak of.
+  bool AsksForDirectShare() const {
+    return result_.data.observations.empty() && light_.used_readings > 0 &&
+           std::count(start_.state.albedo_free.begin(), start_.state.albedo_free.end(), true) > 0;
+  }
+
+  // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
+  // camera.
+  void SettleScale(LightState& state) {
+    result_.absolute = light_.used_readings > 0 || start_.flux_known || !state.camera_scale_free;
+    if (!result_.absolute) {
+      state.camera_scale_free = false;
+      result_.findings.undetermined = true;
+      result_.findings.warnings.push_back(
+          {"scale_undetermined",
+           "the fluxes of all luminaires and the camera's scale are known only up to one common factor",
+           "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
+           "sigma"});
+    }
+    if (light_.used_readings > 0 && state.camera_scale_free) MatchScale(state);
+  }
+
+  // Fluxes in the readings' scale: one linear factor, solved exactly.
+  void MatchScale(LightState& state) const {
+    LightData readings;
+    readings.dimming = result_.data.dimming;
+    for (const Reading& reading : result_.data.readings) {
+      if (reading.used) readings.readings.push_back(reading);
+    }
+    LightModel model(room_, readings);
+    model.FreezeVisibility(state);
+    const double modelled = model.Predict(state, {}, false).value.sum();
+    double measured = 0;
+    for (const Reading& reading : readings.readings) measured += reading.illuminance_lx;
+    if (!(measured > 0) || !(modelled > 0)) return;
+    for (size_t k = 0; k < state.luminaires.size(); ++k) {
+      if (state.free[k].flux && !given_.luminaires[k].flux_lm)
+        state.luminaires[k].flux_lm *= measured / modelled;
+    }
+    state.camera_scale *= modelled / measured;
+  }
+
+  const Room& room_;
+  const RoomObservations& given_;
+  const FitRoomOptions& options_;
+  RoomLight light_;
+  RoomFit result_;
+  FitStart start_;
+  std::vector<OpenChoice> open_;
+};
+
+void ExpectWhole(const Room& room, const RoomObservations& given) {
+  const auto expect = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("FitRoom: expected ") + what);
+  };
+  expect(!given.luminaires.empty(), "at least one luminaire");
+  expect(!given.dimming.empty(), "at least one state");
+  for (const Eigen::VectorXd& dimming : given.dimming)
+    expect(dimming.size() == static_cast<Eigen::Index>(given.luminaires.size()),
+           "one dimming a luminaire in each state");
+  const int states = static_cast<int>(given.dimming.size());
+  for (const MeterReading& reading : given.meter.readings)
+    expect(reading.state >= 0 && reading.state < states && reading.sensor_index < given.meter.sensor_count,
+           "readings of known states and sensors");
+  expect(given.albedo.empty() || given.albedo.size() == room.scene.materials.size(),
+         "one albedo a material, or none");
+  const bool has_used = std::any_of(given.meter.readings.begin(), given.meter.readings.end(),
+                                    [](const MeterReading& r) { return r.used; });
+  expect(!given.observations.empty() || has_used, "observations or readings to fit to");
+}
+
+}  // namespace
+
+RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options) {
+  ExpectWhole(room, observations);
+  return RoomFitter(room, observations, options).Run();
+}
+
+}  // namespace luxfit

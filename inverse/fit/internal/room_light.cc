@@ -1,0 +1,84 @@
+#include "inverse/fit/internal/room_light.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace luxfit {
+namespace {
+
+// Relative standard uncertainty of a reading whose meter's class is not given: between DIN 5032-7 classes L
+// and B.
+constexpr double kUnknownMeterSigma = 0.02;
+// Of a single reading of a meter whose class is given: placing it, and its display.
+constexpr double kReadingSigma = 0.01;
+
+// Sensors of one meter, each with a gain of its own that its readings share.
+void AddSensorGains(double sigma, int sensors, RoomLight& light) {
+  if (sensors == 0) return;
+  light.sensor_gain = Eigen::VectorXd::Ones(sensors);
+  light.sensor_gains_free = light.used_readings > 0;
+  for (int i = 0; light.sensor_gains_free && i < sensors; ++i)
+    light.priors.push_back({ParameterKind::kLogSensorGain, i, {}, 0, sigma});
+}
+
+}  // namespace
+
+RoomLight LightOf(const RoomObservations& given) {
+  RoomLight light;
+  light.data.dimming = given.dimming;
+  light.data.observations = MergeViews(given.observations).observations;
+  const Meter& meter = given.meter;
+  const bool has_fitted =
+      std::any_of(meter.readings.begin(), meter.readings.end(), [](const MeterReading& r) { return r.used; });
+  const bool has_class = meter.common_sigma > 0;
+  // The calibration error is one and the same in all readings: a parameter where readings are fitted to, else
+  // a part of each.
+  light.meter_scale_free = has_class && has_fitted;
+  if (light.meter_scale_free)
+    light.priors.push_back({ParameterKind::kLogMeterScale, 0, {}, 0, meter.common_sigma});
+  double relative = has_class ? kReadingSigma : kUnknownMeterSigma;
+  if (has_class && !has_fitted) relative = std::hypot(kReadingSigma, meter.common_sigma);
+  for (const MeterReading& taken : meter.readings) {
+    Reading reading;
+    reading.sensor = taken.sensor;
+    reading.state = taken.state;
+    reading.illuminance_lx = taken.illuminance_lx;
+    // Of the reading as it was taken, and of the one that was subtracted from it.
+    const double taken_lx = std::hypot(taken.illuminance_lx + taken.ambient_lx, taken.ambient_lx);
+    reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
+    reading.used = taken.used;
+    reading.sensor_index = taken.sensor_index;
+    light.used_readings += reading.used ? 1 : 0;
+    light.data.readings.push_back(reading);
+  }
+  AddSensorGains(meter.sensor_sigma, meter.sensor_count, light);
+  return light;
+}
+
+void RecordReadings(const Meter& meter, const RoomLight& light, Findings& findings) {
+  if (light.sensor_gain.size() > 0) {
+    findings.choices.push_back(
+        {"gains of the meter's sensors",
+         fmt::format("{} gains, each 1 ± {:g} beforehand", light.sensor_gain.size(), meter.sensor_sigma),
+         {},
+         "the readings' table has a column sensor"});
+  }
+  if (light.meter_scale_free) {
+    findings.choices.push_back({"uncertainty of a reading",
+                                fmt::format("{:g} % of each, {:g} % common to all (1 sigma)",
+                                            100 * kReadingSigma, 100 * meter.common_sigma),
+                                {"each by itself", "one common scale"},
+                                "luxmeter.class is a calibration's: more readings do not lessen it"});
+  } else if (!meter.readings.empty() && meter.common_sigma == 0) {
+    findings.choices.push_back(
+        {"uncertainty of a reading",
+         fmt::format("{:g} % (1 sigma)", 100 * kUnknownMeterSigma),
+         {},
+         "luxmeter.class is not given; class B (10 % expanded) would be 5 %, L 1.5 %"});
+  }
+}
+
+}  // namespace luxfit
