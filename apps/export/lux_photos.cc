@@ -1,16 +1,16 @@
 #include "apps/export/lux_photos.h"
 
-#include "apps/session/tag_quads.h"
 #include "apps/version.h"
 #include "calib/luminance/exr_channels.h"
 #include "calib/luminance/false_colours.h"
+#include "inverse/observe/tag_quads.h"
 
 namespace luxfit {
 
 PhotoView ViewOf(const FittedRoom& fitted, int camera, const PixelDirections& directions,
                  const Eigen::Isometry3d& cam_from_world) {
   const Camera& of = fitted.registered.cameras[static_cast<size_t>(camera)];
-  const std::vector<PixelQuad> tags = TagQuads(fitted.session, of, cam_from_world);
+  const std::vector<PixelQuad> tags = TagQuads(fitted.session.tags.survey, of, cam_from_world);
   return {MapPixels(of, directions, cam_from_world, fitted.room, tags, DensePixels()),
           MapPixels(of, directions, cam_from_world, fitted.room, tags)};
 }

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/session/tag_quads.h"
 #include "apps/stages/internal/linearize.h"
 #include "apps/stages/internal/observed_light.h"
 #include "apps/stages/stages.h"
@@ -16,6 +15,7 @@
 #include "calib/luminance/bright_blobs.h"
 #include "calib/luminance/luminance.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/tag_quads.h"
 
 namespace luxfit {
 namespace {
@@ -104,7 +104,7 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
     const size_t c = static_cast<size_t>(view.camera);
     const Camera& camera = registered.cameras[c];
     maps.push_back(MapPixels(camera, directions[c], view.cam_from_world, room,
-                             TagQuads(session, camera, view.cam_from_world)));
+                             TagQuads(session.tags.survey, camera, view.cam_from_world)));
   }
   const bool has_ambient = HasAmbientState(session);
   if (has_ambient) RecordAmbient(session, context);

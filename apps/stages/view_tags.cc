@@ -3,10 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
-#include "calib/luminance/luminance.h"
 #include "calib/targets/tag_refine.h"
 
 namespace luxfit {
@@ -24,19 +22,6 @@ double DimmingSum(const Session& session, const SessionPhoto& photo) {
     return sum;
   }
   return 0;
-}
-
-std::vector<TagDetection> DetectInPhoto(const Session& session, const SessionPhoto& photo,
-                                        const Camera& camera) {
-  const LuminanceImage image = ReadLuminance(session, photo, camera);
-  DetectTagsOptions options;
-  options.family = session.tags.family;
-  RefineTagCornersOptions refine;
-  refine.family = session.tags.family;
-  // Saturated pixels say nothing about an edge's place.
-  const ImagePlane unsaturated =
-      image.saturated.select(std::numeric_limits<float>::quiet_NaN(), image.relative_luminance);
-  return RefineTagCorners(unsaturated, camera, DetectTags(image.relative_luminance, options), refine);
 }
 
 }  // namespace
@@ -71,7 +56,8 @@ std::vector<ViewDetections> DetectViews(const Session& session, const std::vecto
   std::vector<std::vector<TagDetection>> found(jobs.size());
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
     const SessionPhoto& photo = *jobs[i].second;
-    found[i] = DetectInPhoto(session, photo, cameras[static_cast<size_t>(photo.camera)]);
+    const Camera& camera = cameras[static_cast<size_t>(photo.camera)];
+    found[i] = FindTagCorners(ReadLuminance(session, photo, camera), camera, session.tags.family);
     Advance(context, jobs.size());
   });
   std::vector<std::vector<std::vector<TagDetection>>> of_view(detections.size());

@@ -376,4 +376,15 @@ std::vector<TagDetection> RefineTagCorners(const ImagePlane& grey, const Camera&
   return refined;
 }
 
+std::vector<TagDetection> FindTagCorners(const LuminanceImage& photo, const Camera& camera,
+                                         const std::string& family) {
+  DetectTagsOptions detect;
+  detect.family = family;
+  RefineTagCornersOptions refine;
+  refine.family = family;
+  const ImagePlane unsaturated =
+      photo.saturated.select(std::numeric_limits<float>::quiet_NaN(), photo.relative_luminance);
+  return RefineTagCorners(unsaturated, camera, DetectTags(photo.relative_luminance, detect), refine);
+}
+
 }  // namespace luxfit

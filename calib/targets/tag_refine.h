@@ -22,6 +22,7 @@
 
 #include "calib/lens/camera.h"
 #include "calib/luminance/image.h"
+#include "calib/luminance/luminance.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {
@@ -42,6 +43,11 @@ struct RefineTagCornersOptions {
 std::vector<TagDetection> RefineTagCorners(const ImagePlane& grey, const Camera& camera,
                                            const std::vector<TagDetection>& detections,
                                            const RefineTagCornersOptions& options = {});
+
+// Detects the tags of a photo and refines their corners: DetectTags, then RefineTagCorners. Saturated pixels say nothing about an
+// edge's place and are left out. Throws as both do.
+std::vector<TagDetection> FindTagCorners(const LuminanceImage& photo, const Camera& camera,
+                                         const std::string& family = "tag36h11");
 
 }  // namespace luxfit
 

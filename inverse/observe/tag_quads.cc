@@ -1,4 +1,4 @@
-#include "apps/session/tag_quads.h"
+#include "inverse/observe/tag_quads.h"
 
 namespace luxfit {
 namespace {
@@ -8,10 +8,10 @@ constexpr double kTagMargin = 1.5;
 
 }  // namespace
 
-std::vector<PixelQuad> TagQuads(const Session& session, const Camera& camera,
+std::vector<PixelQuad> TagQuads(const std::vector<SurveyedTag>& survey, const Camera& camera,
                                 const Eigen::Isometry3d& cam_from_world) {
   std::vector<PixelQuad> quads;
-  for (SurveyedTag tag : session.tags.survey) {
+  for (SurveyedTag tag : survey) {
     tag.size_m *= kTagMargin;
     PixelQuad quad;
     bool in_front = true;
