@@ -1,3 +1,4 @@
+luxfit_test(inverse/select one_standard_error_test LINK luxfit::inverse)
 luxfit_test(inverse/observe observe_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_test LINK luxfit::inverse)
 luxfit_test(inverse/model measured_indirect_test LINK luxfit::inverse)

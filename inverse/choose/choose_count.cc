@@ -9,6 +9,7 @@
 #include "inverse/model/first_guess.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/model/internal/sparse_luminaires.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
@@ -78,21 +79,14 @@ std::optional<Trial> Try(const Room& room, const SubProblem& problem, const Ligh
   return Trial{count, model.Predict(fit.state, {}, false).value, fit.relative_sigma};
 }
 
-std::vector<std::map<int, GroupScore>> Scores(const SubProblem& problem, const std::vector<Trial>& trials) {
+Selection Select(const SubProblem& problem, const std::vector<Trial>& trials) {
   double relative_sigma = 1;
   for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
-  std::vector<std::map<int, GroupScore>> scores;
-  scores.reserve(trials.size());
-  for (const Trial& trial : trials) scores.push_back(ScoreGroups(problem, trial.predicted, relative_sigma));
-  return scores;
-}
-
-size_t BestOf(const std::vector<std::map<int, GroupScore>>& scores) {
-  size_t best = 0;
-  for (size_t i = 1; i < scores.size(); ++i) {
-    if (Mean(scores[i]) < Mean(scores[best])) best = i;
-  }
-  return best;
+  std::vector<SelectionCandidate> candidates;
+  for (const Trial& trial : trials)
+    candidates.push_back(
+        {ScoreGroups(problem, trial.predicted, relative_sigma), static_cast<double>(trial.count), true});
+  return SimplestWithinOneStandardError(candidates);
 }
 
 }  // namespace
@@ -126,19 +120,15 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
     const std::optional<Trial> trial = Try(room, problem, state, found, options);
     if (!trial) break;
     trials.push_back(*trial);
-    if (trials.size() - 1 - BestOf(Scores(problem, trials)) >= kPatience) break;
+    if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;
   }
   if (trials.empty()) return choice;
-  const std::vector<std::map<int, GroupScore>> scores = Scores(problem, trials);
-  const size_t best = BestOf(scores);
-  for (size_t i = 0; i < trials.size(); ++i) {
-    const PairedDifference difference = Difference(scores[i], scores[best]);
-    choice.among.push_back(trials[i].count);
-    choice.score.push_back(Mean(scores[i]));
-    choice.standard_error.push_back(difference.standard_error);
-    if (choice.chosen == 0 && difference.mean <= difference.standard_error) choice.chosen = trials[i].count;
-  }
-  choice.reached_max = trials[best].count == options.max_count;
+  Selection selection = Select(problem, trials);
+  for (const Trial& trial : trials) choice.among.push_back(trial.count);
+  choice.chosen = trials[selection.chosen].count;
+  choice.score = std::move(selection.score);
+  choice.standard_error = std::move(selection.standard_error);
+  choice.reached_max = trials[selection.best].count == options.max_count;
   return choice;
 }
 

@@ -11,6 +11,7 @@
 
 #include "inverse/choose/internal/left_out.h"
 #include "inverse/choose/internal/refine_luminaire.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
@@ -52,28 +53,19 @@ void Apply(const ModelCandidate& candidate, bool aim_is_free, double start_size_
 }
 
 LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
-                       const std::vector<std::map<int, GroupScore>>& scores) {
+                       const std::vector<GroupScores>& scores) {
   LuminaireChoice choice;
   choice.luminaire = luminaire;
-  size_t best = 0;
+  std::vector<SelectionCandidate> selectable;
   for (size_t c = 0; c < candidates.size(); ++c) {
-    choice.among.push_back(AllCandidates()[static_cast<size_t>(candidates[c])].name);
-    choice.score.push_back(Mean(scores[c]));
-    if (choice.score[c] < choice.score[best]) best = c;
+    const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(candidates[c])];
+    choice.among.push_back(candidate.name);
+    selectable.push_back({scores[c], static_cast<double>(candidate.parameters), true});
   }
-  choice.chosen = static_cast<int>(best);
-  for (size_t c = 0; c < candidates.size(); ++c) {
-    const PairedDifference difference = Difference(scores[c], scores[best]);
-    choice.standard_error.push_back(difference.standard_error);
-    // Candidates stand in the order of their complexity; among equals the better.
-    const auto parameters = [&](size_t i) {
-      return AllCandidates()[static_cast<size_t>(candidates[i])].parameters;
-    };
-    const size_t held = static_cast<size_t>(choice.chosen);
-    const bool simpler = parameters(c) < parameters(held) ||
-                         (parameters(c) == parameters(held) && choice.score[c] < choice.score[held]);
-    if (difference.mean <= difference.standard_error && simpler) choice.chosen = static_cast<int>(c);
-  }
+  Selection selection = SimplestWithinOneStandardError(selectable);
+  choice.score = std::move(selection.score);
+  choice.standard_error = std::move(selection.standard_error);
+  choice.chosen = static_cast<int>(selection.chosen);
   return choice;
 }
 
@@ -114,20 +106,21 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
   }
   if (point == nullptr || point->relative_sigma > kGoodPoint) return false;
   if (disc == nullptr) return true;  // the disc vanished
-  const PairedDifference gain = Difference(ScoreGroups(problem, point->predicted, relative_sigma),
-                                           ScoreGroups(problem, disc->predicted, relative_sigma));
-  return gain.mean <= gain.standard_error;
+  const Selection selection =
+      SimplestWithinOneStandardError({{ScoreGroups(problem, point->predicted, relative_sigma), 0, true},
+                                      {ScoreGroups(problem, disc->predicted, relative_sigma), 1, true}});
+  return selection.chosen == 0;
 }
 
 AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedCandidate& held,
                       const FittedCandidate& free) {
   const double relative_sigma = std::min(held.relative_sigma, free.relative_sigma);
-  const std::map<int, GroupScore> score_held = ScoreGroups(problem, held.predicted, relative_sigma),
-                                  score_free = ScoreGroups(problem, free.predicted, relative_sigma);
-  const PairedDifference gain = Difference(score_held, score_free);
-  constexpr size_t kFewestGroups = 4;  // fewer have no standard error to speak of
-  const bool is_free = score_held.size() >= kFewestGroups && gain.mean > gain.standard_error;
-  return {luminaire, is_free, Mean(score_held), Mean(score_free), gain.standard_error};
+  const Selection selection =
+      SimplestWithinOneStandardError({{ScoreGroups(problem, held.predicted, relative_sigma), 0, true},
+                                      {ScoreGroups(problem, free.predicted, relative_sigma), 1, true}});
+  const size_t worse = 1 - selection.best;
+  return {luminaire, selection.chosen == 1, selection.score[0], selection.score[1],
+          selection.standard_error[worse]};
 }
 
 // What was open of one luminaire, and what came of it.
@@ -207,7 +200,7 @@ class LuminaireChooser {
     double relative_sigma = 1;
     for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.relative_sigma);
     std::vector<int> candidates;
-    std::vector<std::map<int, GroupScore>> scores;
+    std::vector<GroupScores> scores;
     for (const FittedCandidate& f : fitted) {
       candidates.push_back(f.candidate);
       scores.push_back(ScoreGroups(problem_, f.predicted, relative_sigma));

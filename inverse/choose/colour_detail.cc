@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
-#include "inverse/choose/internal/simplest_choice.h"
 #include "inverse/model/measured_indirect.h"
 
 namespace luxfit {
@@ -117,9 +116,9 @@ void Cut(std::vector<Row>& rows) {
 }
 
 // Of what was left out, `modelled` a value a row.
-std::map<int, GroupScore> Score(const std::vector<Row>& rows, const std::vector<double>& modelled,
+GroupScores Score(const std::vector<Row>& rows, const std::vector<double>& modelled,
                                 double sigma) {
-  std::map<int, GroupScore> scores;
+  GroupScores scores;
   for (size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].is_left_out) continue;
     const double z = (modelled[i] / rows[i].value - 1) / sigma;
@@ -161,8 +160,7 @@ DetailChoice CompareMaterial(std::vector<Row> rows) {
     coloured.push_back(FactorOf(factors, row.channel) * row.grey);
   }
   const double sigma = SigmaOf(rows, coloured);
-  return SimplestWithinOneStandardError({"grey", "coloured"},
-                                        {Score(rows, grey, sigma), Score(rows, coloured, sigma)});
+  return ChooseDetail({"grey", "coloured"}, {Score(rows, grey, sigma), Score(rows, coloured, sigma)});
 }
 
 // Rows of luminaires that are on alone; reflectances by material and channel in both.
@@ -210,8 +208,8 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
     own.push_back(FactorOf(refitted, material_key(row)) * tinted(row));
   }
   const double sigma = SigmaOf(rows, own);
-  detail.luminaires = SimplestWithinOneStandardError({"alike", "each its own"},
-                                                     {Score(rows, alike, sigma), Score(rows, own, sigma)});
+  detail.luminaires =
+      ChooseDetail({"alike", "each its own"}, {Score(rows, alike, sigma), Score(rows, own, sigma)});
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& [luminaire, count] : seen) {
     for (int c = 0; c < 3; ++c) detail.tint(c, luminaire) = FactorOf(tints, 3 * luminaire + c);

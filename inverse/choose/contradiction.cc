@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "inverse/choose/internal/left_out.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
@@ -45,12 +46,16 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
     const FittedModel better =
         FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k], effort);
     const double sigma = std::min(given.relative_sigma, better.relative_sigma);
-    const std::map<int, GroupScore> score_given = ScoreGroups(problem, given.predicted, sigma),
-                                    score_better = ScoreGroups(problem, better.predicted, sigma);
-    const PairedDifference gain = Difference(score_given, score_better);
-    if (gain.mean > kStandardErrors * gain.standard_error && Mean(score_given) > kRatio * Mean(score_better))
+    SelectionOptions selection_options;
+    selection_options.standard_errors = kStandardErrors;
+    selection_options.worth_having = kRatio - 1;
+    const Selection selection =
+        SimplestWithinOneStandardError({{ScoreGroups(problem, given.predicted, sigma), 0, true},
+                                        {ScoreGroups(problem, better.predicted, sigma), 1, true}},
+                                       selection_options);
+    if (selection.chosen == 1)
       contradictions.push_back(
-          {luminaire, better.luminaire, Mean(score_given), Mean(score_better), gain.standard_error});
+          {luminaire, better.luminaire, selection.score[0], selection.score[1], selection.standard_error[0]});
   }
   return contradictions;
 }

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "forward/light/illuminance.h"
-#include "inverse/choose/internal/simplest_choice.h"
 #include "inverse/model/internal/discretisation_bias.h"
 
 namespace luxfit {
@@ -52,9 +51,9 @@ class Comparison {
   const std::vector<size_t>& rows() const { return rows_; }
 
   // `left_out`: of each row, in its unit.
-  std::map<int, GroupScore> Score(const Eigen::VectorXd& left_out) const {
+  GroupScores Score(const Eigen::VectorXd& left_out) const {
     const std::vector<double> factor = MaterialFactors(left_out);
-    std::map<int, GroupScore> scores;
+    GroupScores scores;
     for (size_t i = 0; i < rows_.size(); ++i) {
       if (!IsLeftOut(i)) continue;
       const Observation& o = data_.observations[rows_[i]];
@@ -160,7 +159,7 @@ DetailChoice CompareBounces(const Comparison& comparison, const Room& room, cons
   for (Eigen::Index p = 0; p < albedo.size(); ++p)
     albedo[p] = static_cast<float>(state.albedo[PatchAt(room, static_cast<int>(p)).material]);
   std::vector<std::string> names;
-  std::vector<std::map<int, GroupScore>> scores;
+  std::vector<GroupScores> scores;
   Eigen::MatrixXf truncated = Eigen::MatrixXf::Zero(direct.rows(), direct.cols());
   for (int n = 0; n <= kMostBounces; ++n) {
     names.push_back(std::to_string(n));
@@ -170,7 +169,7 @@ DetailChoice CompareBounces(const Comparison& comparison, const Room& room, cons
   names.emplace_back("all");
   scores.push_back(
       comparison.Score(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(comparison.rows().size()))));
-  return SimplestWithinOneStandardError(names, scores);
+  return ChooseDetail(names, scores);
 }
 
 // Number of the pair of pairs that each cell of a facet's grid belongs to; cells of that size, by their
@@ -246,9 +245,8 @@ SceneDetail CompareDetail(const Room& room, const LightData& data, const Luminai
       AtRows(room, data, state, rows, exitance - OverPairsOfPatches(room, exitance));
   const Eigen::VectorXd elements = LeftOutByLargerElements(room, data, state, rows);
   const std::vector<std::string> sizes{"twice as large", "as used"};
-  detail.patches = SimplestWithinOneStandardError(sizes, {comparison.Score(patches), comparison.Score(none)});
-  detail.elements =
-      SimplestWithinOneStandardError(sizes, {comparison.Score(elements), comparison.Score(none)});
+  detail.patches = ChooseDetail(sizes, {comparison.Score(patches), comparison.Score(none)});
+  detail.elements = ChooseDetail(sizes, {comparison.Score(elements), comparison.Score(none)});
   detail.patch_size_m = MedianSizeM(room.patches.patches);
   detail.element_size_m = MedianSizeM(room.patches.elements);
   detail.patch_error = comparison.Relative(patches) / 3;

@@ -10,6 +10,7 @@
 
 #include "inverse/choose/internal/left_out.h"
 #include "inverse/choose/internal/photo_equations.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
@@ -77,13 +78,13 @@ class Candidate {
     curvature_ = Total(-1).normal + PriorCurvature();
   }
 
-  std::map<int, GroupScore> Score() const {
-    std::vector<std::map<int, GroupScore>> of_fold(PhotoEquations::kFolds);
+  GroupScores Score() const {
+    std::vector<GroupScores> of_fold(PhotoEquations::kFolds);
     tbb::parallel_for(0, PhotoEquations::kFolds, [&](int fold) {
       of_fold[static_cast<size_t>(fold)] =
           equations_.Score(unknowns_, fit_, Bounded(fit_.x + StepWithout(fold)), fold);
     });
-    std::map<int, GroupScore> all;
+    GroupScores all;
     for (const auto& scores : of_fold) {
       for (const auto& [group, score] : scores) {
         all[group].sum += score.sum;
@@ -204,23 +205,19 @@ std::vector<RadiometryCandidate> CandidatesOf(const OpenRadiometry& open, int ma
 }
 
 // Candidates that the samples determine; the rest is left out of the choice.
-int Choose(std::vector<RadiometryCandidate>& candidates,
-           const std::vector<std::map<int, GroupScore>>& scores) {
-  size_t best = 0;
+int Choose(std::vector<RadiometryCandidate>& candidates, const std::vector<GroupScores>& scores) {
+  std::vector<SelectionCandidate> selectable;
+  for (size_t c = 0; c < candidates.size(); ++c)
+    selectable.push_back(
+        {scores[c], static_cast<double>(candidates[c].parameters), candidates[c].is_determined});
+  SelectionOptions options;
+  options.worth_having = kWorthHaving;
+  const Selection selection = SimplestWithinOneStandardError(selectable, options);
   for (size_t c = 0; c < candidates.size(); ++c) {
-    candidates[c].score = Mean(scores[c]);
-    if (candidates[c].is_determined && candidates[c].score < candidates[best].score) best = c;
+    candidates[c].score = selection.score[c];
+    candidates[c].standard_error = selection.standard_error[c];
   }
-  size_t chosen = best;
-  for (size_t c = 0; c < candidates.size(); ++c) {
-    const PairedDifference worse = Difference(scores[c], scores[best]);
-    candidates[c].standard_error = worse.standard_error;
-    if (candidates[c].is_determined &&
-        worse.mean <= std::max(worse.standard_error, kWorthHaving * candidates[best].score) &&
-        candidates[c].parameters < candidates[chosen].parameters)
-      chosen = c;
-  }
-  return static_cast<int>(chosen);
+  return static_cast<int>(selection.chosen);
 }
 
 // What the chosen combination says, in the caller's terms.
@@ -300,7 +297,7 @@ SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::V
   }
   equations.set_common_sigma(std::max(kLeastRatioSigma, sigma));
   result.residual_sigma = sigma;
-  std::vector<std::map<int, GroupScore>> scores;
+  std::vector<GroupScores> scores;
   scores.resize(fitted.size());
   tbb::parallel_for(size_t{0}, fitted.size(), [&](size_t c) {
     fitted[c].Solve();

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "inverse/choose/internal/left_out.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
@@ -26,20 +27,20 @@ StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>
   StartComparison comparison;
   double sigma = 1;
   for (const FittedModel& model : fitted) sigma = std::min(sigma, model.relative_sigma);
-  std::vector<std::map<int, GroupScore>> scores;
-  size_t best = 0;
+  std::vector<SelectionCandidate> candidates;
   for (size_t i = 0; i < fitted.size(); ++i) {
     comparison.start.push_back(starts[i].position);
     comparison.end.push_back(fitted[i].luminaire.position);
-    scores.push_back(ScoreGroups(problem, fitted[i].predicted, sigma));
-    comparison.score.push_back(Mean(scores[i]));
-    if (comparison.score[i] < comparison.score[best]) best = i;
+    candidates.push_back({ScoreGroups(problem, fitted[i].predicted, sigma), 0, true});
   }
-  const PairedDifference gain = Difference(scores[0], scores[best]);
-  const size_t chosen = gain.mean > gain.standard_error ? best : 0;
+  SelectionOptions selection_options;
+  selection_options.keeps_first = true;
+  const Selection selection = SimplestWithinOneStandardError(candidates, selection_options);
+  comparison.score = selection.score;
+  const size_t chosen = selection.chosen;
   comparison.chosen = static_cast<int>(chosen);
   for (size_t i = 0; i < fitted.size(); ++i) {
-    const PairedDifference worse = Difference(scores[i], scores[chosen]);
+    const PairedDifference worse = Difference(candidates[i].scores, candidates[chosen].scores);
     comparison.standard_error.push_back(i == chosen ? 0 : worse.standard_error);
     const double apart_m = (comparison.end[i] - comparison.end[chosen]).norm();
     if (apart_m <= options.same_place_m) ++comparison.agreeing;

@@ -1,9 +1,11 @@
-// The simplest of several models, by what each leaves of observations left out.
+// Chooses how much detail a model needs, and keeps what it was chosen among.
 #ifndef LUXFIT_INVERSE_SELECT_DETAIL_CHOICE_H_
 #define LUXFIT_INVERSE_SELECT_DETAIL_CHOICE_H_
 
 #include <string>
 #include <vector>
+
+#include "inverse/select/group_scores.h"
 
 namespace luxfit {
 
@@ -15,10 +17,13 @@ struct DetailCandidate {
 
 struct DetailChoice {
   std::vector<DetailCandidate> among;  // the simplest first; empty: nothing was compared
-  int chosen = 0;                      // the first within one standard error of the best
+  int chosen = 0;
 
   const DetailCandidate& Chosen() const { return among[static_cast<size_t>(chosen)]; }
 };
+
+// By SimplestWithinOneStandardError; more detail has to gain a tenth of the best score as well.
+DetailChoice ChooseDetail(const std::vector<std::string>& names, const std::vector<GroupScores>& scores);
 
 }  // namespace luxfit
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace luxfit {
 namespace {
@@ -137,9 +136,8 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
           fit.effective_parts};
 }
 
-std::map<int, GroupScore> ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted,
-                                      double relative_sigma) {
-  std::map<int, GroupScore> scores;
+GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted, double relative_sigma) {
+  GroupScores scores;
   for (size_t i = 0; i < problem.left_out.size(); ++i) {
     if (!problem.left_out[i]) continue;
     const double value = ValueOf(problem.all, i);
@@ -151,33 +149,6 @@ std::map<int, GroupScore> ScoreGroups(const SubProblem& problem, const Eigen::Ve
     ++score.count;
   }
   return scores;
-}
-
-PairedDifference Difference(const std::map<int, GroupScore>& a, const std::map<int, GroupScore>& b) {
-  double total = 0;
-  PairedDifference result;
-  for (const auto& [group, score] : a) {
-    total += score.count;
-    result.mean += score.sum - b.at(group).sum;
-  }
-  result.mean /= total;
-  double squares = 0;
-  for (const auto& [group, score] : a)
-    squares += std::pow(score.sum - b.at(group).sum - score.count * result.mean, 2);
-  const double groups = static_cast<double>(a.size());
-  // Student's t of few groups is wider than a Gaussian: its standard deviation is sqrt(n / (n - 2)), n =
-  // groups - 1.
-  const double freedom = groups - 1;
-  result.standard_error = freedom > 2
-                              ? std::sqrt(squares * groups / freedom * freedom / (freedom - 2)) / total
-                              : std::numeric_limits<double>::infinity();
-  return result;
-}
-
-double Mean(const std::map<int, GroupScore>& scores) {
-  GroupScore all;
-  for (const auto& [group, score] : scores) all = {all.sum + score.sum, all.count + score.count};
-  return all.sum / all.count;
 }
 
 }  // namespace luxfit

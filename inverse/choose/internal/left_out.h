@@ -8,10 +8,10 @@
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 
 #include <Eigen/Core>
-#include <map>
 #include <vector>
 
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/select/group_scores.h"
 
 namespace luxfit {
 
@@ -50,25 +50,8 @@ struct FitEffort {
 FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminaire& start,
                      const FreeQuantities& free, const FitEffort& effort);
 
-struct GroupScore {
-  double sum = 0;
-  int count = 0;
-};
-
 // `predicted`: rows of SubProblem::all. By group.
-std::map<int, GroupScore> ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted,
-                                      double relative_sigma);
-
-// Over all rows left out.
-double Mean(const std::map<int, GroupScore>& scores);
-
-struct PairedDifference {
-  double mean = 0, standard_error = 0;
-};
-
-// Mean over rows of a - b, with the standard error of a mean over groups weighted by their rows: that of
-// Student's t, infinite for three groups and fewer.
-PairedDifference Difference(const std::map<int, GroupScore>& a, const std::map<int, GroupScore>& b);
+GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted, double relative_sigma);
 
 }  // namespace luxfit
 

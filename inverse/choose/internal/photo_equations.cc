@@ -276,9 +276,9 @@ void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const
   fit.weight = 1 / (1 + (z.array() / (kCauchy * fit.scale)).square());
 }
 
-std::map<int, GroupScore> PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit& fit,
+GroupScores PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit& fit,
                                                 const Eigen::VectorXd& x, int fold) const {
-  std::map<int, GroupScore> scores;
+  GroupScores scores;
   for (int e = 0; e < elements(); ++e) {
     const ElementRows& element = elements_[static_cast<size_t>(e)];
     if (element.fold != fold || !fit.light.col(e).allFinite()) continue;

@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "forward/luminaire/luminaire_parts.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
-
-constexpr size_t kFewestGroups = 4;  // fewer have no standard error to speak of
 
 struct FittedCandidate {
   std::string name;
@@ -115,18 +114,17 @@ class Refiner {
       candidates.push_back({"from " + std::to_string(degrees) + " deg", Fit(start, free)});
     }
     const double sigma = SmallestSigma(candidates);
-    std::vector<std::map<int, GroupScore>> scores;
-    for (size_t c = 0; c < candidates.size(); ++c) {
-      scores.push_back(ScoreGroups(problem_, candidates[c].fitted.predicted, sigma));
-      record.among.push_back(candidates[c].name);
-      record.score.push_back(Mean(scores[c]));
+    std::vector<SelectionCandidate> selectable;
+    for (const FittedCandidate& c : candidates) {
+      selectable.push_back({ScoreGroups(problem_, c.fitted.predicted, sigma), 1, true});
+      record.among.push_back(c.name);
       record.effective_parameters.push_back(1);
-      if (record.score[c] < record.score[static_cast<size_t>(record.chosen)])
-        record.chosen = static_cast<int>(c);
     }
-    const auto best = static_cast<size_t>(record.chosen);
-    record.standard_error = Difference(scores[0], scores[best]).standard_error;
-    Keep(candidates[best].fitted);
+    const Selection selection = SimplestWithinOneStandardError(selectable);
+    record.score = selection.score;
+    record.chosen = static_cast<int>(selection.chosen);
+    record.standard_error = selection.standard_error[0];
+    Keep(candidates[selection.chosen].fitted);
     result_.steps.push_back(std::move(record));
   }
 
@@ -193,25 +191,18 @@ class Refiner {
   // The fewest effective parameters within one standard error of the best.
   Step Judged(Step step) const {
     const double sigma = SmallestSigma(step.candidates);
-    std::vector<std::map<int, GroupScore>> scores;
-    size_t best = 0;
-    for (size_t c = 0; c < step.candidates.size(); ++c) {
-      scores.push_back(ScoreGroups(problem_, step.candidates[c].fitted.predicted, sigma));
-      if (Mean(scores[c]) < Mean(scores[best])) best = c;
-    }
-    const PairedDifference gain = Difference(scores[0], scores[best]);
-    step.gain = gain.mean;
-    step.standard_error = gain.standard_error;
-    const bool forced = open_.table_asked_for && step.kind == RefinementKind::kTable;
-    const bool tells = scores[0].size() >= kFewestGroups && gain.mean > gain.standard_error;
-    std::optional<size_t> chosen;
-    for (size_t c = forced ? 1 : 0; c < scores.size() && (tells || forced); ++c) {
-      const PairedDifference worse = Difference(scores[c], scores[best]);
-      if (c != best && worse.mean > worse.standard_error) continue;
-      const auto parts = [&](size_t i) { return step.candidates[i].fitted.effective_parts; };
-      if (!chosen || parts(c) < parts(*chosen)) chosen = c;
-    }
-    step.chosen = static_cast<int>(chosen.value_or(0));
+    std::vector<SelectionCandidate> selectable;
+    for (const FittedCandidate& c : step.candidates)
+      selectable.push_back(
+          {ScoreGroups(problem_, c.fitted.predicted, sigma), c.fitted.effective_parts, true});
+    // A table that is asked for is estimated, whatever a lobe would do.
+    selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
+    SelectionOptions options;
+    options.keeps_first = true;
+    const Selection selection = SimplestWithinOneStandardError(selectable, options);
+    step.gain = selection.score[0] - selection.score[selection.best];
+    step.standard_error = selection.standard_error[0];
+    step.chosen = static_cast<int>(selection.chosen);
     return step;
   }
 
