@@ -1,5 +1,4 @@
-// How well an earlier fit knows what it found: the covariance of OUT/stages/fit.json by the parameters'
-// names.
+// Reads how well an earlier fit knows what it found: the covariance of OUT/stages/fit.json by parameters.
 //
 // Parameters are as fitted: positions m, fluxes, exponents and scales as logarithms (so their sigma is
 // relative), albedo as it is. What the fit held has no parameter and no uncertainty; what the data did not
@@ -15,19 +14,21 @@
 
 #include "apps/export/fitted_room.h"
 #include "inverse/control/lux_map.h"
+#include "inverse/model/parameter.h"
 
 namespace luxfit {
 
 struct FitUncertainty {
-  std::vector<std::string> parameters;
+  std::vector<ParameterId> parameters;
   Eigen::VectorXd values;
-  std::vector<std::string> undetermined;
-  Eigen::MatrixXd covariance;  // empty: the fit did not get that far
+  std::vector<bool> is_determined;  // one a parameter
+  Eigen::MatrixXd covariance;       // empty: the fit did not get that far
   double relative_model_sigma = 0;
 
-  bool Has(const std::string& parameter) const;
-  double Covariance(const std::string& a, const std::string& b) const;  // 0 where either was held
-  double Sigma(const std::string& parameter) const;
+  std::vector<ParameterId> Undetermined() const;
+  bool Has(const ParameterId& parameter) const;
+  double Covariance(const ParameterId& a, const ParameterId& b) const;  // 0 where either was held
+  double Sigma(const ParameterId& parameter) const;
 };
 // Of the run that wrote into this folder.
 FitUncertainty ReadFitUncertainty(const std::string& out);

@@ -28,14 +28,14 @@ bool IsDetermined(const RoomFit& fit, size_t luminaire) {
   const LuminaireFit& solved = fit.fit;
   const bool is_solved = solved.IsUsable() || solved.covariance.size() > 0;
   if (!fit.absolute || !is_solved || !fit.TellsDirectLight() || !fit.luminaire_found[luminaire]) return false;
-  const auto names = [](const std::vector<std::string>& list, const Parameter& p) {
-    return std::count(list.begin(), list.end(), p.name) > 0;
+  const auto holds = [](const std::vector<ParameterId>& list, const Parameter& p) {
+    return std::count(list.begin(), list.end(), p.id()) > 0;
   };
   return std::none_of(solved.parameters.begin(), solved.parameters.end(), [&](const Parameter& p) {
     // A flux at its bound is no flux: the fit fled from light that it could not explain.
-    const bool is_lost = p.kind == ParameterKind::kLogFlux && names(solved.at_bound, p);
+    const bool is_lost = p.kind == ParameterKind::kLogFlux && holds(solved.at_bound, p);
     return p.index == static_cast<int>(luminaire) && IsInFiles(p) &&
-           (is_lost || names(solved.undetermined, p));
+           (is_lost || holds(solved.undetermined, p));
   });
 }
 

@@ -75,12 +75,12 @@ std::vector<std::string> Names(const json& list, const std::string& key) {
 }
 
 RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = NamesOf(result.fit.parameters);
   std::vector<Eigen::Index> at;
   for (const std::string& name : names) {
-    const auto found = std::find(result.fit.parameters.begin(), result.fit.parameters.end(), name);
-    if (found == result.fit.parameters.end())
-      throw std::runtime_error("covariance_of: " + ExpectedOneOf(result.fit.parameters, name));
-    at.push_back(found - result.fit.parameters.begin());
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end()) throw std::runtime_error("covariance_of: " + ExpectedOneOf(known, name));
+    at.push_back(found - known.begin());
   }
   if (result.fit.covariance.size() == 0) throw std::runtime_error("covariance_of: the fit has no covariance");
   return result.fit.covariance(at, at);

@@ -185,10 +185,10 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
   }
   const FitUncertainty fit = ReadFitUncertainty(fitted.out);
   places.relative_model_error = fit.relative_model_sigma;
-  places.undetermined = fit.undetermined;
-  places.light = PredictPlaces(
-      fitted.room, fitted.luminaires, fitted.albedo, sensors,
-      fit.covariance.size() > 0 ? NamedCovariance{fit.parameters, fit.covariance} : NamedCovariance{});
+  places.undetermined = NamesOf(fit.Undetermined());
+  places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors,
+                               fit.covariance.size() > 0 ? ParameterCovariance{fit.parameters, fit.covariance}
+                                                         : ParameterCovariance{});
   // Sigmas would be confident where a parameter is not known at all.
   if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
   return places;
@@ -246,7 +246,7 @@ json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places) {
   page["point_light"] = LightJson(places.light, 0, count);
   page["relative_model_error"] = places.relative_model_error;
   page["undetermined"] = places.undetermined;
-  page["left_out"] = places.light.left_out;
+  page["left_out"] = NamesOf(places.light.left_out);
   for (const ReportPlane& plane : places.planes) page["planes"].push_back(PlaneJson(fitted, places, plane));
   for (const ReportObserver& observer : places.observers)
     page["observers"].push_back(ObserverJson(fitted, places, observer));

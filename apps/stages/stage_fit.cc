@@ -2,7 +2,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
+#include "apps/stages/parameter_json.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
 
@@ -15,15 +17,18 @@ void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
   artifact["message"] = fit.message;
   artifact["outer_iterations"] = fit.outer_iterations;
   artifact["relative_model_error"] = fit.relative_sigma;
-  artifact["undetermined"] = fit.undetermined;
+  artifact["undetermined"] = NamesOf(fit.undetermined);
   artifact["parameters"] = nlohmann::json::array();
   const Eigen::VectorXd x = PackParameters(fit.state, fit.parameters);
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const Parameter& p = fit.parameters[i];
-    artifact["parameters"].push_back({{"name", p.name},
-                                      {"value", x[static_cast<Eigen::Index>(i)]},
-                                      {"lower", p.lower},
-                                      {"upper", p.upper}});
+    nlohmann::json entry = IdJson(p.id());
+    entry["name"] = NameOf(p.id());
+    entry["value"] = x[static_cast<Eigen::Index>(i)];
+    entry["lower"] = p.lower;
+    entry["upper"] = p.upper;
+    entry["determined"] = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
+    artifact["parameters"].push_back(std::move(entry));
   }
   artifact["covariance"] = nlohmann::json::array();
   for (const auto row : fit.covariance.rowwise())

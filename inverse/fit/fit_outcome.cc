@@ -25,7 +25,7 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
     const bool same =
         p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
     if (!same) continue;
-    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.name) == 0;
+    const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
     const auto row = static_cast<Eigen::Index>(i);
     return known ? std::sqrt(fit.covariance(row, row)) : kUnknown;
   }

@@ -42,6 +42,7 @@ class OuterLoop {
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
       fit_.outer_iterations = outer + 1;
       const LightState before = fit_.state;
+      fit_.parameters = Recentred(fit_.parameters, before);
       Refresh(true);
       const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
                                   root_weight_, priors_, smoothness_,     at_state_};
@@ -54,6 +55,7 @@ class OuterLoop {
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
+    fit_.parameters = Recentred(fit_.parameters, fit_.state);
     Refresh(options_.covariance);
     fit_.status = settled ? FitStatus::kConverged : FitStatus::kNotConverged;
     fit_.message = settled ? "converged" : "luminaires still moved after the last outer iteration";
@@ -155,7 +157,7 @@ class OuterLoop {
       const double value = x[static_cast<Eigen::Index>(i)];
       // Dark parts are nothing to warn of.
       if (p.kind == ParameterKind::kLuminaire && p.reference != p.part) continue;
-      if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.name);
+      if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.id());
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
     const WeightedRows rows = RowsAtState();
@@ -173,7 +175,7 @@ class OuterLoop {
   void NameNullDirection(const Eigen::VectorXd& direction) {
     for (Eigen::Index i = 0; i < direction.size(); ++i) {
       if (std::abs(direction[i]) > 0.1)
-        fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].name);
+        fit_.undetermined.push_back(fit_.parameters[static_cast<size_t>(i)].id());
     }
     fit_.null_directions.push_back(DescribeNullDirection(fit_.parameters, direction));
     fit_.status = FitStatus::kUndetermined;

@@ -63,9 +63,9 @@ struct LuminaireFit {
   LightState state;
   std::vector<Parameter> parameters;
   Eigen::MatrixXd covariance;                  // of the parameters
-  std::vector<std::string> undetermined;       // parameters in directions without information
+  std::vector<ParameterId> undetermined;       // in directions without information
   std::vector<NullDirection> null_directions;  // those directions, in words
-  std::vector<std::string> at_bound;           // parameters that stopped at a bound
+  std::vector<ParameterId> at_bound;           // that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
   Eigen::VectorXd reading_direct_lx;

@@ -22,6 +22,46 @@ bool IsPart(const Parameter& p) {
          (p.quantity == LuminaireQuantity::kCell || p.quantity == LuminaireQuantity::kGammaNode);
 }
 
+AimFrame FrameOf(const Luminaire& luminaire) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  return {luminaire.aim, axes.along, axes.across};
+}
+
+bool IsTurn(const Parameter& p) {
+  return p.kind == ParameterKind::kLuminaire &&
+         (p.quantity == LuminaireQuantity::kTiltAlong || p.quantity == LuminaireQuantity::kTiltAcross ||
+          p.quantity == LuminaireQuantity::kHeading);
+}
+
+// A luminaire's turn from a frame: first about the aim by `heading`, then the aim by `tilt` along the turned axes.
+//   along_h = cos(h) along + sin(h) across,   aim' ~ aim + t1 along_h + t2 across_h
+struct Turn {
+  AimFrame frame;
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
+  double heading = 0;
+
+  Eigen::Vector3d Along() const { return std::cos(heading) * frame.along + std::sin(heading) * frame.across; }
+};
+
+void Apply(const Turn& turn, Luminaire& luminaire) {
+  const Eigen::Vector3d along = turn.Along(), across = turn.frame.aim.cross(along);
+  luminaire.aim = (turn.frame.aim + turn.tilt[0] * along + turn.tilt[1] * across).normalized();
+  luminaire.heading = along;
+  luminaire.heading = AxesOf(luminaire).along;
+}
+
+// The inverse: along_h is the vector across the frame's aim that the heading is the projection of.
+Turn TurnOf(const Luminaire& luminaire, const AimFrame& frame) {
+  Turn turn{frame};
+  const Eigen::Vector3d& heading = AxesOf(luminaire).along;
+  const double cosine = luminaire.aim.dot(frame.aim);
+  const Eigen::Vector3d along = heading - heading.dot(frame.aim) / cosine * luminaire.aim;
+  turn.heading = std::atan2(along.dot(frame.across), along.dot(frame.along));
+  const Eigen::Vector3d unit = turn.Along();
+  turn.tilt = Eigen::Vector2d(luminaire.aim.dot(unit), luminaire.aim.dot(frame.aim.cross(unit))) / cosine;
+  return turn;
+}
+
 double& SizeComponent(Luminaire& luminaire, LuminaireQuantity quantity) {
   return luminaire.size_m[quantity == LuminaireQuantity::kSizeAlong ? 0 : 1];
 }
@@ -46,44 +86,65 @@ std::vector<LuminaireQuantity> FreeQuantitiesOf(const Luminaire& luminaire, cons
 
 Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int index,
                                  LuminaireQuantity quantity) {
-  Parameter p{ParameterKind::kLuminaire, index, quantity, 0, 0, ""};
+  Parameter p{ParameterKind::kLuminaire, index, quantity, 0, 0, luminaire.id};
+  p.frame = FrameOf(luminaire);
   constexpr double kClearanceM = 1e-3;  // from the walls: a luminaire has a thickness
   switch (quantity) {
     case LuminaireQuantity::kPositionX:
     case LuminaireQuantity::kPositionY:
     case LuminaireQuantity::kPositionZ: {
       const int axis = static_cast<int>(quantity);
-      p.name = std::string("position ") + "xyz"[axis];
       p.lower = box.isEmpty() ? -1e3 : box.min()[axis] + kClearanceM;
       p.upper = box.isEmpty() ? 1e3 : box.max()[axis] - kClearanceM;
       break;
     }
     case LuminaireQuantity::kExponent:
-      p.name = "log exponent", p.lower = std::log(0.2), p.upper = std::log(100);
+      p.lower = std::log(0.2), p.upper = std::log(100);
       break;
     case LuminaireQuantity::kSizeAlong:
     case LuminaireQuantity::kSizeAcross:
-      p.name = quantity == LuminaireQuantity::kSizeAlong ? "size along" : "size across";
       p.lower = 1e-3;
       p.upper = box.isEmpty() ? 10 : 0.5 * box.diagonal().maxCoeff();
       break;
     case LuminaireQuantity::kTiltAlong:
-      p.name = "tilt along", p.lower = -1, p.upper = 1;
-      break;
     case LuminaireQuantity::kTiltAcross:
-      p.name = "tilt across", p.lower = -1, p.upper = 1;
+      p.lower = -1, p.upper = 1;
       break;
     case LuminaireQuantity::kHeading:
-      p.name = "heading", p.lower = -M_PI, p.upper = M_PI;
+      p.lower = -M_PI, p.upper = M_PI;
       break;
     case LuminaireQuantity::kGammaNode:
     case LuminaireQuantity::kCell:
-      p.name = quantity == LuminaireQuantity::kCell ? "cell" : "gamma node";
       p.upper = 1e3;
       break;
   }
-  p.name += " of " + luminaire.id;
   return p;
+}
+
+// Of a quantity that is no part.
+double ValueOf(const Luminaire& luminaire, const Parameter& p) {
+  switch (p.quantity) {
+    case LuminaireQuantity::kPositionX:
+    case LuminaireQuantity::kPositionY:
+    case LuminaireQuantity::kPositionZ:
+      return luminaire.position[static_cast<int>(p.quantity)];
+    case LuminaireQuantity::kExponent:
+      return std::log(luminaire.cosine_exponent);
+    case LuminaireQuantity::kSizeAlong:
+      return luminaire.size_m[0];
+    case LuminaireQuantity::kSizeAcross:
+      return luminaire.size_m[1];
+    case LuminaireQuantity::kTiltAlong:
+      return TurnOf(luminaire, p.frame).tilt[0];
+    case LuminaireQuantity::kTiltAcross:
+      return TurnOf(luminaire, p.frame).tilt[1];
+    case LuminaireQuantity::kHeading:
+      return TurnOf(luminaire, p.frame).heading;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      break;
+  }
+  return 0;
 }
 
 void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int index,
@@ -96,8 +157,6 @@ void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int in
     if (j == reference) continue;
     Parameter p = MakeLuminaireParameter(box, luminaire, index, quantity);
     p.part = j, p.reference = reference;
-    p.name = (quantity == LuminaireQuantity::kCell ? "cell " : "gamma node ") + std::to_string(j) + " of " +
-             luminaire.id;
     parameters.push_back(std::move(p));
   }
 }
@@ -118,27 +177,20 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
     if (state.free[k].emission_sigma > 0)
       AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
     if (state.free[k].flux) {
-      parameters.push_back(
-          {ParameterKind::kLogFlux, static_cast<int>(k), {}, -50, 50, "log flux of " + luminaire.id});
+      parameters.push_back({ParameterKind::kLogFlux, static_cast<int>(k), {}, -50, 50, luminaire.id});
     }
   }
   for (size_t m = 0; m < state.albedo_free.size(); ++m) {
     if (!state.albedo_free[m]) continue;
-    parameters.push_back({ParameterKind::kAlbedo,
-                          static_cast<int>(m),
-                          {},
-                          0.01,
-                          0.98,
-                          "albedo of " + room.scene.materials[m]});
+    parameters.push_back(
+        {ParameterKind::kAlbedo, static_cast<int>(m), {}, 0.01, 0.98, room.scene.materials[m]});
   }
   if (state.camera_scale_free) {
-    parameters.push_back({ParameterKind::kLogCameraScale, 0, {}, -50, 50, "log camera scale"});
+    parameters.push_back({ParameterKind::kLogCameraScale, 0, {}, -50, 50, ""});
   }
-  if (state.meter_scale_free)
-    parameters.push_back({ParameterKind::kLogMeterScale, 0, {}, -1, 1, "log meter scale"});
+  if (state.meter_scale_free) parameters.push_back({ParameterKind::kLogMeterScale, 0, {}, -1, 1, ""});
   for (int i = 0; state.sensor_gains_free && i < static_cast<int>(state.sensor_gain.size()); ++i) {
-    parameters.push_back(
-        {ParameterKind::kLogSensorGain, i, {}, -1, 1, "log gain of sensor " + std::to_string(i)});
+    parameters.push_back({ParameterKind::kLogSensorGain, i, {}, -1, 1, std::to_string(i)});
   }
   return parameters;
 }
@@ -158,13 +210,7 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
       const Eigen::VectorXd shares = PartShares(state.luminaires[index], PartKindOf(p.quantity));
       value = shares[p.part] / shares[p.reference];
     } else if (p.kind == ParameterKind::kLuminaire) {
-      Luminaire luminaire = state.luminaires[index];
-      const int q = static_cast<int>(p.quantity);
-      if (q < 3) value = luminaire.position[q];
-      if (p.quantity == LuminaireQuantity::kExponent) value = std::log(luminaire.cosine_exponent);
-      if (p.quantity == LuminaireQuantity::kSizeAlong || p.quantity == LuminaireQuantity::kSizeAcross) {
-        value = SizeComponent(luminaire, p.quantity);
-      }
+      value = ValueOf(state.luminaires[index], p);
     }
     x[static_cast<Eigen::Index>(i)] = std::clamp(value, p.lower, p.upper);
   }
@@ -173,7 +219,7 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
 
 LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
                           const Eigen::VectorXd& x) {
-  std::map<int, Eigen::Vector2d> tilts;
+  std::map<int, Turn> turns;
   std::map<std::pair<int, LuminaireQuantity>, Eigen::VectorXd> parts;
   for (size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
@@ -209,16 +255,14 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
         SizeComponent(luminaire, p.quantity) = value;
         break;
       case LuminaireQuantity::kTiltAlong:
-        tilts.try_emplace(p.index, 0, 0).first->second[0] = value;
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.tilt[0] = value;
         break;
       case LuminaireQuantity::kTiltAcross:
-        tilts.try_emplace(p.index, 0, 0).first->second[1] = value;
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.tilt[1] = value;
         break;
-      case LuminaireQuantity::kHeading: {
-        const LuminaireAxes axes = AxesOf(luminaire);
-        luminaire.heading = std::cos(value) * axes.along + std::sin(value) * axes.across;
+      case LuminaireQuantity::kHeading:
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.heading = value;
         break;
-      }
       case LuminaireQuantity::kGammaNode:
       case LuminaireQuantity::kCell:
         break;  // above
@@ -228,14 +272,14 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
     Luminaire& luminaire = state.luminaires[static_cast<size_t>(of.first)];
     luminaire = WithPartShares(luminaire, PartKindOf(of.second), shares);
   }
-  for (const auto& [index, tilt] : tilts) {
-    Luminaire& luminaire = state.luminaires[static_cast<size_t>(index)];
-    const LuminaireAxes axes = AxesOf(luminaire);
-    luminaire.aim = (luminaire.aim + tilt[0] * axes.along + tilt[1] * axes.across).normalized();
-    luminaire.heading = axes.along;
-    luminaire.heading = AxesOf(luminaire).along;
-  }
+  for (const auto& [index, turn] : turns) Apply(turn, state.luminaires[static_cast<size_t>(index)]);
   return state;
+}
+
+std::vector<Parameter> Recentred(std::vector<Parameter> parameters, const LightState& state) {
+  for (Parameter& p : parameters)
+    if (IsTurn(p)) p.frame = FrameOf(state.luminaires[static_cast<size_t>(p.index)]);
+  return parameters;
 }
 
 LightModel::LightModel(const Room& room, const LightData& data) : room_(room), data_(data) {

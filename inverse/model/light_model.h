@@ -20,11 +20,11 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "inverse/model/parameter.h"
 #include "inverse/observe/observe.h"
 
 namespace luxfit {
@@ -74,25 +74,17 @@ struct LightState {
   bool sensor_gains_free = false;  // want priors likewise
 };
 
-enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };
-
-struct Parameter {
-  ParameterKind kind = ParameterKind::kLuminaire;
-  int index = 0;  // of the luminaire, the material or the sensor
-  LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
-  double lower = 0, upper = 0;
-  std::string name;  // "position x of A", "albedo of floor", ...
-  // Of kGammaNode and kCell: the value is the share of `part` over that of `reference`, which is the largest
-  // at the start and no parameter itself.
-  int part = 0, reference = 0;
-};
-
 // The free parameters in their order, with bounds: positions within the room's bounding box (a luminaire
 // hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
 std::vector<Parameter> FreeParameters(const Room& room, const LightState& state);
+// x = PackParameters(WithParameters(state, parameters, x), parameters) for every x within the bounds.
 Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parameter>& parameters);
 LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
                           const Eigen::VectorXd& x);
+
+// The same parameters, tilts and headings counted from where the luminaires of `state` now point: they pack to 0 there, which is
+// where Predict has their derivatives.
+std::vector<Parameter> Recentred(std::vector<Parameter> parameters, const LightState& state);
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 

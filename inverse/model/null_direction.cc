@@ -19,12 +19,6 @@ std::string Listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// "A" of "log flux of A"
-std::string Owner(const Parameter& parameter) {
-  const size_t of = parameter.name.find(" of ");
-  return of == std::string::npos ? parameter.name : parameter.name.substr(of + 4);
-}
-
 std::string WordFor(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::kLogFlux) return "flux";
   switch (parameter.quantity) {
@@ -67,11 +61,11 @@ struct Parties {
   explicit Parties(const std::vector<Parameter>& parameters) {
     for (const Parameter& p : parameters) {
       if (p.kind == ParameterKind::kLogCameraScale) has_scale = true;
-      if (p.kind == ParameterKind::kAlbedo) reflectances.push_back(Owner(p));
-      if (p.kind == ParameterKind::kLogFlux) fluxes.push_back(Owner(p));
+      if (p.kind == ParameterKind::kAlbedo) reflectances.push_back(p.owner);
+      if (p.kind == ParameterKind::kLogFlux) fluxes.push_back(p.owner);
       has_geometry = has_geometry || p.kind == ParameterKind::kLuminaire;
       if (p.kind == ParameterKind::kLuminaire || p.kind == ParameterKind::kLogFlux) {
-        luminaires.push_back(Owner(p));
+        luminaires.push_back(p.owner);
         own_words.push_back(WordFor(p));
       }
     }
@@ -87,7 +81,8 @@ void Describe(const Parties& parties, NullDirection& direction) {
     direction.remedy = "photograph it in a registered view, or give it in [scene.albedo]";
   } else if (!parties.reflectances.empty()) {
     direction.meaning =
-        "direct and reflected light are not told apart: " + Listed(direction.parameters) + " trade off";
+        "direct and reflected light are not told apart: " + Listed(NamesOf(direction.parameters)) +
+        " trade off";
     direction.remedy =
         "photograph one state with a dark cloth on a surface, or one luminaire alone, or give one "
         "reflectance in "
@@ -106,7 +101,7 @@ void Describe(const Parties& parties, NullDirection& direction) {
     direction.remedy = "add readings or views nearer to " + parties.luminaires.front() +
                        " and to its sides, or give its photometry, position_m or shape";
   } else {
-    direction.meaning = Listed(direction.parameters) + " trade off";
+    direction.meaning = Listed(NamesOf(direction.parameters)) + " trade off";
     direction.remedy = "more readings or views, one luminaire switched alone, or give what is known of them";
   }
 }
@@ -129,7 +124,7 @@ NullDirection DescribeNullDirection(const std::vector<Parameter>& parameters,
   std::vector<Parameter> parties;
   for (const size_t i : order) {
     parties.push_back(parameters[i]);
-    result.parameters.push_back(parameters[i].name);
+    result.parameters.push_back(parameters[i].id());
   }
   Describe(Parties(parties), result);
   return result;

@@ -20,7 +20,7 @@
 namespace luxfit {
 
 struct NullDirection {
-  std::vector<std::string> parameters;  // that take part, the strongest first
+  std::vector<ParameterId> parameters;  // that take part, the strongest first
   std::string meaning, remedy;          // a sentence each, without a full stop
 };
 

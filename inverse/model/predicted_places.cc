@@ -50,25 +50,26 @@ LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
 struct KnownParameters {
   std::vector<Parameter> parameters;
   Eigen::MatrixXd covariance;
-  std::vector<std::string> left_out;
+  std::vector<ParameterId> left_out;
 };
 
 // The camera's and the meter's own scales change no light.
-bool ChangesLight(const std::string& name) {
-  return name != "log camera scale" && name != "log meter scale" && name.rfind("log gain of sensor", 0) != 0;
+bool ChangesLight(ParameterKind kind) {
+  return kind == ParameterKind::kLuminaire || kind == ParameterKind::kLogFlux ||
+         kind == ParameterKind::kAlbedo;
 }
 
-KnownParameters FindByName(const std::vector<Parameter>& possible, const NamedCovariance& given) {
+KnownParameters Find(const std::vector<Parameter>& possible, const ParameterCovariance& given) {
   KnownParameters known;
   std::vector<Eigen::Index> rows;
-  for (size_t i = 0; i < given.names.size(); ++i) {
+  for (size_t i = 0; i < given.parameters.size(); ++i) {
     const auto at = std::find_if(possible.begin(), possible.end(),
-                                 [&](const Parameter& p) { return p.name == given.names[i]; });
+                                 [&](const Parameter& p) { return p.id() == given.parameters[i]; });
     if (at != possible.end()) {
       known.parameters.push_back(*at);
       rows.push_back(static_cast<Eigen::Index>(i));
-    } else if (ChangesLight(given.names[i])) {
-      known.left_out.push_back(given.names[i]);
+    } else if (ChangesLight(given.parameters[i].kind)) {
+      known.left_out.push_back(given.parameters[i]);
     }
   }
   known.covariance = given.covariance(rows, rows);
@@ -110,15 +111,15 @@ PredictedPlaces WithoutCovariance(const Room& room, const std::vector<Luminaire>
 
 PredictedPlaces PredictPlaces(const Room& room, const std::vector<Luminaire>& luminaires,
                               const Eigen::VectorXd& albedo, const std::vector<Sensor>& places,
-                              const NamedCovariance& parameters) {
-  const Eigen::Index names = static_cast<Eigen::Index>(parameters.names.size());
-  if (parameters.covariance.rows() != names || parameters.covariance.cols() != names)
-    throw std::invalid_argument("PredictPlaces: expected a covariance of as many rows as names");
-  if (room.sparse || names == 0 || !parameters.covariance.allFinite())
+                              const ParameterCovariance& given) {
+  const auto count = static_cast<Eigen::Index>(given.parameters.size());
+  if (given.covariance.rows() != count || given.covariance.cols() != count)
+    throw std::invalid_argument("PredictPlaces: expected a covariance of as many rows as parameters");
+  if (room.sparse || count == 0 || !given.covariance.allFinite())
     return WithoutCovariance(room, luminaires, albedo, places);
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const LightState state = AllFree(room, luminaires, albedo);
-  const KnownParameters known = FindByName(FreeParameters(room, state), parameters);
+  const KnownParameters known = Find(FreeParameters(room, state), given);
   const LightData data = DataOf(places, lamps);
   LightModel model(room, data);
   model.FreezeVisibility(state);

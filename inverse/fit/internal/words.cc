@@ -270,8 +270,8 @@ void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findi
     for (const NullDirection& direction : fit.null_directions)
       findings.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
   }
-  for (const std::string& name : fit.at_bound) {
-    findings.warnings.push_back({"parameter_at_bound", name + " stopped at a bound of what is possible",
+  for (const ParameterId& id : fit.at_bound) {
+    findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
                                  "check the mesh around it, or give what is known of it"});
   }
 }

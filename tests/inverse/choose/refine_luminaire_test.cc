@@ -222,8 +222,8 @@ TEST(RefineLuminaire, JacobianOfPartsAndGainsIsACentralDifference) {
     const Eigen::VectorXd numeric = (values(kStep) - values(-kStep)) / (2 * kStep);
     const double scale = numeric.cwiseAbs().maxCoeff(), rounding = 1e-4 * prediction.value.maxCoeff();
     EXPECT_LT((prediction.jacobian.col(p) - numeric).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
-        << parameters[static_cast<size_t>(p)].name;
-    EXPECT_GT(scale, rounding) << parameters[static_cast<size_t>(p)].name;
+        << NameOf(parameters[static_cast<size_t>(p)].id());
+    EXPECT_GT(scale, rounding) << NameOf(parameters[static_cast<size_t>(p)].id());
   }
 }
 

@@ -70,7 +70,7 @@ TEST_F(OnePoint, NoisyReadingsGiveTheTruthWithinItsSigma) {
   const Eigen::VectorXd error = PackParameters(fit.state, fit.parameters) - Truth();
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     EXPECT_LT(std::abs(error[i]), 4 * std::sqrt(fit.covariance(i, i)))
-        << fit.parameters[static_cast<size_t>(i)].name;
+        << NameOf(fit.parameters[static_cast<size_t>(i)].id());
   }
   // 128 readings of 1 %: a few millimetres, and a few tenths of a percent.
   EXPECT_LT(std::sqrt(fit.covariance.diagonal().head<3>().sum()), 0.02);
@@ -138,7 +138,7 @@ TEST_F(OnePoint, AWildReadingAmongManyHardlyCounts) {
   const Eigen::VectorXd error = PackParameters(fit.state, fit.parameters) - Truth();
   for (Eigen::Index i = 0; i < error.size(); ++i) {
     EXPECT_LT(std::abs(error[i]), 4 * std::sqrt(fit.covariance(i, i)))
-        << fit.parameters[static_cast<size_t>(i)].name;
+        << NameOf(fit.parameters[static_cast<size_t>(i)].id());
   }
 }
 
@@ -182,7 +182,7 @@ TEST_F(OnePoint, ALuminaireThatIsNeverOnIsUndetermined) {
   EXPECT_EQ(fit.status, FitStatus::kUndetermined);
   EXPECT_NE(fit.message, "");
   EXPECT_FALSE(fit.IsUsable());
-  std::vector<std::string> names = fit.undetermined;
+  std::vector<std::string> names = NamesOf(fit.undetermined);
   std::sort(names.begin(), names.end());
   EXPECT_EQ(names, (std::vector<std::string>{"log flux of B", "position x of B", "position y of B",
                                              "position z of B"}));
@@ -205,8 +205,8 @@ class PhotosAlone : public testing::Test {
     start_.albedo_free = {true};
   }
 
-  static bool Has(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+  static bool Has(const std::vector<ParameterId>& ids, const ParameterId& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
   }
 
   static constexpr double kRho = 0.6;
@@ -220,8 +220,8 @@ TEST_F(PhotosAlone, FluxAndCameraScaleAreUndetermined) {
   const LuminaireFit fit = FitLuminaires(room_, data_, start_);
   EXPECT_EQ(fit.status, FitStatus::kUndetermined);
   EXPECT_FALSE(fit.IsUsable());
-  EXPECT_TRUE(Has(fit.undetermined, "log flux of A"));
-  EXPECT_TRUE(Has(fit.undetermined, "log camera scale"));
+  EXPECT_TRUE(Has(fit.undetermined, {ParameterKind::kLogFlux, "A"}));
+  EXPECT_TRUE(Has(fit.undetermined, {ParameterKind::kLogCameraScale, ""}));
   EXPECT_EQ(fit.undetermined.size(), 2u);
   ASSERT_EQ(fit.null_directions.size(), 1u);
   EXPECT_EQ(fit.null_directions[0].meaning,

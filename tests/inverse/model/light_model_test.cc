@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "forward/luminaire/luminaire_parts.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
@@ -84,12 +88,12 @@ TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
       const double scale = numeric.segment(first, count).cwiseAbs().maxCoeff();
       const double rounding = 1e-4 * prediction.value.segment(first, count).maxCoeff();
       EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
-          << parameters[static_cast<size_t>(p)].name;
+          << NameOf(parameters[static_cast<size_t>(p)].id());
     }
     const bool is_of_meter = parameters[static_cast<size_t>(p)].kind == ParameterKind::kLogMeterScale;
     const double moved =
         (is_of_meter ? numeric.tail(readings) : numeric.head(observations)).cwiseAbs().maxCoeff();
-    EXPECT_GT(moved, 0) << parameters[static_cast<size_t>(p)].name;
+    EXPECT_GT(moved, 0) << NameOf(parameters[static_cast<size_t>(p)].id());
   }
 }
 
@@ -136,26 +140,90 @@ TEST_F(SmallRoom, LuminanceIsAlbedoOverPiTimesIlluminance) {
   EXPECT_GT(direct_lx, 5 * indirect_lx);  // so that the tolerance is a few percent
 }
 
-TEST_F(SmallRoom, PackAndWithAreInverse) {
-  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
-  const Eigen::VectorXd x = PackParameters(state_, parameters);
+bool IsTilt(const Parameter& p) {
+  return p.kind == ParameterKind::kLuminaire &&
+         (p.quantity == LuminaireQuantity::kTiltAlong || p.quantity == LuminaireQuantity::kTiltAcross);
+}
+
+// Every kind of parameter and every quantity of a luminaire at once.
+LightState WithEverythingFree(LightState state) {
+  state.free[0].heading = true;
+  Luminaire table = state.luminaires[1], cells = state.luminaires[0];
+  table.id = "T";
+  table.distribution = Distribution::kMeasured;
+  table.table = std::make_shared<IntensityTable>(RotationalTable({0, 0.4, 0.8, 1.2, 1.5}, {5, 4, 3, 2, 1}));
+  cells.id = "C";
+  cells.distribution = Distribution::kLambertian;
+  cells.emission = Eigen::ArrayXXd::Constant(2, 3, 1.0 / 6);
+  cells.emission(1, 1) = 2.0 / 6;
+  cells.emission /= cells.emission.sum();
+  state.luminaires.insert(state.luminaires.end(), {table, cells});
+  FreeQuantities of_table, of_cells;
+  of_table.table_sigma = 0.1;
+  of_cells.emission_sigma = 1;
+  state.free.insert(state.free.end(), {of_table, of_cells});
+  state.meter_scale_free = state.sensor_gains_free = true;
+  state.sensor_gain = Eigen::Vector2d(1.02, 0.97);
+  return state;
+}
+
+TEST_F(SmallRoom, PackAndWithAreInverseInEveryParameter) {
+  const LightState state = WithEverythingFree(state_);
+  const std::vector<Parameter> parameters = FreeParameters(room_, state);
+  std::set<std::pair<ParameterKind, LuminaireQuantity>> kinds;
+  for (const Parameter& p : parameters) kinds.insert({p.kind, p.quantity});
+  EXPECT_EQ(kinds.size(), 11u + 5u);  // quantities of luminaires, and the other kinds
+  const Eigen::VectorXd x = PackParameters(state, parameters);
   Eigen::VectorXd moved = x;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const bool tilt = parameters[static_cast<size_t>(i)].name.find("tilt") == 0;
-    moved[i] += tilt ? 0 : 0.01 * static_cast<double>(i + 1);
+    const Parameter& p = parameters[static_cast<size_t>(i)];
+    const double by = 0.01 * static_cast<double>(i % 9 + 1);
+    moved[i] += x[i] + by < p.upper ? by : -by;
   }
-  // Logarithms and exponentials in double.
-  EXPECT_LT((PackParameters(WithParameters(state_, parameters, moved), parameters) - moved).norm(), 1e-12);
-  const LightState same = WithParameters(state_, parameters, x);
-  EXPECT_NEAR((same.luminaires[0].aim - state_.luminaires[0].aim).norm(), 0, 1e-12);
+  const Eigen::VectorXd again = PackParameters(WithParameters(state, parameters, moved), parameters);
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    EXPECT_NEAR(again[i], moved[i], 1e-12) << NameOf(parameters[static_cast<size_t>(i)].id());  // rounding
+  const LightState same = WithParameters(state, parameters, x);
+  EXPECT_NEAR((same.luminaires[0].aim - state.luminaires[0].aim).norm(), 0, 1e-12);
   EXPECT_NEAR(same.luminaires[0].flux_lm, 700, 1e-9);
   EXPECT_NEAR(same.camera_scale, 0.02, 1e-12);
+}
+
+TEST_F(SmallRoom, TurnsAreCountedFromWhereTheyAreRecentred) {
+  state_.free[0].heading = true;
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  Eigen::VectorXd x = PackParameters(state_, parameters);
+  for (size_t i = 0; i < parameters.size(); ++i)
+    if (IsTilt(parameters[i])) x[static_cast<Eigen::Index>(i)] = 0.2;
+  const LightState turned = WithParameters(state_, parameters, x);
+  const Eigen::VectorXd packed = PackParameters(turned, Recentred(parameters, turned));
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (IsTilt(parameters[i])) {
+      EXPECT_NEAR(packed[static_cast<Eigen::Index>(i)], 0, 1e-12);
+    }
+  }
+}
+
+TEST(ParameterIds, WordsOfFilesReadBackAndNamesAreForPeople) {
+  for (int k = 0; k < 6; ++k) {
+    const auto kind = static_cast<ParameterKind>(k);
+    EXPECT_EQ(ParameterKindFrom(ToString(kind)), kind);
+  }
+  for (int q = 0; q < 11; ++q) {
+    const auto quantity = static_cast<LuminaireQuantity>(q);
+    EXPECT_EQ(LuminaireQuantityFrom(ToString(quantity)), quantity);
+  }
+  EXPECT_FALSE(ParameterKindFrom("flux of A"));
+  const ParameterId node{ParameterKind::kLuminaire, "A of B", LuminaireQuantity::kGammaNode, 3};
+  EXPECT_EQ(NameOf(node), "gamma node 3 of A of B");
+  EXPECT_NE(node, (ParameterId{ParameterKind::kLuminaire, "A of B", LuminaireQuantity::kGammaNode, 4}));
+  EXPECT_NE(node, (ParameterId{ParameterKind::kLogFlux, "A of B"}));
 }
 
 TEST_F(SmallRoom, ATiltTurnsTheAimAndKeepsTheHeadingPerpendicular) {
   std::vector<Parameter> parameters;
   for (const Parameter& p : FreeParameters(room_, state_)) {
-    if (p.name.find("tilt") == 0) parameters.push_back(p);
+    if (IsTilt(p)) parameters.push_back(p);
   }
   ASSERT_EQ(parameters.size(), 2u);
   const LuminaireAxes axes = AxesOf(state_.luminaires[0]);
@@ -169,8 +237,8 @@ TEST_F(SmallRoom, ATiltTurnsTheAimAndKeepsTheHeadingPerpendicular) {
 
 TEST_F(SmallRoom, BoundsKeepThingsPossible) {
   for (const Parameter& p : FreeParameters(room_, state_)) {
-    EXPECT_LT(p.lower, p.upper) << p.name;
-    EXPECT_FALSE(p.name.empty());
+    EXPECT_LT(p.lower, p.upper) << NameOf(p.id());
+    EXPECT_FALSE(NameOf(p.id()).empty());
     if (p.kind == ParameterKind::kAlbedo) {
       EXPECT_GT(p.lower, 0);
       EXPECT_LT(p.upper, 1);
@@ -193,7 +261,7 @@ TEST_F(SmallRoom, OnlyWhatIsFreeAndExistsIsAParameter) {
   state_.albedo_free = {false, true, false};
   state_.camera_scale_free = false;
   std::vector<std::string> names;
-  for (const Parameter& p : FreeParameters(room_, state_)) names.push_back(p.name);
+  for (const Parameter& p : FreeParameters(room_, state_)) names.push_back(NameOf(p.id()));
   EXPECT_EQ(names, (std::vector<std::string>{"size along of A", "log flux of A", "position x of B",
                                              "position y of B", "position z of B", "albedo of floor"}));
 }

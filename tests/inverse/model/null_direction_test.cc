@@ -12,14 +12,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Parameter Flux(const std::string& id) {
-  return {ParameterKind::kLogFlux, 0, {}, -50, 50, "log flux of " + id};
+Parameter Flux(const std::string& id) { return {ParameterKind::kLogFlux, 0, {}, -50, 50, id}; }
+Parameter Own(LuminaireQuantity quantity, const std::string& id) {
+  return {ParameterKind::kLuminaire, 0, quantity, -1, 1, id};
 }
-Parameter Own(LuminaireQuantity quantity, const std::string& what, const std::string& id) {
-  return {ParameterKind::kLuminaire, 0, quantity, -1, 1, what + " of " + id};
-}
-const Parameter kScale{ParameterKind::kLogCameraScale, 0, {}, -50, 50, "log camera scale"};
-const Parameter kWall{ParameterKind::kAlbedo, 0, {}, 0, 1, "albedo of wall"};
+const Parameter kScale{ParameterKind::kLogCameraScale, 0, {}, -50, 50, ""};
+const Parameter kWall{ParameterKind::kAlbedo, 0, {}, 0, 1, "wall"};
 
 NullDirection Even(const std::vector<Parameter>& parameters) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
@@ -47,22 +45,22 @@ TEST(NullDirectionTest, DirectAndReflectedLight) {
 }
 
 TEST(NullDirectionTest, HeightLobeAndFluxOfOneLuminaire) {
-  const NullDirection direction = Even({Own(LuminaireQuantity::kPositionZ, "position z", "C"),
-                                        Own(LuminaireQuantity::kExponent, "log exponent", "C"), Flux("C")});
+  const NullDirection direction =
+      Even({Own(LuminaireQuantity::kPositionZ, "C"), Own(LuminaireQuantity::kExponent, "C"), Flux("C")});
   EXPECT_EQ(direction.meaning, "height, lobe and flux of C trade off");
   EXPECT_THAT(direction.remedy, HasSubstr("nearer to C"));
 }
 
 TEST(NullDirectionTest, WhatChangesNothing) {
   EXPECT_EQ(Even({kWall}).meaning, "the reflectance of wall changes nothing that was measured");
-  EXPECT_EQ(Even({Own(LuminaireQuantity::kTiltAlong, "tilt along", "D")}).meaning,
+  EXPECT_EQ(Even({Own(LuminaireQuantity::kTiltAlong, "D")}).meaning,
             "aim of D changes nothing that was measured");
 }
 
 TEST(NullDirectionTest, SmallPartsAreNotNamedAndTheStrongestComesFirst) {
   const NullDirection direction =
       DescribeNullDirection({Flux("A"), kWall, kScale}, Eigen::Vector3d(-0.5, 0.05, 0.86));
-  EXPECT_THAT(direction.parameters, ElementsAre("log camera scale", "log flux of A"));
+  EXPECT_THAT(direction.parameters, ElementsAre(kScale.id(), Flux("A").id()));
   EXPECT_THROW(DescribeNullDirection({kScale}, Eigen::Vector2d(1, 0)), std::invalid_argument);
 }
 

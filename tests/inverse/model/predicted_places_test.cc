@@ -41,15 +41,21 @@ struct Office {
   }
 };
 
-NamedCovariance Diagonal(const std::vector<std::string>& names, const Eigen::VectorXd& sigma) {
-  return {names, sigma.cwiseAbs2().asDiagonal()};
+ParameterCovariance Diagonal(const std::vector<ParameterId>& ids, const Eigen::VectorXd& sigma) {
+  return {ids, sigma.cwiseAbs2().asDiagonal()};
 }
+
+const ParameterId kFluxOfA{ParameterKind::kLogFlux, "A"};
+const ParameterId kHeightOfB{ParameterKind::kLuminaire, "B", LuminaireQuantity::kPositionZ};
+const ParameterId kExponentOfB{ParameterKind::kLuminaire, "B", LuminaireQuantity::kExponent};
+const ParameterId kWall{ParameterKind::kAlbedo, "wall"};
+const ParameterId kNodeOfZ{ParameterKind::kLuminaire, "Z", LuminaireQuantity::kGammaNode, 3};
 
 TEST(PredictedPlaces, ColumnsAreThoseOfTheForwardModel) {
   const Office office;
   const PredictedPlaces predicted =
       PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({"log flux of A"}, Eigen::VectorXd::Constant(1, 0.02)));
+                    Diagonal({kFluxOfA}, Eigen::VectorXd::Constant(1, 0.02)));
   const Eigen::MatrixXd light = office.Light(office.luminaires, office.albedo);
   EXPECT_LT((predicted.total_lx - light).cwiseAbs().maxCoeff(), 1e-4 * light.maxCoeff());
   EXPECT_TRUE((predicted.direct_lx.array() < predicted.total_lx.array()).all());
@@ -60,7 +66,7 @@ TEST(PredictedPlaces, AFluxMovesItsOwnColumn) {
   const Office office;
   const PredictedPlaces predicted =
       PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({"log flux of A", "log camera scale"}, Eigen::Vector2d(0.02, 0.5)));
+                    Diagonal({kFluxOfA, {ParameterKind::kLogCameraScale, ""}}, Eigen::Vector2d(0.02, 0.5)));
   for (Eigen::Index i = 0; i < 2; ++i) {
     EXPECT_NEAR(predicted.factor.row(2 * i).norm(), 0.02 * predicted.total_lx(i, 0), 1e-9);
     EXPECT_NEAR(predicted.factor.row(2 * i + 1).norm(), 0, 1e-9);
@@ -71,26 +77,25 @@ TEST(PredictedPlaces, AFluxMovesItsOwnColumn) {
 // The factor against finite differences of the forward model: albedo, position, exponent, each by itself.
 TEST(PredictedPlaces, SigmasAreThoseOfFiniteDifferences) {
   const Office office;
-  const auto moved = [&](const std::string& name, double by) {
+  const auto moved = [&](const ParameterId& id, double by) {
     std::vector<Luminaire> lamps = office.luminaires;
     Eigen::VectorXd rho = office.albedo;
-    if (name == "position z of B") lamps[1].position.z() += by;
-    if (name == "log exponent of B") lamps[1].cosine_exponent *= std::exp(by);
-    if (name == "albedo of wall") rho[0] += by;
+    if (id == kHeightOfB) lamps[1].position.z() += by;
+    if (id == kExponentOfB) lamps[1].cosine_exponent *= std::exp(by);
+    if (id == kWall) rho[0] += by;
     return office.Light(lamps, rho);
   };
-  for (const auto& [name, sigma] : {std::pair<std::string, double>("position z of B", 0.02),
-                                    {"log exponent of B", 0.05},
-                                    {"albedo of wall", 0.01}}) {
+  for (const auto& [id, sigma] :
+       {std::pair<ParameterId, double>(kHeightOfB, 0.02), {kExponentOfB, 0.05}, {kWall, 0.01}}) {
     const PredictedPlaces predicted =
         PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                      Diagonal({name}, Eigen::VectorXd::Constant(1, sigma)));
-    const Eigen::MatrixXd difference = 0.5 * (moved(name, sigma) - moved(name, -sigma));
+                      Diagonal({id}, Eigen::VectorXd::Constant(1, sigma)));
+    const Eigen::MatrixXd difference = 0.5 * (moved(id, sigma) - moved(id, -sigma));
     for (Eigen::Index i = 0; i < 2; ++i) {
       for (Eigen::Index k = 0; k < 2; ++k) {
         EXPECT_NEAR(predicted.factor.row(2 * i + k).norm(), std::abs(difference(i, k)),
                     0.02 * difference.cwiseAbs().maxCoeff())
-            << name << " " << i << " " << k;
+            << NameOf(id) << " " << i << " " << k;
       }
     }
   }
@@ -100,9 +105,9 @@ TEST(PredictedPlaces, UnknownParametersAreNamed) {
   const Office office;
   const PredictedPlaces predicted =
       PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({"log flux of A", "gamma node 3 of Z"}, Eigen::Vector2d(0.02, 1)));
-  EXPECT_EQ(predicted.left_out, std::vector<std::string>{"gamma node 3 of Z"});
-  EXPECT_THROW(PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {{"a"}, {}}),
+                    Diagonal({kFluxOfA, kNodeOfZ}, Eigen::Vector2d(0.02, 1)));
+  EXPECT_EQ(predicted.left_out, std::vector<ParameterId>{kNodeOfZ});
+  EXPECT_THROW(PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {{kFluxOfA}, {}}),
                std::invalid_argument);
 }
 
