@@ -38,11 +38,11 @@ Blocks BlocksOf(const LightData& data) {
 }
 
 double ShareOf(const LightData& data, const Prediction& prediction) {
-  const auto first = static_cast<Eigen::Index>(data.observations.size());
+  const Eigen::Index first = FirstReadingRow(data);
   double direct = 0, total = 0;
   for (size_t i = 0; i < data.readings.size(); ++i) {
     if (!data.readings[i].used) continue;
-    direct += prediction.reading_direct_lx[static_cast<Eigen::Index>(i)];
+    direct += prediction.direct[first + static_cast<Eigen::Index>(i)];
     total += prediction.value[first + static_cast<Eigen::Index>(i)];
   }
   return total > 0 ? direct / total : 0;
@@ -86,7 +86,7 @@ class Evaluated {
       if (blocks_[i] < 0) continue;
       const Reading& r = data_.readings[i];
       const double sigma = std::hypot(r.sigma_lx, relative_sigma * r.illuminance_lx);
-      const auto row = static_cast<Eigen::Index>(data_.observations.size() + i);
+      const Eigen::Index row = FirstReadingRow(data_) + static_cast<Eigen::Index>(i);
       squares[blocks_[i]] += std::pow((prediction_.value[row] - r.illuminance_lx) / sigma, 2);
     }
     return squares;
@@ -95,14 +95,14 @@ class Evaluated {
  private:
   void FillResiduals(double relative_sigma) {
     const auto readings = static_cast<Eigen::Index>(data_.readings.size());
-    jacobian_ = prediction_.jacobian.bottomRows(readings);
+    jacobian_ = prediction_.jacobian.middleRows(FirstReadingRow(data_), readings);
     residual_.setZero(readings);
     for (Eigen::Index i = 0; i < readings; ++i) {
       const Reading& r = data_.readings[static_cast<size_t>(i)];
       const double sigma = std::hypot(r.sigma_lx, relative_sigma * r.illuminance_lx);
       const double weight = r.used && sigma > 0 ? 1 / sigma : 0;
       jacobian_.row(i) *= weight;
-      residual_[i] = weight * (prediction_.value[prediction_.value.size() - readings + i] - r.illuminance_lx);
+      residual_[i] = weight * (prediction_.value[FirstReadingRow(data_) + i] - r.illuminance_lx);
     }
   }
 

@@ -60,7 +60,7 @@ std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit) {
 std::vector<PredictedReading> PredictedReadings(const RoomFit& fit) {
   std::vector<PredictedReading> readings;
   if (fit.fit.predicted.size() == 0) return readings;
-  const auto first = static_cast<Eigen::Index>(fit.data.observations.size());
+  const Eigen::Index first = FirstReadingRow(fit.data);
   for (size_t i = 0; i < fit.data.readings.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     PredictedReading reading;

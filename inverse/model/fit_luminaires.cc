@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "calib/luminance/median.h"
-#include "inverse/model/internal/discretisation_bias.h"
 #include "inverse/model/internal/fit_covariance.h"
 #include "inverse/model/internal/frozen_problem.h"
 #include "inverse/model/internal/part_smoothness.h"
@@ -17,20 +17,13 @@ class OuterLoop {
  public:
   OuterLoop(const Room& room, const LightData& data, const LightState& start,
             const std::vector<ParameterPrior>& priors, const FitLuminairesOptions& options)
-      : room_(room), data_(data), options_(options), model_(room, data) {
+      : data_(data), options_(options), model_(room, data) {
     fit_.state = start;
     fit_.relative_sigma = options.initial_relative_sigma;
     fit_.parameters = FreeParameters(room, start);
     for (const ParameterPrior& prior : priors) AddPrior(prior);
     smoothness_ = SmoothnessRows(start, fit_.parameters);
-    values_.resize(model_.row_count());
-    const size_t observations = data.observations.size();
-    for (size_t i = 0; i < observations; ++i) {
-      values_[static_cast<Eigen::Index>(i)] = data.observations[i].relative_luminance;
-    }
-    for (size_t i = 0; i < data.readings.size(); ++i) {
-      values_[static_cast<Eigen::Index>(observations + i)] = data.readings[i].illuminance_lx;
-    }
+    ReadRows();
   }
 
   LuminaireFit Run() {
@@ -73,10 +66,24 @@ class OuterLoop {
     }
   }
 
-  bool HasData() const {
-    return !data_.observations.empty() ||
-           std::any_of(data_.readings.begin(), data_.readings.end(), [](const Reading& r) { return r.used; });
+  // What the blocks say of their rows that no state changes.
+  void ReadRows() {
+    const int rows = model_.row_count();
+    values_.resize(rows);
+    variance_.resize(rows);
+    is_used_.resize(static_cast<size_t>(rows));
+    carries_model_error_.resize(static_cast<size_t>(rows));
+    for (int i = 0; i < rows; ++i) {
+      const RowBlock& block = model_.BlockOf(i);
+      const int place = model_.PlaceInBlock(i);
+      values_[i] = block.ValueOf(place);
+      variance_[i] = block.VarianceOf(place);
+      is_used_[static_cast<size_t>(i)] = block.IsUsed(place);
+      carries_model_error_[static_cast<size_t>(i)] = model_.block_index(i) == model_.block_index(0);
+    }
   }
+
+  bool HasData() const { return std::find(is_used_.begin(), is_used_.end(), true) != is_used_.end(); }
 
   // Visibility, model error and weights at the present state.
   void Refresh(bool with_jacobian) {
@@ -90,44 +97,35 @@ class OuterLoop {
     at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
     const Eigen::VectorXd residual = at_state_.value - values_;
     relative_sigma_before_ = fit_.relative_sigma;
-    EstimateRelativeSigma(residual, penumbra);
-    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
+    is_usable_ = is_used_;
+    for (size_t i = 0; i < is_usable_.size(); ++i) is_usable_[i] = is_used_[i] && !penumbra[i];
+    EstimateRelativeSigma(residual);
     fit_.weight.setZero(values_.size());
     root_weight_.setZero(values_.size());
     for (Eigen::Index i = 0; i < values_.size(); ++i) {
-      const bool usable = i < observations ? !penumbra[static_cast<size_t>(i)]
-                                           : data_.readings[static_cast<size_t>(i - observations)].used;
-      if (!usable) continue;
+      if (!is_usable_[static_cast<size_t>(i)]) continue;
       const double sigma = SigmaOf(i);
       const double z = residual[i] / (options_.robust_sigmas * sigma);
-      // Readings are few and each was meant: they are not down-weighted unless they are the bulk of the data.
-      fit_.weight[i] = i < observations || observations == 0 ? 1 / (1 + z * z) : 1;
+      // Rows of other blocks are few and each was meant: they are not down-weighted.
+      fit_.weight[i] = carries_model_error_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
       root_weight_[i] = std::sqrt(fit_.weight[i]) / sigma;
     }
   }
 
   double SigmaOf(Eigen::Index row) const {
-    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
-    if (row < observations) {
-      const Observation& o = data_.observations[static_cast<size_t>(row)];
-      return std::sqrt(o.variance + std::pow(fit_.relative_sigma * o.relative_luminance, 2));
-    }
-    const Reading& reading = data_.readings[static_cast<size_t>(row - observations)];
-    const double model = observations == 0 ? fit_.relative_sigma * reading.illuminance_lx : 0;
-    return std::hypot(reading.sigma_lx, model);
+    const double model =
+        carries_model_error_[static_cast<size_t>(row)] ? fit_.relative_sigma * values_[row] : 0;
+    return std::sqrt(variance_[row] + model * model);
   }
 
   // f such that the median absolute normalised residual is that of a Gaussian; a damped fixed point.
-  void EstimateRelativeSigma(const Eigen::VectorXd& residual, const std::vector<bool>& penumbra) {
+  void EstimateRelativeSigma(const Eigen::VectorXd& residual) {
     for (int k = 0; k < 3; ++k) {
       std::vector<double> absolute;
       for (Eigen::Index i = 0; i < residual.size(); ++i) {
-        const Eigen::Index observations = static_cast<Eigen::Index>(penumbra.size());
-        if (i < observations && penumbra[static_cast<size_t>(i)]) continue;
-        if (i >= observations &&
-            (observations > 0 || !data_.readings[static_cast<size_t>(i - observations)].used))
-          continue;
-        absolute.push_back(std::abs(residual[i]) / SigmaOf(i));
+        const auto row = static_cast<size_t>(i);
+        if (is_usable_[row] && carries_model_error_[row])
+          absolute.push_back(std::abs(residual[i]) / SigmaOf(i));
       }
       if (absolute.empty()) return;
       fit_.relative_sigma =
@@ -149,7 +147,8 @@ class OuterLoop {
   // Covariance, what is undetermined, predictions of the readings.
   void Conclude() {
     fit_.predicted = at_state_.value;
-    fit_.reading_direct_lx = at_state_.reading_direct_lx;
+    const auto readings = static_cast<Eigen::Index>(data_.readings.size());
+    fit_.reading_direct_lx = at_state_.direct.segment(FirstReadingRow(data_), readings);
     const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
     for (size_t i = 0; i < fit_.parameters.size(); ++i) {
       const Parameter& p = fit_.parameters[i];
@@ -166,8 +165,7 @@ class OuterLoop {
     const FitCovariance found = CovarianceOf(rows);
     fit_.covariance = found.covariance;
     for (const Eigen::VectorXd& direction : found.null_directions) NameNullDirection(direction);
-    const Eigen::Index readings = static_cast<Eigen::Index>(data_.readings.size());
-    const Eigen::MatrixXd reading_jacobian = at_state_.jacobian.bottomRows(readings);
+    const Eigen::MatrixXd reading_jacobian = at_state_.jacobian.middleRows(FirstReadingRow(data_), readings);
     fit_.reading_sigma_lx =
         (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal().cwiseSqrt();
   }
@@ -182,25 +180,20 @@ class OuterLoop {
     fit_.message = "the data leave a combination of parameters undetermined";
   }
 
-  // Clusters are the observations of one facet in one state; readings stand alone.
   WeightedRows RowsAtState() const {
     WeightedRows rows;
     rows.jacobian = root_weight_.asDiagonal() * at_state_.jacobian;
     rows.residual = (at_state_.value - values_).cwiseProduct(root_weight_);
-    rows.bias = Eigen::VectorXd::Zero(values_.size());
-    const Eigen::Index observations = static_cast<Eigen::Index>(data_.observations.size());
-    if (observations > 0)
-      rows.bias.head(observations) =
-          DiscretisationBias(room_, data_, fit_.state).cwiseProduct(root_weight_.head(observations));
-    std::map<std::pair<int, int>, int> clusters;
-    for (const Observation& o : data_.observations) {
-      const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
-      const int facet = room_.patches.patches[static_cast<size_t>(patch)].facet;
+    rows.bias = Bias().cwiseProduct(root_weight_);
+    std::map<std::tuple<int, int, int>, int> clusters;
+    for (int i = 0; i < model_.row_count(); ++i) {
+      const auto cluster = model_.BlockOf(i).ClusterOf(model_.PlaceInBlock(i));
       const int next = static_cast<int>(clusters.size());
-      rows.cluster.push_back(clusters.try_emplace({facet, o.state}, next).first->second);
+      const int block = model_.block_index(i);
+      rows.cluster.push_back(
+          cluster ? clusters.try_emplace({block, cluster->first, cluster->second}, next).first->second : -1);
     }
-    rows.cluster.resize(static_cast<size_t>(values_.size()), -1);
-    rows.alone_scatter = ReadingScatter(rows.residual.tail(values_.size() - observations));
+    rows.alone_scatter = AloneScatter(rows);
     const Eigen::Index n = at_state_.jacobian.cols();
     rows.prior_information = Eigen::MatrixXd::Zero(n, n);
     for (const auto& [parameter, prior] : priors_)
@@ -209,15 +202,32 @@ class OuterLoop {
     return rows;
   }
 
-  // Mean square of the readings' normalised residuals, never below 1: a reading's stated sigma counts even
-  // where the fit passes through it (a scale reading leaves no residual). One mean for all: max(1, z^2) of
-  // each would be 1.48 on average where nothing is wrong.
-  double ReadingScatter(const Eigen::VectorXd& residual) const {
-    const Eigen::Index used = (root_weight_.tail(residual.size()).array() > 0).count();
-    return used > 0 ? std::max(1.0, residual.squaredNorm() / static_cast<double>(used)) : 1.0;
+  // What the model leaves out of each row by its discretisation.
+  Eigen::VectorXd Bias() const {
+    Eigen::VectorXd bias(values_.size());
+    Eigen::Index first = 0;
+    for (const auto& block : model_.blocks()) {
+      if (block->row_count() > 0) bias.segment(first, block->row_count()) = block->BiasOf(fit_.state);
+      first += block->row_count();
+    }
+    return bias;
   }
 
-  const Room& room_;
+  // Mean square of the normalised residuals of rows that stand alone, never below 1: a reading's stated sigma counts even
+  // where the fit passes through it (a scale reading leaves no residual). One mean for all: max(1, z^2) of
+  // each would be 1.48 on average where nothing is wrong.
+  double AloneScatter(const WeightedRows& rows) const {
+    double squares = 0;
+    int used = 0;
+    for (size_t i = 0; i < rows.cluster.size(); ++i) {
+      if (rows.cluster[i] >= 0) continue;
+      const auto row = static_cast<Eigen::Index>(i);
+      squares += rows.residual[row] * rows.residual[row];
+      used += root_weight_[row] > 0 ? 1 : 0;
+    }
+    return used > 0 ? std::max(1.0, squares / used) : 1.0;
+  }
+
   const LightData& data_;
   const FitLuminairesOptions& options_;
   LightModel model_;
@@ -225,7 +235,9 @@ class OuterLoop {
   std::vector<std::pair<int, ParameterPrior>> priors_;
   std::vector<Luminaire> frozen_;  // where the visibility is of
   std::vector<SmoothnessRow> smoothness_;
-  Eigen::VectorXd values_, root_weight_;
+  Eigen::VectorXd values_, variance_, root_weight_;
+  std::vector<bool> is_used_, is_usable_;  // fitted to; and not spoilt at the present state
+  std::vector<bool> carries_model_error_;  // rows of the first block that has any
   Prediction at_state_;
   double relative_sigma_before_ = 0;
 };

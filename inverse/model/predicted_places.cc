@@ -127,7 +127,7 @@ PredictedPlaces PredictPlaces(const Room& room, const std::vector<Luminaire>& lu
   const Eigen::Index rows = static_cast<Eigen::Index>(places.size());
   PredictedPlaces result;
   result.total_lx = Eigen::Map<const RowMajorMatrix>(predicted.value.data(), rows, lamps);
-  result.direct_lx = Eigen::Map<const RowMajorMatrix>(predicted.reading_direct_lx.data(), rows, lamps);
+  result.direct_lx = Eigen::Map<const RowMajorMatrix>(predicted.direct.data(), rows, lamps);
   result.factor = FactorOf(predicted.jacobian, known.covariance);
   result.left_out = known.left_out;
   return result;

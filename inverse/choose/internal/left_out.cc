@@ -43,6 +43,8 @@ void AddObservations(const Room& room, const LightData& data, const std::vector<
     problem.all.observations.push_back(o);
     problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
     problem.left_out.push_back(LeftOut(patch));
+    problem.value.push_back(o.relative_luminance);
+    problem.variance.push_back(o.variance);
     if (!LeftOut(patch)) problem.fit.observations.push_back(o);
   }
 }
@@ -56,14 +58,11 @@ void AddReadings(const LightData& data, const std::vector<bool>& state_used, Sub
     problem.all.readings.push_back(reading);
     problem.group_of_row.push_back(group);
     problem.left_out.push_back(out);
+    problem.value.push_back(reading.illuminance_lx);
+    problem.variance.push_back(0);
     reading.used = !out;
     problem.fit.readings.push_back(reading);
   }
-}
-
-double ValueOf(const LightData& data, size_t row) {
-  return row < data.observations.size() ? data.observations[row].relative_luminance
-                                        : data.readings[row - data.observations.size()].illuminance_lx;
 }
 
 }  // namespace
@@ -140,9 +139,8 @@ GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predic
   GroupScores scores;
   for (size_t i = 0; i < problem.left_out.size(); ++i) {
     if (!problem.left_out[i]) continue;
-    const double value = ValueOf(problem.all, i);
-    double variance = std::pow(relative_sigma * value, 2);
-    if (i < problem.all.observations.size()) variance += problem.all.observations[i].variance;
+    const double value = problem.value[i];
+    const double variance = std::pow(relative_sigma * value, 2) + problem.variance[i];
     const double z = (predicted[static_cast<Eigen::Index>(i)] - value) / std::sqrt(variance);
     GroupScore& score = scores[problem.group_of_row[i]];
     score.sum += std::min(z * z, 9.0);

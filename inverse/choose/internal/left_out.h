@@ -22,6 +22,9 @@ struct SubProblem {
   LightData all, fit;
   std::vector<int> group_of_row;  // of `all`: facet, or reading
   std::vector<bool> left_out;     // of `all`
+  std::vector<double> value;      // of `all`, as measured
+  std::vector<double>
+      variance;  // of `all`, without the model's error; 0 for readings, whose scatter is the model's
   std::vector<ParameterPrior> priors;
 };
 

@@ -134,7 +134,7 @@ TEST_F(SmallRoom, LuminanceIsAlbedoOverPiTimesIlluminance) {
   const Prediction prediction = model.Predict(state_, {}, false);
   // Both have the same direct light. The element's indirect light comes from 64 rays: a relative sigma of at
   // most sqrt(0.25 / 64), were half of them dark; three of those.
-  const double direct_lx = prediction.reading_direct_lx[0], indirect_lx = prediction.value[1] - direct_lx;
+  const double direct_lx = prediction.direct[1], indirect_lx = prediction.value[1] - direct_lx;
   const double seen_lx = prediction.value[0] * 3.14159265358979323846 / (0.15 * state_.camera_scale);
   EXPECT_NEAR(seen_lx, prediction.value[1], 3 * indirect_lx * std::sqrt(0.25 / 64));
   EXPECT_GT(direct_lx, 5 * indirect_lx);  // so that the tolerance is a few percent

@@ -1,0 +1,286 @@
+#include "inverse/model/light_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "forward/luminaire/luminaire_parts.h"
+
+namespace luxfit {
+namespace {
+
+PartKind PartKindOf(LuminaireQuantity quantity) {
+  return quantity == LuminaireQuantity::kCell ? PartKind::kCell : PartKind::kGammaNode;
+}
+
+AimFrame FrameOf(const Luminaire& luminaire) {
+  const LuminaireAxes axes = AxesOf(luminaire);
+  return {luminaire.aim, axes.along, axes.across};
+}
+
+bool IsTurn(const Parameter& p) {
+  return p.kind == ParameterKind::kLuminaire &&
+         (p.quantity == LuminaireQuantity::kTiltAlong || p.quantity == LuminaireQuantity::kTiltAcross ||
+          p.quantity == LuminaireQuantity::kHeading);
+}
+
+// A luminaire's turn from a frame: first about the aim by `heading`, then the aim by `tilt` along the turned axes.
+//   along_h = cos(h) along + sin(h) across,   aim' ~ aim + t1 along_h + t2 across_h
+struct Turn {
+  AimFrame frame;
+  Eigen::Vector2d tilt = Eigen::Vector2d::Zero();
+  double heading = 0;
+
+  Eigen::Vector3d Along() const { return std::cos(heading) * frame.along + std::sin(heading) * frame.across; }
+};
+
+void Apply(const Turn& turn, Luminaire& luminaire) {
+  const Eigen::Vector3d along = turn.Along(), across = turn.frame.aim.cross(along);
+  luminaire.aim = (turn.frame.aim + turn.tilt[0] * along + turn.tilt[1] * across).normalized();
+  luminaire.heading = along;
+  luminaire.heading = AxesOf(luminaire).along;
+}
+
+// The inverse: along_h is the vector across the frame's aim that the heading is the projection of.
+Turn TurnOf(const Luminaire& luminaire, const AimFrame& frame) {
+  Turn turn{frame};
+  const Eigen::Vector3d& heading = AxesOf(luminaire).along;
+  const double cosine = luminaire.aim.dot(frame.aim);
+  const Eigen::Vector3d along = heading - heading.dot(frame.aim) / cosine * luminaire.aim;
+  turn.heading = std::atan2(along.dot(frame.across), along.dot(frame.along));
+  const Eigen::Vector3d unit = turn.Along();
+  turn.tilt = Eigen::Vector2d(luminaire.aim.dot(unit), luminaire.aim.dot(frame.aim.cross(unit))) / cosine;
+  return turn;
+}
+
+double& SizeComponent(Luminaire& luminaire, LuminaireQuantity quantity) {
+  return luminaire.size_m[quantity == LuminaireQuantity::kSizeAlong ? 0 : 1];
+}
+
+std::vector<LuminaireQuantity> FreeQuantitiesOf(const Luminaire& luminaire, const FreeQuantities& free) {
+  std::vector<LuminaireQuantity> list;
+  if (free.position) {
+    list.insert(list.end(), {LuminaireQuantity::kPositionX, LuminaireQuantity::kPositionY,
+                             LuminaireQuantity::kPositionZ});
+  }
+  if (free.exponent && luminaire.distribution == Distribution::kCosinePower) {
+    list.push_back(LuminaireQuantity::kExponent);
+  }
+  if (free.size && luminaire.shape != LuminaireShape::kPoint) {
+    list.push_back(LuminaireQuantity::kSizeAlong);
+    if (luminaire.shape == LuminaireShape::kRectangle) list.push_back(LuminaireQuantity::kSizeAcross);
+  }
+  if (free.tilt) list.insert(list.end(), {LuminaireQuantity::kTiltAlong, LuminaireQuantity::kTiltAcross});
+  if (free.heading) list.push_back(LuminaireQuantity::kHeading);
+  return list;
+}
+
+Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int index,
+                                 LuminaireQuantity quantity) {
+  Parameter p{ParameterKind::kLuminaire, index, quantity, 0, 0, luminaire.id};
+  p.frame = FrameOf(luminaire);
+  constexpr double kClearanceM = 1e-3;  // from the walls: a luminaire has a thickness
+  switch (quantity) {
+    case LuminaireQuantity::kPositionX:
+    case LuminaireQuantity::kPositionY:
+    case LuminaireQuantity::kPositionZ: {
+      const int axis = static_cast<int>(quantity);
+      p.lower = box.isEmpty() ? -1e3 : box.min()[axis] + kClearanceM;
+      p.upper = box.isEmpty() ? 1e3 : box.max()[axis] - kClearanceM;
+      break;
+    }
+    case LuminaireQuantity::kExponent:
+      p.lower = std::log(0.2), p.upper = std::log(100);
+      break;
+    case LuminaireQuantity::kSizeAlong:
+    case LuminaireQuantity::kSizeAcross:
+      p.lower = 1e-3;
+      p.upper = box.isEmpty() ? 10 : 0.5 * box.diagonal().maxCoeff();
+      break;
+    case LuminaireQuantity::kTiltAlong:
+    case LuminaireQuantity::kTiltAcross:
+      p.lower = -1, p.upper = 1;
+      break;
+    case LuminaireQuantity::kHeading:
+      p.lower = -M_PI, p.upper = M_PI;
+      break;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      p.upper = 1e3;
+      break;
+  }
+  return p;
+}
+
+// Of a quantity that is no part.
+double ValueOf(const Luminaire& luminaire, const Parameter& p) {
+  switch (p.quantity) {
+    case LuminaireQuantity::kPositionX:
+    case LuminaireQuantity::kPositionY:
+    case LuminaireQuantity::kPositionZ:
+      return luminaire.position[static_cast<int>(p.quantity)];
+    case LuminaireQuantity::kExponent:
+      return std::log(luminaire.cosine_exponent);
+    case LuminaireQuantity::kSizeAlong:
+      return luminaire.size_m[0];
+    case LuminaireQuantity::kSizeAcross:
+      return luminaire.size_m[1];
+    case LuminaireQuantity::kTiltAlong:
+      return TurnOf(luminaire, p.frame).tilt[0];
+    case LuminaireQuantity::kTiltAcross:
+      return TurnOf(luminaire, p.frame).tilt[1];
+    case LuminaireQuantity::kHeading:
+      return TurnOf(luminaire, p.frame).heading;
+    case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kCell:
+      break;
+  }
+  return 0;
+}
+
+void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int index,
+              LuminaireQuantity quantity, std::vector<Parameter>& parameters) {
+  const Eigen::VectorXd shares = PartShares(luminaire, PartKindOf(quantity));
+  if (shares.size() == 0) return;
+  int reference = 0;
+  shares.maxCoeff(&reference);
+  for (int j = 0; j < static_cast<int>(shares.size()); ++j) {
+    if (j == reference) continue;
+    Parameter p = MakeLuminaireParameter(box, luminaire, index, quantity);
+    p.part = j, p.reference = reference;
+    parameters.push_back(std::move(p));
+  }
+}
+
+}  // namespace
+
+bool IsPart(const Parameter& p) {
+  return p.kind == ParameterKind::kLuminaire &&
+         (p.quantity == LuminaireQuantity::kCell || p.quantity == LuminaireQuantity::kGammaNode);
+}
+
+double ReferenceShare(const LightState& state, const Parameter& p) {
+  return PartShares(state.luminaires[static_cast<size_t>(p.index)], PartKindOf(p.quantity))[p.reference];
+}
+
+std::vector<Parameter> FreeParameters(const Room& room, const LightState& state) {
+  std::vector<Parameter> parameters;
+  const Eigen::AlignedBox3d box = room.scene.Bounds();
+  for (size_t k = 0; k < state.luminaires.size(); ++k) {
+    const Luminaire& luminaire = state.luminaires[k];
+    for (const LuminaireQuantity quantity : FreeQuantitiesOf(luminaire, state.free[k])) {
+      parameters.push_back(MakeLuminaireParameter(box, luminaire, static_cast<int>(k), quantity));
+    }
+    const int index = static_cast<int>(k);
+    if (state.free[k].table_sigma > 0)
+      AddParts(box, luminaire, index, LuminaireQuantity::kGammaNode, parameters);
+    if (state.free[k].emission_sigma > 0)
+      AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
+    if (state.free[k].flux) {
+      parameters.push_back({ParameterKind::kLogFlux, static_cast<int>(k), {}, -50, 50, luminaire.id});
+    }
+  }
+  for (size_t m = 0; m < state.albedo_free.size(); ++m) {
+    if (!state.albedo_free[m]) continue;
+    parameters.push_back(
+        {ParameterKind::kAlbedo, static_cast<int>(m), {}, 0.01, 0.98, room.scene.materials[m]});
+  }
+  if (state.camera_scale_free) {
+    parameters.push_back({ParameterKind::kLogCameraScale, 0, {}, -50, 50, ""});
+  }
+  if (state.meter_scale_free) parameters.push_back({ParameterKind::kLogMeterScale, 0, {}, -1, 1, ""});
+  for (int i = 0; state.sensor_gains_free && i < static_cast<int>(state.sensor_gain.size()); ++i) {
+    parameters.push_back({ParameterKind::kLogSensorGain, i, {}, -1, 1, std::to_string(i)});
+  }
+  return parameters;
+}
+
+Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parameter>& parameters) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(parameters.size()));
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    const size_t index = static_cast<size_t>(p.index);
+    double value = 0;
+    if (p.kind == ParameterKind::kLogFlux) value = std::log(state.luminaires[index].flux_lm);
+    if (p.kind == ParameterKind::kAlbedo) value = state.albedo[p.index];
+    if (p.kind == ParameterKind::kLogCameraScale) value = std::log(state.camera_scale);
+    if (p.kind == ParameterKind::kLogMeterScale) value = std::log(state.meter_scale);
+    if (p.kind == ParameterKind::kLogSensorGain) value = std::log(state.sensor_gain[p.index]);
+    if (IsPart(p)) {
+      const Eigen::VectorXd shares = PartShares(state.luminaires[index], PartKindOf(p.quantity));
+      value = shares[p.part] / shares[p.reference];
+    } else if (p.kind == ParameterKind::kLuminaire) {
+      value = ValueOf(state.luminaires[index], p);
+    }
+    x[static_cast<Eigen::Index>(i)] = std::clamp(value, p.lower, p.upper);
+  }
+  return x;
+}
+
+LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
+                          const Eigen::VectorXd& x) {
+  std::map<int, Turn> turns;
+  std::map<std::pair<int, LuminaireQuantity>, Eigen::VectorXd> parts;
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    const size_t index = static_cast<size_t>(p.index);
+    const double value = x[static_cast<Eigen::Index>(i)];
+    if (p.kind == ParameterKind::kLogFlux) state.luminaires[index].flux_lm = std::exp(value);
+    if (p.kind == ParameterKind::kAlbedo) state.albedo[p.index] = value;
+    if (p.kind == ParameterKind::kLogCameraScale) state.camera_scale = std::exp(value);
+    if (p.kind == ParameterKind::kLogMeterScale) state.meter_scale = std::exp(value);
+    if (p.kind == ParameterKind::kLogSensorGain) state.sensor_gain[p.index] = std::exp(value);
+    if (p.kind != ParameterKind::kLuminaire) continue;
+    Luminaire& luminaire = state.luminaires[index];
+    if (IsPart(p)) {
+      Eigen::VectorXd& shares = parts[{p.index, p.quantity}];
+      if (shares.size() == 0) {
+        shares = PartShares(luminaire, PartKindOf(p.quantity));
+        shares /= shares[p.reference];
+      }
+      shares[p.part] = value;
+      continue;
+    }
+    switch (p.quantity) {
+      case LuminaireQuantity::kPositionX:
+      case LuminaireQuantity::kPositionY:
+      case LuminaireQuantity::kPositionZ:
+        luminaire.position[static_cast<int>(p.quantity)] = value;
+        break;
+      case LuminaireQuantity::kExponent:
+        luminaire.cosine_exponent = std::exp(value);
+        break;
+      case LuminaireQuantity::kSizeAlong:
+      case LuminaireQuantity::kSizeAcross:
+        SizeComponent(luminaire, p.quantity) = value;
+        break;
+      case LuminaireQuantity::kTiltAlong:
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.tilt[0] = value;
+        break;
+      case LuminaireQuantity::kTiltAcross:
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.tilt[1] = value;
+        break;
+      case LuminaireQuantity::kHeading:
+        turns.try_emplace(p.index, Turn{p.frame}).first->second.heading = value;
+        break;
+      case LuminaireQuantity::kGammaNode:
+      case LuminaireQuantity::kCell:
+        break;  // above
+    }
+  }
+  for (const auto& [of, shares] : parts) {
+    Luminaire& luminaire = state.luminaires[static_cast<size_t>(of.first)];
+    luminaire = WithPartShares(luminaire, PartKindOf(of.second), shares);
+  }
+  for (const auto& [index, turn] : turns) Apply(turn, state.luminaires[static_cast<size_t>(index)]);
+  return state;
+}
+
+std::vector<Parameter> Recentred(std::vector<Parameter> parameters, const LightState& state) {
+  for (Parameter& p : parameters)
+    if (IsTurn(p)) p.frame = FrameOf(state.luminaires[static_cast<size_t>(p.index)]);
+  return parameters;
+}
+
+}  // namespace luxfit
