@@ -115,7 +115,7 @@ class OuterLoop {
   double SigmaOf(Eigen::Index row) const {
     const double model =
         carries_model_error_[static_cast<size_t>(row)] ? fit_.relative_sigma * values_[row] : 0;
-    return std::sqrt(variance_[row] + model * model);
+    return std::hypot(std::sqrt(variance_[row]), model);
   }
 
   // f such that the median absolute normalised residual is that of a Gaussian; a damped fixed point.

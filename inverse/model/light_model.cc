@@ -39,7 +39,7 @@ struct Columns {
   }
 };
 
-// dE / dp at one receiver, by the light per lumen and the lumens of the luminaires.
+// gain dE / dp at one receiver, by the light per lumen and the lumens of the luminaires.
 class ReceiverDerivative {
  public:
   ReceiverDerivative(const LightState& state, const Illuminance& light, const Columns& columns,
@@ -49,24 +49,26 @@ class ReceiverDerivative {
         columns_(columns),
         materials_(is_direct ? 0 : static_cast<Eigen::Index>(columns.request.materials.size())) {}
 
-  double Of(const Parameter& parameter, size_t p, Eigen::Index r, const Eigen::VectorXd& lumens) const {
+  double Of(const Parameter& parameter, size_t p, Eigen::Index r, double gain,
+            const Eigen::VectorXd& lumens) const {
     const Eigen::Index k = parameter.index;
     const int column = columns_.of_parameter[p];
-    if (parameter.kind == ParameterKind::kLogFlux) return lumens[k] * light_.total(r, k);
+    if (parameter.kind == ParameterKind::kLogFlux) return gain * lumens[k] * light_.total(r, k);
     if (parameter.kind == ParameterKind::kAlbedo) {
       double sum = 0;
       for (Eigen::Index j = 0; j < lumens.size() && materials_ > 0; ++j)
         sum += lumens[j] * light_.d_albedo(r, j * materials_ + column);
-      return sum;
+      return gain * sum;
     }
     if (parameter.kind != ParameterKind::kLuminaire) return 0;
     const double per_lumen = light_.d_luminaire(r, column);
     if (IsPart(parameter))
-      return lumens[k] * columns_.reference_share[p] * (per_lumen - static_cast<double>(light_.total(r, k)));
+      return gain * lumens[k] * columns_.reference_share[p] *
+             (per_lumen - static_cast<double>(light_.total(r, k)));
     // Of its logarithm.
     const bool is_exponent = parameter.quantity == LuminaireQuantity::kExponent;
     const double inner = is_exponent ? state_.luminaires[static_cast<size_t>(k)].cosine_exponent : 1;
-    return lumens[k] * per_lumen * inner;
+    return gain * lumens[k] * per_lumen * inner;
   }
 
  private:
@@ -157,7 +159,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
     for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
       prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
-          response.gain * derivative.Of(parameters[p], p, row.receiver, lumens) +
+          derivative.Of(parameters[p], p, row.receiver, response.gain, lumens) +
           block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
     }
   });
