@@ -135,8 +135,9 @@ void AddColumns(ResultClass& result) {
 void AddParameters(ResultClass& result) {
   const auto of_fit = [](auto member) { return [member](const Result& r) { return r.fit.*member; }; };
   result
-      .def_property_readonly("parameter_names", of_fit(&FitUncertainty::parameters),
-                             "Of parameters and covariance.")
+      .def_property_readonly(
+          "parameter_names", [](const Result& r) { return NamesOf(r.fit.parameters); },
+          "Of parameters and covariance.")
       .def_property_readonly(
           "parameters", of_fit(&FitUncertainty::values),
           "(p,), as fitted: positions and sizes m, tilts rad, reflectances; logarithms where the "

@@ -83,6 +83,7 @@ Selection Select(const SubProblem& problem, const std::vector<Trial>& trials) {
   double relative_sigma = 1;
   for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
   std::vector<SelectionCandidate> candidates;
+  candidates.reserve(trials.size());
   for (const Trial& trial : trials)
     candidates.push_back(
         {ScoreGroups(problem, trial.predicted, relative_sigma), static_cast<double>(trial.count), true});

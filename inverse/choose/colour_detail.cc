@@ -116,8 +116,7 @@ void Cut(std::vector<Row>& rows) {
 }
 
 // Of what was left out, `modelled` a value a row.
-GroupScores Score(const std::vector<Row>& rows, const std::vector<double>& modelled,
-                                double sigma) {
+GroupScores Score(const std::vector<Row>& rows, const std::vector<double>& modelled, double sigma) {
   GroupScores scores;
   for (size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].is_left_out) continue;

@@ -44,6 +44,7 @@ PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cam
   observed.registration = RegisterViews(cameras, survey, DetectViews(cameras, photos, tag_family));
   const std::vector<RegisteredView>& views = observed.registration.views;
   std::vector<PixelDirections> directions;
+  directions.reserve(cameras.size());
   for (const Camera& camera : cameras) directions.push_back(UnprojectAllPixels(camera));
   std::vector<PixelMap> maps;
   for (const RegisteredView& view : views) {

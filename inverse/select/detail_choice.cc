@@ -6,6 +6,7 @@ namespace luxfit {
 
 DetailChoice ChooseDetail(const std::vector<std::string>& names, const std::vector<GroupScores>& scores) {
   std::vector<SelectionCandidate> candidates;
+  candidates.reserve(scores.size());
   for (const GroupScores& score : scores)
     candidates.push_back({score, static_cast<double>(candidates.size()), true});
   SelectionOptions options;

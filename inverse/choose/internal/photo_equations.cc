@@ -277,7 +277,7 @@ void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const
 }
 
 GroupScores PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit& fit,
-                                                const Eigen::VectorXd& x, int fold) const {
+                                  const Eigen::VectorXd& x, int fold) const {
   GroupScores scores;
   for (int e = 0; e < elements(); ++e) {
     const ElementRows& element = elements_[static_cast<size_t>(e)];

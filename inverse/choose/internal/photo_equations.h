@@ -65,8 +65,8 @@ class PhotoEquations {
   void Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const;
 
   // Of the elements of a fold by facet, B fitted to themselves with x held.
-  GroupScores Score(const RadiometryUnknowns& unknowns, const Fit& fit,
-                                  const Eigen::VectorXd& x, int fold) const;
+  GroupScores Score(const RadiometryUnknowns& unknowns, const Fit& fit, const Eigen::VectorXd& x,
+                    int fold) const;
 
   // - gradient by facet (by patch, in rooms of few facets): what covariance is told from.
   std::map<int, Eigen::VectorXd> GradientByGroup(const RadiometryUnknowns& unknowns, const Fit& fit) const;

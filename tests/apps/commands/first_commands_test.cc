@@ -103,8 +103,9 @@ std::set<std::string> WarningCodesOfSources() {
   const std::regex after_push(
       R"((?:warnings|notes)\.push_back\(\s*\{\s*(?:[a-z.]+,\s*|"",\s*|-1,\s*|id,\s*)*"([a-z_]+)\")");
   std::set<std::string> codes;
-  for (const char* room : {"apps", "apps/internal", "calib", "calib/internal"}) {
-    for (const auto& entry : fs::directory_iterator(fs::path(LUXFIT_FIXTURES).parent_path() / room)) {
+  for (const char* layer : {"apps", "inverse", "calib"}) {
+    const fs::path folder = fs::path(LUXFIT_FIXTURES).parent_path() / layer;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       if (entry.path().extension() != ".cc") continue;
       std::ifstream file(entry.path());
       const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
