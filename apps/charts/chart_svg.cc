@@ -11,8 +11,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kWidthPx = 980, kHeightPx = 640;
-constexpr double kLeftPx = 76, kRightPx = 770, kTopPx = 64, kBottomPx = 570;
+constexpr double kPointChartWidthPx = 980, kPointChartHeightPx = 640;
+constexpr double kPointChartLeftPx = 76, kPointChartRightPx = 770, kPointChartTopPx = 64,
+                 kPointChartBottomPx = 570;
 constexpr double kLeastPercent = 1e-3;  // of a logarithmic axis: nothing is 0
 
 // A tenth of a decade free on either side.
@@ -20,13 +21,13 @@ ChartAxis AxisFor(double least, double most, double from_px, double to_px) {
   return {least / 1.3, most * 1.3, from_px, to_px, true};
 }
 
-struct Style {
+struct PointStyle {
   const char* colour;
   SvgMarkShape mark;
 };
 
 // Colours of Okabe and Ito, told apart with any colour vision; marks for those who see none.
-Style StyleOf(FormFactorMethod method) {
+PointStyle StyleOf(FormFactorMethod method) {
   switch (method) {
     case FormFactorMethod::kHybrid:
       return {"#d55e00", SvgMarkShape::kDisc};
@@ -50,7 +51,7 @@ Style StyleOf(FormFactorMethod method) {
   return {"#000000", SvgMarkShape::kDisc};
 }
 
-std::string Mark(const Style& style, double x, double y, double r) {
+std::string Mark(const PointStyle& style, double x, double y, double r) {
   return SvgMark(style.mark, style.colour, x, y, r);
 }
 
@@ -59,16 +60,17 @@ std::string Axes(const ChartAxis& x, const ChartAxis& y) {
   const std::string grid = " stroke=\"#e4e4e4\"", centred = " text-anchor=\"middle\"",
                     right = " text-anchor=\"end\"";
   for (const double value : x.Ticks())
-    text += SvgLine(x(value), kTopPx, x(value), kBottomPx, grid) +
-            SvgText(x(value), kBottomPx + 18, fmt::format("{:g}", value), centred);
+    text += SvgLine(x(value), kPointChartTopPx, x(value), kPointChartBottomPx, grid) +
+            SvgText(x(value), kPointChartBottomPx + 18, fmt::format("{:g}", value), centred);
   for (const double value : y.Ticks())
-    text += SvgLine(kLeftPx, y(value), kRightPx, y(value), grid) +
-            SvgText(kLeftPx - 8, y(value) + 4, fmt::format("{:g}", value), right);
+    text += SvgLine(kPointChartLeftPx, y(value), kPointChartRightPx, y(value), grid) +
+            SvgText(kPointChartLeftPx - 8, y(value) + 4, fmt::format("{:g}", value), right);
   const std::string frame = " stroke=\"#333\"";
-  text += SvgLine(kLeftPx, kBottomPx, kRightPx, kBottomPx, frame) +
-          SvgLine(kLeftPx, kTopPx, kLeftPx, kBottomPx, frame);
-  text += SvgText((kLeftPx + kRightPx) / 2, kBottomPx + 44, "time for the whole prediction, s", centred);
-  const double middle = (kTopPx + kBottomPx) / 2;
+  text += SvgLine(kPointChartLeftPx, kPointChartBottomPx, kPointChartRightPx, kPointChartBottomPx, frame) +
+          SvgLine(kPointChartLeftPx, kPointChartTopPx, kPointChartLeftPx, kPointChartBottomPx, frame);
+  text += SvgText((kPointChartLeftPx + kPointChartRightPx) / 2, kPointChartBottomPx + 44,
+                  "time for the whole prediction, s", centred);
+  const double middle = (kPointChartTopPx + kPointChartBottomPx) / 2;
   text += SvgText(20, middle, "error of the illuminance, rms over sensors and luminaires, %",
                   fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 20 {:.1f})\"", middle));
   return text;
@@ -85,7 +87,7 @@ std::string Front(const std::vector<ChartPoint>& points, const ChartAxis& x, con
   std::string path = fmt::format("M{:.1f} {:.1f}", x(front[0].time_s), y(front[0].error_percent));
   for (const ChartPoint& point : front)
     path += fmt::format("H{:.1f}V{:.1f}", x(point.time_s), y(point.error_percent));
-  path += fmt::format("H{:.1f}", kRightPx);
+  path += fmt::format("H{:.1f}", kPointChartRightPx);
   return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#333\" stroke-width=\"1.5\"/>\n", path);
 }
 
@@ -97,7 +99,7 @@ std::string Automatic(const ChartPoint& point, const ChartAxis& x, const ChartAx
   const std::string figures = fmt::format("{:.2g} s, error {:.2g} %, estimated {:.2g} %", point.time_s,
                                           point.error_percent, point.estimated_error_percent.value_or(0));
   // At the lower left, under the front, where no point can lie.
-  const double tx = kLeftPx + 12, ty = kBottomPx - 34;
+  const double tx = kPointChartLeftPx + 12, ty = kPointChartBottomPx - 34;
   const std::string style =
       " font-weight=\"bold\" stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\"";
   return SvgCircle(px, py, 11, " fill=\"none\" stroke=\"#d00000\" stroke-width=\"2.5\"") +
@@ -107,8 +109,8 @@ std::string Automatic(const ChartPoint& point, const ChartAxis& x, const ChartAx
 
 std::string Legend(const Chart& chart) {
   std::string text;
-  double y = kTopPx + 8;
-  const double x = kRightPx + 24;
+  double y = kPointChartTopPx + 8;
+  const double x = kPointChartRightPx + 24;
   for (const FormFactorMethod method : AllFormFactorMethods()) {
     const bool shown = std::any_of(chart.points.begin(), chart.points.end(),
                                    [&](const ChartPoint& p) { return p.method == method; });
@@ -138,19 +140,22 @@ std::string ChartSvg(const Chart& chart, const std::string& title) {
     most = std::max(most, point.error_percent);
   }
   least = std::max(least, kLeastPercent);
-  const ChartAxis x = AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kLeftPx, kRightPx);
+  const ChartAxis x =
+      AxisFor(std::max(least_s, 1e-6), std::max(most_s, 2e-6), kPointChartLeftPx, kPointChartRightPx);
   constexpr double kRoomForLabel = 3;  // below the least error
-  const ChartAxis y = AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kBottomPx, kTopPx);
+  const ChartAxis y =
+      AxisFor(least / kRoomForLabel, std::max(most, 2 * least), kPointChartBottomPx, kPointChartTopPx);
   std::string body =
-      SvgText(kLeftPx, 26, title, " font-size=\"17\" font-weight=\"bold\"") +
-      SvgText(kLeftPx, 46,
+      SvgText(kPointChartLeftPx, 26, title, " font-size=\"17\" font-weight=\"bold\"") +
+      SvgText(kPointChartLeftPx, 46,
               fmt::format("each point one way to compute the same illuminance; reference: light "
                           "tracer, {} paths a sensor, ± {:.2g} %",
                           chart.reference.paths_per_sensor, chart.reference.sigma_percent),
               " fill=\"#555\"") +
       Axes(x, y);
   const double floor = y(chart.reference.sigma_percent);
-  body += SvgLine(kLeftPx, floor, kRightPx, floor, " stroke=\"#777\" stroke-dasharray=\"5 4\"");
+  body += SvgLine(kPointChartLeftPx, floor, kPointChartRightPx, floor,
+                  " stroke=\"#777\" stroke-dasharray=\"5 4\"");
   body += Front(chart.points, x, y);
   for (const ChartPoint& point : chart.points) {
     const bool small = point.factor == "bounces" || point.factor == "solver";
@@ -159,7 +164,7 @@ std::string ChartSvg(const Chart& chart, const std::string& title) {
   for (const ChartPoint& point : chart.points) {
     if (point.automatic) body += Automatic(point, x, y);
   }
-  return SvgDocument(kWidthPx, kHeightPx, body + Legend(chart));
+  return SvgDocument(kPointChartWidthPx, kPointChartHeightPx, body + Legend(chart));
 }
 
 }  // namespace luxfit

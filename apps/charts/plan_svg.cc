@@ -13,14 +13,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kWidthPx = 900, kMarginPx = 30, kLegendPx = 56;
+constexpr double kPlanWidthPx = 900, kPlanMarginPx = 30, kPlanLegendPx = 56;
 
 // World metres to picture pixels, y upwards.
 struct Plan {
   Eigen::AlignedBox3d box;
   double scale = 1;
-  double X(double x) const { return kMarginPx + scale * (x - box.min().x()); }
-  double Y(double y) const { return kMarginPx + scale * (box.max().y() - y); }
+  double X(double x) const { return kPlanMarginPx + scale * (x - box.min().x()); }
+  double Y(double y) const { return kPlanMarginPx + scale * (box.max().y() - y); }
 };
 
 std::string Outlines(const Plan& plan, const Scene& scene) {
@@ -116,24 +116,24 @@ std::string PlanSvg(const Session& session, const Scene& scene, const json& resu
   Plan plan;
   plan.box = scene.Bounds();
   if (plan.box.isEmpty()) return "";
-  plan.scale = (kWidthPx - 2 * kMarginPx) / plan.box.sizes().x();
-  const double height = plan.scale * plan.box.sizes().y() + 2 * kMarginPx;
+  plan.scale = (kPlanWidthPx - 2 * kPlanMarginPx) / plan.box.sizes().x();
+  const double height = plan.scale * plan.box.sizes().y() + 2 * kPlanMarginPx;
   const json& summary = result["summary"];
   std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
                      LuxmeterPoints(plan, session, result["luxmeter"]) +
                      Luminaires(plan, result["luminaires"]);
   text +=
-      SvgText(kMarginPx, height + 8,
+      SvgText(kPlanMarginPx, height + 8,
               fmt::format("{}: {:.1f} m x {:.1f} m. Yellow: fitted luminaires, ± 1 sigma. Blue: registered "
                           "views.",
                           session.name, plan.box.sizes().x(), plan.box.sizes().y()));
   text += SvgText(
-      kMarginPx, height + 28,
+      kPlanMarginPx, height + 28,
       fmt::format(
           "Dots: luxmeter points with the worst error of their states (green below 2 %, orange below 5 "
           "%); mean {:.2f} % over {} readings.",
           summary["mean_abs_error_percent"].get<double>(), summary["readings_checked"].get<int>()));
-  return SvgDocument(kWidthPx, height + kLegendPx, text);
+  return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
 }
 
 }  // namespace luxfit

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string PlusMinus(const json& value, const json& sigma, const char* unit) {
+std::string PlusMinusInUnit(const json& value, const json& sigma, const char* unit) {
   const std::string number = fmt::format("{:.4g}", value.get<double>());
   if (!sigma.is_number()) return number + unit + " (uncertainty not determined)";
   return number + fmt::format(" ± {:.2g}{}", 1.96 * sigma.get<double>(), unit);
@@ -31,9 +31,9 @@ std::string SummaryText(const json& summary) {
       text +=
           fmt::format("{}, state {}: {} points, mean {}, least {}, U0 {}\n", area.at("id").get<std::string>(),
                       states[s].get<std::string>(), statistics.at("points").get<int>(),
-                      PlusMinus(statistics.at("average_lx"), statistics.at("average_sigma_lx"), unit),
-                      PlusMinus(statistics.at("least_lx"), statistics.at("least_sigma_lx"), unit),
-                      PlusMinus(statistics.at("uniformity"), statistics.at("uniformity_sigma"), ""));
+                      PlusMinusInUnit(statistics.at("average_lx"), statistics.at("average_sigma_lx"), unit),
+                      PlusMinusInUnit(statistics.at("least_lx"), statistics.at("least_sigma_lx"), unit),
+                      PlusMinusInUnit(statistics.at("uniformity"), statistics.at("uniformity_sigma"), ""));
     }
   }
   return text;

@@ -214,7 +214,7 @@ class FitSweep {
   std::vector<FitPoint> points_;
 };
 
-std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
+std::string CellOrEmpty(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
 
 std::string Csv(const std::vector<FitPoint>& points) {
   std::string text =
@@ -222,8 +222,8 @@ std::string Csv(const std::vector<FitPoint>& points) {
       "lux_percent\n";
   for (const FitPoint& p : points)
     text += fmt::format("{},{:g},{},{},{},{},{:.3g},{:d},{},{},{}\n", p.factor, p.value, p.patches, p.photos,
-                        p.luminaires, p.observations, p.time_s, p.is_usable, Cell(p.position_mm),
-                        Cell(p.flux_percent), Cell(p.lux_percent));
+                        p.luminaires, p.observations, p.time_s, p.is_usable, CellOrEmpty(p.position_mm),
+                        CellOrEmpty(p.flux_percent), CellOrEmpty(p.lux_percent));
   return text;
 }
 

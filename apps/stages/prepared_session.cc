@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-Eigen::Vector3d Vector(const json& v) {
+Eigen::Vector3d VectorOrNan(const json& v) {
   const auto at = [&](size_t i) {
     return v.at(i).is_number() ? v.at(i).get<double>() : std::numeric_limits<double>::quiet_NaN();
   };
@@ -108,7 +108,7 @@ std::vector<EstimatedLuminaire> ReadTruth(const std::string& path) {
     for (const json& lamp : truth.at("lamps")) {
       EstimatedLuminaire e;
       e.id = lamp.at("id");
-      e.position = Vector(lamp.at("position"));
+      e.position = VectorOrNan(lamp.at("position"));
       e.flux = lamp.at("flux_lm");
       luminaires.push_back(e);
     }

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Joined(const std::vector<std::string>& words) {
+std::string SpacedOut(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
   return line;
@@ -29,7 +29,7 @@ std::string Joined(const std::vector<std::string>& words) {
 int OpenLog(const ProcessOptions& options, const std::vector<std::string>& words) {
   const int log = open(options.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (log < 0) throw std::runtime_error(options.log + ": expected a writable file; " + std::strerror(errno));
-  const std::string line = "$ " + Joined(words) + "\n";
+  const std::string line = "$ " + SpacedOut(words) + "\n";
   if (write(log, line.data(), line.size()) < 0) {
     close(log);
     throw std::runtime_error(options.log + ": expected room to write; " + std::strerror(errno));

@@ -1,13 +1,9 @@
 #include "calib/lens/camera.h"
 
-#include <limits>
-
 #include "calib/lens/internal/lens.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 LensImage ImageOf(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   switch (camera.lens) {
@@ -55,7 +51,7 @@ Eigen::Vector2d Project(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
 Eigen::Vector3d Unproject(const Camera& camera, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d xy((pixel.x() - camera.cx_px) / camera.fx_px,
                            (pixel.y() - camera.cy_px) / camera.fy_px);
-  if (!xy.allFinite()) return Eigen::Vector3d::Constant(kNaN);
+  if (!xy.allFinite()) return Eigen::Vector3d::Constant(kNoImage);
   return DirectionOf(camera, xy).normalized();
 }
 

@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknownSigma = std::numeric_limits<double>::quiet_NaN();
 
 LensFunction FunctionOf(const Camera& camera, const LensKind& kind) {
   LensFunction lens;
@@ -27,9 +27,9 @@ Eigen::Matrix2d ProjectionCovarianceAt(const Camera& camera, const ProjectionCov
   const LensFunction lens = FunctionOf(camera, uncertainty.kind);
   const int first = FirstFreeParameter(lens), free = ParameterCount(lens) - first;
   if (!direction.allFinite() || uncertainty.covariance.rows() != free + 6)
-    return Eigen::Matrix2d::Constant(kNaN);
+    return Eigen::Matrix2d::Constant(kUnknownSigma);
   const LensPoint image = ProjectByLens(lens, ParametersOf(lens, camera).data(), direction, true);
-  if (!image.pixel.allFinite()) return Eigen::Matrix2d::Constant(kNaN);
+  if (!image.pixel.allFinite()) return Eigen::Matrix2d::Constant(kUnknownSigma);
   Eigen::Matrix<double, 2, Eigen::Dynamic> jacobian(2, free + 6);
   jacobian.leftCols(free) = image.d_parameters.rightCols(free);
   // A projection does not depend on the range, so its derivative falls with it: that of the unit direction.
@@ -41,7 +41,7 @@ Eigen::Matrix2d ProjectionCovarianceAt(const Camera& camera, const ProjectionCov
 double ProjectionSigmaPx(const Camera& camera, const ProjectionCovariance& uncertainty,
                          const Eigen::Vector2d& pixel, double range_m) {
   const Eigen::Matrix2d covariance = ProjectionCovarianceAt(camera, uncertainty, pixel, range_m);
-  if (!covariance.allFinite()) return kNaN;
+  if (!covariance.allFinite()) return kUnknownSigma;
   const double mean = covariance.trace() / 2;
   const double half_difference = (covariance(0, 0) - covariance(1, 1)) / 2;
   return std::sqrt(mean + std::hypot(half_difference, covariance(0, 1)));

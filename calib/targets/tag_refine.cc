@@ -46,14 +46,14 @@ std::optional<Eigen::Matrix3d> HomographyFrom(const std::array<Eigen::Vector2d, 
   return *homography / (*homography)(2, 2);
 }
 
-struct Mapped {
+struct MappedPoint {
   Eigen::Vector2d st;
   Eigen::Matrix2d d_xy;
   double inverse_w = 0;
 };
 
-Mapped Map(const Eigen::Matrix3d& h, const Eigen::Vector2d& xy) {
-  Mapped mapped;
+MappedPoint Map(const Eigen::Matrix3d& h, const Eigen::Vector2d& xy) {
+  MappedPoint mapped;
   const Eigen::Vector3d p = h * xy.homogeneous();
   mapped.inverse_w = 1 / p.z();
   mapped.st = p.head<2>() * mapped.inverse_w;
@@ -117,7 +117,7 @@ class TagFitter {
       const int u = i % 3, v = i / 3;
       const Eigen::Vector2d steps(u - 1, v - 1);
       const Eigen::Vector2d xy = pixel.xy + taps.step_px * pixel.d_pixel * steps;
-      const Mapped mapped = Map(fit.homography, xy);
+      const MappedPoint mapped = Map(fit.homography, xy);
       const Eigen::Matrix2d d_pixel = mapped.d_xy * pixel.d_pixel;
       // A box with the variance of the tap's parallelogram, whose sides are step_px long.
       const Eigen::Vector2d extent = d_pixel.rowwise().norm();
@@ -264,7 +264,7 @@ std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera
         (frame.unit *
          ProjectWithJacobian(camera, ray.hnormalized().homogeneous()).d_pixel_d_point.leftCols<2>())
             .inverse();
-    const Mapped mapped = Map(homography, pixel.xy);
+    const MappedPoint mapped = Map(homography, pixel.xy);
     if (!(mapped.inverse_w > 0)) continue;
     // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
     const Eigen::Vector2d reach =

@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kDegrees = 180 / M_PI;
+constexpr double kDegreesPerRad = 180 / M_PI;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Where table 4.1 of CIE 117 ends.
 constexpr double kLargestSide = 3, kLargestHeight = 1.9;
@@ -91,7 +91,7 @@ double PositionIndex(const Observer& observer, const Eigen::Vector3d& towards) {
   if (aside > kLargestSide || height > kLargestHeight) return kInfinity;
   const double radius = std::hypot(height, aside);
   if (height < 0) return 1 + (radius < 0.6 ? 0.8 : 1.2) * radius;
-  return IndexAbove(std::atan(radius) * kDegrees, std::atan2(aside, height) * kDegrees);
+  return IndexAbove(std::atan(radius) * kDegreesPerRad, std::atan2(aside, height) * kDegreesPerRad);
 }
 
 GlareSource GlareOf(const RayScene& rays, const Luminaire& luminaire, const Observer& observer, int order) {

@@ -17,7 +17,7 @@ namespace {
 constexpr int kMaxColourElements = 1000;
 constexpr int kColourLeftOutOf = 5;
 constexpr int kMinRows = 20;
-constexpr size_t kFewFacets = 8, kFewPatches = 40;
+constexpr size_t kFewColouredFacets = 8, kFewPatches = 40;
 constexpr double kMostColourSquare = 9;
 constexpr double kLeastColourSigma = 5e-4;  // of a ratio of channels
 
@@ -111,7 +111,7 @@ void Cut(std::vector<Row>& rows) {
   for (auto& [piece, n] : number) n = count++;
   for (Row& row : rows) {
     row.is_left_out = number.at(piece_of(row)) % kColourLeftOutOf == 2;
-    row.group = facets.size() < kFewFacets ? piece_of(row) : row.facet;
+    row.group = facets.size() < kFewColouredFacets ? piece_of(row) : row.facet;
   }
 }
 

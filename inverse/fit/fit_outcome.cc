@@ -7,7 +7,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotDetermined = std::numeric_limits<double>::quiet_NaN();
 
 // Whether every luminaire that is on in the state was found.
 bool IsLit(const RoomFit& fit, int state) {
@@ -27,7 +27,7 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
     if (!same) continue;
     const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
     const auto row = static_cast<Eigen::Index>(i);
-    return known ? std::sqrt(fit.covariance(row, row)) : kUnknown;
+    return known ? std::sqrt(fit.covariance(row, row)) : kNotDetermined;
   }
   return 0;
 }
@@ -49,9 +49,9 @@ std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit) {
       estimated.position_sigma_m[axis] =
           SigmaOf(fit.fit, ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis));
     const bool has_flux = !fit.absolute || IsFluxKnown(fit, k);
-    estimated.flux = has_flux ? luminaire.flux_lm : kUnknown;
+    estimated.flux = has_flux ? luminaire.flux_lm : kNotDetermined;
     estimated.flux_sigma =
-        has_flux ? luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index) : kUnknown;
+        has_flux ? luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index) : kNotDetermined;
     found.push_back(estimated);
   }
   return found;

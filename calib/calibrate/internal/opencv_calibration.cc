@@ -6,7 +6,7 @@
 namespace luxfit {
 namespace {
 
-constexpr std::size_t kLeastCorners = 6;
+constexpr std::size_t kLeastCornersForOpenCv = 6;
 
 struct ImagePoints {
   std::vector<std::vector<cv::Point3f>> points;
@@ -27,7 +27,7 @@ ImagePoints PointsOf(const CalibrationProblem& problem) {
       points.emplace_back(p.x(), p.y(), p.z());
       pixels.emplace_back(static_cast<float>(corner.pixel.x()), static_cast<float>(corner.pixel.y()));
     }
-    if (points.size() < kLeastCorners) continue;
+    if (points.size() < kLeastCornersForOpenCv) continue;
     out.points.push_back(std::move(points));
     out.pixels.push_back(std::move(pixels));
     out.sets.push_back(s);

@@ -1,12 +1,9 @@
 #include <cmath>
-#include <limits>
 
 #include "calib/lens/internal/lens.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Radius {
   double value = 0, slope = 0;  // theta (1 + k1 theta^2 + ...) and its derivative
@@ -25,7 +22,7 @@ LensImage FisheyeLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam
   const double r = across.norm(), z = p_in_cam.z(), length2 = p_in_cam.squaredNorm();
   LensImage out;
   if (r <= 1e-9 * std::abs(z) || !(length2 > 0)) {  // on the axis every lens is a pinhole
-    const double inverse_z = z > 0 ? 1 / z : kNaN;
+    const double inverse_z = z > 0 ? 1 / z : kNoImage;
     out.xy = across * inverse_z;
     out.d_point << inverse_z, 0, -out.xy.x() * inverse_z, 0, inverse_z, -out.xy.y() * inverse_z;
     return out;
@@ -42,10 +39,10 @@ LensImage FisheyeLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam
 Eigen::Vector3d FisheyeLensDirection(const Camera& camera, const Eigen::Vector2d& xy) {
   const double target = xy.norm();
   if (target < 1e-12) return {xy.x(), xy.y(), 1};
-  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
+  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNoImage);
   // The first angle at which the radius reaches the target, while the radius still grows.
   constexpr int kSteps = 64;
-  double low = 0, high = kNaN;
+  double low = 0, high = kNoImage;
   for (int i = 1; i <= kSteps && !(high == high); ++i) {
     const double theta = M_PI * i / kSteps;
     const Radius radius = RadiusOf(camera.distortion, theta);

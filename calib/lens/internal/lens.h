@@ -6,10 +6,14 @@
 #define LUXFIT_CALIB_LENS_INTERNAL_LENS_H_
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "calib/lens/camera.h"
 
 namespace luxfit {
+
+// Of what the lens has no image of.
+inline constexpr double kNoImage = std::numeric_limits<double>::quiet_NaN();
 
 struct LensImage {
   Eigen::Vector2d xy;

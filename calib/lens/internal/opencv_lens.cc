@@ -1,13 +1,10 @@
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "calib/lens/internal/lens.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Distorted {
   Eigen::Vector2d value;
@@ -50,8 +47,8 @@ bool IsOnFirstBranch(const std::array<double, 12>& k, const Eigen::Vector2d& xy)
 LensImage OpenCvLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   LensImage out;
   if (!(p_in_cam.z() > 0)) {
-    out.xy.setConstant(kNaN);
-    out.d_point.setConstant(kNaN);
+    out.xy.setConstant(kNoImage);
+    out.d_point.setConstant(kNoImage);
     return out;
   }
   const double inverse_z = 1 / p_in_cam.z();
@@ -65,7 +62,7 @@ LensImage OpenCvLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam)
 }
 
 Eigen::Vector3d OpenCvLensDirection(const Camera& camera, const Eigen::Vector2d& target) {
-  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNaN);
+  Eigen::Vector3d none = Eigen::Vector3d::Constant(kNoImage);
   // Two fixed-point steps (as if the distortion were the same at the target) put Newton's method near the
   // root.
   Eigen::Vector2d xy = target;

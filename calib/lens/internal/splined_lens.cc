@@ -1,15 +1,12 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "calib/lens/internal/lens.h"
 #include "calib/lens/internal/mrcal_lens.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // The lens alone: focal lengths 1, centre 0.
 MrcalLens UnitLens(const Camera& camera) {
@@ -23,8 +20,8 @@ MrcalLens UnitLens(const Camera& camera) {
 
 LensImage SplinedLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   LensImage out;
-  out.xy.setConstant(kNaN);
-  out.d_point.setConstant(kNaN);
+  out.xy.setConstant(kNoImage);
+  out.d_point.setConstant(kNoImage);
   // The axis behind the camera is the stereographic projection's one point without an image.
   if (!p_in_cam.allFinite() || !(p_in_cam.norm() + p_in_cam.z() > 1e-9 * p_in_cam.norm())) return out;
   const MrcalLens lens = UnitLens(camera);
@@ -60,7 +57,7 @@ Eigen::Vector3d SplinedLensDirection(const Camera& camera, const Eigen::Vector2d
     if (!(std::abs(jacobian.determinant()) > 1e-9)) break;
     v = (v - tangent * (jacobian.inverse() * residual)).normalized();
   }
-  return Eigen::Vector3d::Constant(kNaN);
+  return Eigen::Vector3d::Constant(kNoImage);
 }
 
 }  // namespace luxfit

@@ -16,7 +16,7 @@ namespace {
 
 // Longer sides of the photo in which markers are looked for, the second only where the first shows less than
 // half of them.
-constexpr std::array<int, 2> kLongestPx = {1600, 3200};
+constexpr std::array<int, 2> kCharucoLongestPx = {1600, 3200};
 constexpr std::size_t kNearPoints = 12;
 constexpr double kReachSquares = 2.5;
 
@@ -55,7 +55,7 @@ struct SeenCharuco {
 SeenCharuco FindMarkers(const ImagePlane& grey, const Board& board) {
   const auto dictionary = ArucoDictionary(board.dictionary);
   SeenCharuco best;
-  for (const int longest_px : kLongestPx) {
+  for (const int longest_px : kCharucoLongestPx) {
     const ReducedPhoto photo = ReducePhoto(grey, longest_px);
     const std::vector<FoundTag> found = FindTags(photo, dictionary, 1);
     for (const int parity : {1, 0}) {

@@ -15,8 +15,8 @@
 namespace luxfit {
 namespace {
 
-constexpr double kWindowShare = 0.9;  // of the fields about a corner
-constexpr double kMostWindowPx = 12;  // more pixels gain nothing, and lens and perspective bend edges
+constexpr double kGridWindowShare = 0.9;  // of the fields about a corner
+constexpr double kMostGridWindowPx = 12;  // more pixels gain nothing, and lens and perspective bend edges
 constexpr double kDetectorSigmaPx = 1;
 constexpr int kPixelsAtFirst = 600, kPixels = 1000;  // of a tag that its fit looks at: a board has many tags
 
@@ -89,7 +89,7 @@ void GridCornerMeasurer::MeasureSaddle(const Eigen::Matrix3d& pixel_from_tag, st
   const Eigen::Matrix2d tag_from_pixel = MapJacobian(pixel_from_tag, place).inverse();
   // The window is square in the photo; on the board its image must stay within border and gap.
   const double reach = tag_from_pixel.cwiseAbs().rowwise().sum().maxCoeff();
-  const double half_px = std::min(kMostWindowPx, kWindowShare * std::min(border_, spacing_) / reach);
+  const double half_px = std::min(kMostGridWindowPx, kGridWindowShare * std::min(border_, spacing_) / reach);
   const auto saddle = RefineSaddle(grey_, tag.corners_px[corner], half_px);
   if (!saddle) return;
   tag.corners_px[corner] = saddle->pixel;

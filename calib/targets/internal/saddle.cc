@@ -10,13 +10,13 @@ namespace luxfit {
 namespace {
 
 constexpr int kMaxSaddleIterations = 30;
-constexpr double kConvergedPx = 1e-3;
+constexpr double kSaddleConvergedPx = 1e-3;
 constexpr double kLeastCondition = 0.02;  // of the normal matrix: less is an edge, not a corner
 constexpr double kMostAsymmetry = 0.15;   // of the patch's variance: an occluder, or all noise
 constexpr double kFloorPx = 0.02;         // aliasing, print, flatness
 
 // The sums over the window, offsets relative to its middle, and what the gradients mean for them.
-struct Normal {
+struct WindowSums {
   Eigen::Matrix2d gg = Eigen::Matrix2d::Zero();
   Eigen::Vector2d ggp = Eigen::Vector2d::Zero();
 };
@@ -26,8 +26,8 @@ class Window {
  public:
   Window(const Eigen::MatrixXd& patch, int half) : patch_(patch), half_(half) {}
 
-  Normal Sums() const {
-    Normal normal;
+  WindowSums Sums() const {
+    WindowSums normal;
     ForEach([&](const Eigen::Vector2d& p, const Eigen::Vector2d& g, double weight) {
       normal.gg += weight * g * g.transpose();
       normal.ggp += weight * g * g.dot(p);
@@ -107,13 +107,13 @@ std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d
   bool converged = false;
   for (int i = 0; i < kMaxSaddleIterations && !converged; ++i) {
     if (!Holds(grey, at, half + 1)) return std::nullopt;
-    const Normal normal = Window(Patch(grey, at, half), half).Sums();
+    const WindowSums normal = Window(Patch(grey, at, half), half).Sums();
     if (!IsCorner(normal.gg)) return std::nullopt;
     const Eigen::Vector2d step = normal.gg.inverse() * normal.ggp;
     if (!step.allFinite()) return std::nullopt;
     at += step;
     if (!((at - start).norm() <= half)) return std::nullopt;
-    converged = step.norm() < kConvergedPx;
+    converged = step.norm() < kSaddleConvergedPx;
   }
   if (!converged || !Holds(grey, at, half + 1)) return std::nullopt;
   const Eigen::MatrixXd patch = Patch(grey, at, half);

@@ -14,7 +14,7 @@
 namespace luxfit {
 namespace {
 
-struct FittedCandidate {
+struct RefinedCandidate {
   std::string name;
   FittedModel fitted;
 };
@@ -89,7 +89,7 @@ class Refiner {
  private:
   struct Step {
     RefinementKind kind = RefinementKind::kTable;
-    std::vector<FittedCandidate> candidates;  // the first: as it was
+    std::vector<RefinedCandidate> candidates;  // the first: as it was
     int chosen = 0;
     double gain = 0, standard_error = 0;  // of the best over the first
   };
@@ -105,7 +105,7 @@ class Refiner {
     record.kind = RefinementKind::kHeading;
     FreeQuantities free = result_.free;
     free.heading = true;
-    std::vector<FittedCandidate> candidates;
+    std::vector<RefinedCandidate> candidates;
     for (const int degrees : {0, 90, 180, 270}) {
       Luminaire start = result_.luminaire;
       const LuminaireAxes axes = AxesOf(start);
@@ -115,7 +115,7 @@ class Refiner {
     }
     const double sigma = SmallestSigma(candidates);
     std::vector<SelectionCandidate> selectable;
-    for (const FittedCandidate& c : candidates) {
+    for (const RefinedCandidate& c : candidates) {
       selectable.push_back({ScoreGroups(problem_, c.fitted.predicted, sigma), 1, true});
       record.among.push_back(c.name);
       record.effective_parameters.push_back(1);
@@ -178,13 +178,13 @@ class Refiner {
   }
 
   // By the model error of what is held, so that candidates can be compared before all are there.
-  double Score(const FittedCandidate& candidate) const {
+  double Score(const RefinedCandidate& candidate) const {
     return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
   }
 
-  static double SmallestSigma(const std::vector<FittedCandidate>& candidates) {
+  static double SmallestSigma(const std::vector<RefinedCandidate>& candidates) {
     double sigma = 1;
-    for (const FittedCandidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
+    for (const RefinedCandidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
     return sigma;
   }
 
@@ -192,7 +192,7 @@ class Refiner {
   Step Judged(Step step) const {
     const double sigma = SmallestSigma(step.candidates);
     std::vector<SelectionCandidate> selectable;
-    for (const FittedCandidate& c : step.candidates)
+    for (const RefinedCandidate& c : step.candidates)
       selectable.push_back(
           {ScoreGroups(problem_, c.fitted.predicted, sigma), c.fitted.effective_parts, true});
     // A table that is asked for is estimated, whatever a lobe would do.
@@ -234,7 +234,7 @@ class Refiner {
     record.chosen = step.chosen;
     record.standard_error = step.standard_error;
     const double sigma = SmallestSigma(step.candidates);
-    for (const FittedCandidate& c : step.candidates) {
+    for (const RefinedCandidate& c : step.candidates) {
       record.among.push_back(c.name);
       record.score.push_back(Mean(ScoreGroups(problem_, c.fitted.predicted, sigma)));
       record.effective_parameters.push_back(c.fitted.effective_parts);
