@@ -6,8 +6,9 @@ set(documents ${CMAKE_INSTALL_DOCDIR})
 
 install(FILES README.md CONVENTIONS.md DESTINATION ${documents})
 install(DIRECTORY docs/ DESTINATION ${documents}/docs FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png"
-        PATTERN "*.csv")
-install(FILES apps/python/example.py DESTINATION ${documents}/examples)
+        PATTERN "*.csv" PATTERN "schema" EXCLUDE)
+install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/luxfit)
+install(FILES apps/python/example.py apps/python/from_photos.py DESTINATION ${documents}/examples)
 
 # Debian wants a copyright file and a packed changelog of its own form in every package; CHANGELOG.md goes beside them.
 set(maintainer "luxfit contributors <contributors@luxfit.example>")
@@ -86,7 +87,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What luxfitConfig.cmake finds again.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "coinor-libclp-dev, libapriltag-dev, libceres-dev, libeigen3-dev, libembree-dev, libexiv2-dev, libfmt-dev, libmrcal-dev, \
-libopenblas-dev, libopencv-dev, libopenexr-dev, libraw-dev, libsqlite3-dev, libtbb-dev, libyaml-cpp-dev, pkg-config")
+libopenblas-dev, libopencv-dev, libraw-dev, libsqlite3-dev, libtbb-dev, libyaml-cpp-dev, pkg-config")
 set(CPACK_COMPONENT_DEV_DESCRIPTION
 "Static libraries and headers for find_package(luxfit) of CMake: luxfit::calib
 (cameras, tags, registration), luxfit::forward (radiosity, photometric files)

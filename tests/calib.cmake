@@ -1,7 +1,7 @@
 luxfit_test(calib/luminance image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
-luxfit_test(calib/luminance exr_channels_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance raw_photo_test LINK luxfit::calib)
 luxfit_test(calib/luminance luminance_test LINK luxfit::calib)
+luxfit_test(calib/luminance median_test LINK luxfit::calib)
 luxfit_test(calib/luminance bracket_test LINK luxfit::calib)
 luxfit_test(calib/luminance bright_blobs_test LINK luxfit::calib)
 luxfit_test(calib/register triangulation_test LINK luxfit::calib)
@@ -31,7 +31,6 @@ luxfit_test(calib/calibrate calibration_coverage_test LINK luxfit::calib opencv_
 luxfit_test(calib/calibrate calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/lens projection_uncertainty_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/targets corners_file_test LINK luxfit::calib)
-luxfit_test(calib/luminance encoded_image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 
 # The merge against a published radiance map that is not shipped: memorial_radiance FOLDER.
 add_executable(memorial_radiance validation/memorial_radiance.cc)

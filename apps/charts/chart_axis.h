@@ -1,4 +1,4 @@
-// An axis of a chart: values to pixels, linear or logarithmic, and where its ticks stand.
+// Maps values to pixels along an axis of a chart, linear or logarithmic, and places its ticks.
 #ifndef LUXFIT_APPS_CHARTS_CHART_AXIS_H_
 #define LUXFIT_APPS_CHARTS_CHART_AXIS_H_
 
@@ -7,14 +7,14 @@
 namespace luxfit {
 
 struct ChartAxis {
-  double min = 1, max = 10;       // of a logarithmic axis > 0; values beyond are drawn at the end
+  double min = 1, max = 10;       // > 0 on a logarithmic axis; values beyond are drawn at the end
   double from_px = 0, to_px = 1;  // where min and max lie
   bool is_log = true;
 
   double operator()(double value) const;
 
-  // 1, 2 and 5 of each decade, or the decades alone where there are more than four; of a linear axis about
-  // six round numbers.
+  // Returns 1, 2 and 5 of each decade, or the decades alone where there are more than four. A linear axis
+  // gets about six round numbers.
   std::vector<double> Ticks() const;
 };
 

@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "apps/text/seconds.h"
+#include "forward/factors/form_factors.h"
 #include "forward/light/light_tracer.h"
-#include "forward/room/overlaps.h"
+#include "forward/room/mesh_check.h"
 
 namespace luxfit {
 namespace {
 
-// The least of up to five runs, as long as they take half a second together.
+// Returns the shortest time of up to five runs. No run follows once they have taken half a second together.
 template <typename Run>
 double BestTimeS(double first_s, const Run& run) {
   double best_s = first_s, spent_s = first_s;
@@ -27,7 +28,7 @@ double BestTimeS(double first_s, const Run& run) {
   return best_s;
 }
 
-// Per lumen, colour by colour as ComputeColourIlluminance has it.
+// Returns illuminance per lumen, colour by colour as ComputeColourIlluminance has it.
 ChartReference Trace(const LitScene& lit, int paths_per_sensor) {
   const Scene scene = WithoutOverlaps(lit.scene);
   const RayScene rays(scene);
@@ -69,7 +70,7 @@ ChartReference TraceWithin(const LitScene& lit, double budget_s) {
   return Trace(lit, kFirstPaths * static_cast<int>(std::min<double>(times, kMostTimes)));
 }
 
-// A way to the form factors: what is costly and shared by all bounces and solvers.
+// Holds one way to the form factors: the costly part, shared by all bounces and solvers.
 struct Setup {
   FormFactorMethod method;
   int rays;
@@ -97,7 +98,7 @@ class ChartMaker {
     MeasureAutomatic();
     SweepAskedErrors();
     if (chart_.points.front().patches > 0) {
-      // The coarsest first: they tell what the others will take.
+      // The coarsest come first, because they predict the time of the others.
       const std::vector<double> sizes = Sizes();
       MeasureGrid(sizes.front());
       SweepFormFactors();
@@ -108,7 +109,7 @@ class ChartMaker {
   }
 
  private:
-  static constexpr double kReferenceShare = 0.2, kPointShare = 0.15;  // of the budget; one point
+  static constexpr double kReferenceShare = 0.2, kPointShare = 0.15;  // of the budget; for one point
 
   double ErrorOf(const ColourIlluminance& light) const {
     return RelativeRmsPercent(light.total.cast<double>(), chart_.reference.lx_per_lm);
@@ -137,14 +138,14 @@ class ChartMaker {
     return point;
   }
 
-  // Patches of one size, all else as chosen.
+  // Uses patches of one size, with everything else as chosen.
   SceneLightOptions UniformOptions(double patch_size_m, const FormFactorOptions& form_factors) const {
     SceneLightOptions options = chart_.choice.options;
     options.room.patches = PatchesOfSize(patch_size_m);
     options.room.form_factors = form_factors;
     return options;
   }
-  // Of uniform patches whose elements are as small as those of the choice.
+  // Uniform patches whose elements are as small as those of the choice.
   double ChosenSizeM() const {
     const double ratio = PatchesOfSize(1).element_size_m;
     return chart_.choice.options.room.patches.element_size_m / ratio;
@@ -172,7 +173,7 @@ class ChartMaker {
     if (point.patches > 0) SweepSolvers(prediction, point);
   }
 
-  // With the form factors of the automatic choice: only the solution's time differs.
+  // Uses the form factors of the automatic choice: only the time of the solution differs.
   void SweepSolvers(const SceneLight& prediction, const ChartPoint& automatic) {
     const RadiositySolverOptions chosen = chart_.choice.options.solver;
     const auto light_s = [&](const RadiositySolverOptions& options, ColourIlluminance& light) {
@@ -192,7 +193,7 @@ class ChartMaker {
       point.bounces.reset();
       if (light.solver == RadiositySolver::kNeumann) point.bounces = options.bounces;
       point.error_percent = ErrorOf(light);
-      // The same once more: no two times of it.
+      // The same point is not timed twice.
       if (point.solver == automatic.solver && point.bounces == automatic.bounces)
         point.time_s = automatic.time_s;
       chart_.points.push_back(point);
@@ -256,19 +257,18 @@ class ChartMaker {
     return true;
   }
 
-  // By what was measured: fewer rays on the same patches, else larger patches (16 times the pairs where
-  // these take the time, 4 times the rays where those do), else the automatic choice.
+  // Predicts the time from measured points: from fewer rays on the same patches, else from larger patches,
+  // else from the automatic choice. Halving the patch size multiplies the pairs by 16, and the time of
+  // methods that take rays by 2^2.5.
   double ExpectedS(const Setup& setup) const {
     if (measured_.count(setup) > 0) return 0;
-    const bool pairwise = setup.method == FormFactorMethod::kHybrid ||
-                          setup.method == FormFactorMethod::kAnalytic ||
-                          setup.method == FormFactorMethod::kWallace;
+    const bool pairwise = OpsOf(setup.method).by_pairs != nullptr;
     double by_rays_s = -1, by_size_s = -1;
     for (const auto& [known, point] : measured_) {
       if (known.method != setup.method) continue;
       const double rays = static_cast<double>(setup.rays) / known.rays;
       const double size = known.element_size_m / setup.element_size_m;
-      // Of pairs, hidden ones alone take rays.
+      // Among the pairs only the partly hidden ones take rays.
       if (pairwise && size == 1) by_rays_s = point.time_s * std::max(1.0, std::sqrt(rays));
       if (!pairwise && size == 1 && rays > 1) by_rays_s = point.time_s * rays;
       if (size > 1) by_size_s = point.time_s * std::pow(size, pairwise ? 4 : 2.5) * std::max(1.0, rays);
@@ -294,7 +294,7 @@ class ChartMaker {
     return rays;
   }
 
-  // From the coarsest that the choice tried to a quarter of what it chose.
+  // Ranges from the coarsest size that the choice tried to a quarter of the chosen one.
   std::vector<double> Sizes() const {
     std::vector<double> sizes;
     const double finest_m = ChosenSizeM() / 4;
@@ -305,15 +305,15 @@ class ChartMaker {
 
   void SweepFormFactors() {
     const FormFactorOptions chosen = chart_.choice.options.room.form_factors;
-    for (const FormFactorMethod method : AllFormFactorMethods())
-      Measure("method", ChosenSizeM(), {chosen.rays_per_element, method});
+    for (const FormFactorOps& ops : FormFactorMethods())
+      Measure("method", ChosenSizeM(), {chosen.rays_per_element, ops.method});
     for (const int rays : Rays()) Measure("rays", ChosenSizeM(), {rays, chosen.method});
     for (const double size_m : Sizes()) Measure("patch_size", size_m, chosen);
   }
 
   void MeasureGrid(double size_m) {
     for (const int rays : Rays()) {
-      for (const FormFactorMethod method : AllFormFactorMethods()) Measure("grid", size_m, {rays, method});
+      for (const FormFactorOps& ops : FormFactorMethods()) Measure("grid", size_m, {rays, ops.method});
     }
   }
 

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "apps/charts/chart_axis.h"
 #include "apps/charts/svg.h"
+#include "forward/factors/form_factors.h"
 
 namespace luxfit {
 namespace {
@@ -14,9 +16,9 @@ namespace {
 constexpr double kPointChartWidthPx = 980, kPointChartHeightPx = 640;
 constexpr double kPointChartLeftPx = 76, kPointChartRightPx = 770, kPointChartTopPx = 64,
                  kPointChartBottomPx = 570;
-constexpr double kLeastPercent = 1e-3;  // of a logarithmic axis: nothing is 0
+constexpr double kLeastPercent = 1e-3;  // a logarithmic axis has no 0
 
-// A tenth of a decade free on either side.
+// Leaves a tenth of a decade free on either side.
 ChartAxis AxisFor(double least, double most, double from_px, double to_px) {
   return {least / 1.3, most * 1.3, from_px, to_px, true};
 }
@@ -26,29 +28,17 @@ struct PointStyle {
   SvgMarkShape mark;
 };
 
-// Colours of Okabe and Ito, told apart with any colour vision; marks for those who see none.
+// Okabe and Ito's colours differ for any colour vision, and marks differ without colours. A method takes the
+// style of its place among FormFactorMethods(): a new one at the end leaves the others theirs.
 PointStyle StyleOf(FormFactorMethod method) {
-  switch (method) {
-    case FormFactorMethod::kHybrid:
-      return {"#d55e00", SvgMarkShape::kDisc};
-    case FormFactorMethod::kAnalytic:
-      return {"#0072b2", SvgMarkShape::kSquare};
-    case FormFactorMethod::kMalley:
-      return {"#009e73", SvgMarkShape::kDiamond};
-    case FormFactorMethod::kMalleyStratified:
-      return {"#009e73", SvgMarkShape::kTriangle};
-    case FormFactorMethod::kIsocell:
-      return {"#56b4e9", SvgMarkShape::kDiamond};
-    case FormFactorMethod::kMonteCarlo:
-      return {"#cc79a7", SvgMarkShape::kCross};
-    case FormFactorMethod::kHemicube:
-      return {"#b09a00", SvgMarkShape::kSquare};
-    case FormFactorMethod::kSinglePlane:
-      return {"#888888", SvgMarkShape::kTriangle};
-    case FormFactorMethod::kWallace:
-      return {"#000000", SvgMarkShape::kCross};
-  }
-  return {"#000000", SvgMarkShape::kDisc};
+  constexpr PointStyle kMethodStyles[] = {
+      {"#d55e00", SvgMarkShape::kDisc},    {"#0072b2", SvgMarkShape::kSquare},
+      {"#009e73", SvgMarkShape::kDiamond}, {"#009e73", SvgMarkShape::kTriangle},
+      {"#56b4e9", SvgMarkShape::kDiamond}, {"#cc79a7", SvgMarkShape::kCross},
+      {"#b09a00", SvgMarkShape::kSquare},  {"#888888", SvgMarkShape::kTriangle},
+      {"#000000", SvgMarkShape::kCross},   {"#000000", SvgMarkShape::kDisc}};
+  const auto place = static_cast<size_t>(&OpsOf(method) - FormFactorMethods().data());
+  return kMethodStyles[place % std::size(kMethodStyles)];
 }
 
 std::string Mark(const PointStyle& style, double x, double y, double r) {
@@ -76,7 +66,7 @@ std::string Axes(const ChartAxis& x, const ChartAxis& y) {
   return text;
 }
 
-// Right and down: what each time buys.
+// Steps right and down: the least error within each time.
 std::string Front(const std::vector<ChartPoint>& points, const ChartAxis& x, const ChartAxis& y) {
   std::vector<ChartPoint> front;
   std::copy_if(points.begin(), points.end(), std::back_inserter(front),
@@ -98,7 +88,7 @@ std::string Automatic(const ChartPoint& point, const ChartAxis& x, const ChartAx
                                         point.patch_size_m, point.element_size_m, point.rays, bounces);
   const std::string figures = fmt::format("{:.2g} s, error {:.2g} %, estimated {:.2g} %", point.time_s,
                                           point.error_percent, point.estimated_error_percent.value_or(0));
-  // At the lower left, under the front, where no point can lie.
+  // The legend stands at the lower left, below the front, where no point can lie.
   const double tx = kPointChartLeftPx + 12, ty = kPointChartBottomPx - 34;
   const std::string style =
       " font-weight=\"bold\" stroke=\"white\" stroke-width=\"4\" paint-order=\"stroke\"";
@@ -111,11 +101,11 @@ std::string Legend(const Chart& chart) {
   std::string text;
   double y = kPointChartTopPx + 8;
   const double x = kPointChartRightPx + 24;
-  for (const FormFactorMethod method : AllFormFactorMethods()) {
+  for (const FormFactorOps& ops : FormFactorMethods()) {
     const bool shown = std::any_of(chart.points.begin(), chart.points.end(),
-                                   [&](const ChartPoint& p) { return p.method == method; });
+                                   [&](const ChartPoint& p) { return p.method == ops.method; });
     if (!shown) continue;
-    text += Mark(StyleOf(method), x, y, 5) + SvgText(x + 14, y + 4, ToString(method));
+    text += Mark(StyleOf(ops.method), x, y, 5) + SvgText(x + 14, y + 4, ops.name);
     y += 22;
   }
   text += Mark(StyleOf(chart.points.front().method), x, y, 2.5) + SvgText(x + 14, y + 4, "bounces, solvers");

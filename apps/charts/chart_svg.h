@@ -1,8 +1,8 @@
-// A chart of speed against accuracy as SVG: one mark a point, logarithmic axes.
+// Draws a chart of speed against accuracy as SVG, with one mark for each point and logarithmic axes.
 //
-// x: time in s; y: error in percent. A colour and a mark a method; the Pareto front as steps; the automatic
-// choice ringed and labelled; the reference's own standard error as a dashed line, below which errors mean
-// nothing. Points of sweeps over solvers and bounces are drawn small.
+// x is time in s, y is error in percent. Each method has a colour and a mark. The Pareto front is drawn as
+// steps, and the automatic choice is ringed and labelled. A dashed line shows the reference's own standard
+// error; errors below it have no meaning. Points of sweeps over solvers and bounces are drawn small.
 #ifndef LUXFIT_APPS_CHARTS_CHART_SVG_H_
 #define LUXFIT_APPS_CHARTS_CHART_SVG_H_
 
@@ -12,7 +12,7 @@
 
 namespace luxfit {
 
-// `title` is the first line. Empty where there are no points.
+// `title` is the first line. The result is empty where there are no points.
 std::string ChartSvg(const Chart& chart, const std::string& title);
 
 }  // namespace luxfit

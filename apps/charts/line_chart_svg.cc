@@ -97,7 +97,7 @@ std::string Draw(const LineChart& chart, std::size_t index, const ChartAxis& x, 
          marks;
 }
 
-// Drawn with its upper left corner at the origin; empty where no point can be drawn.
+// Draws the chart with its upper left corner at the origin; empty where no point can be drawn.
 std::string ChartBody(const LineChart& chart) {
   const bool any = std::any_of(chart.series.begin(), chart.series.end(), [&chart](const LineSeries& series) {
     return std::any_of(series.points.begin(), series.points.end(),

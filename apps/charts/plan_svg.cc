@@ -15,7 +15,7 @@ using nlohmann::json;
 
 constexpr double kPlanWidthPx = 900, kPlanMarginPx = 30, kPlanLegendPx = 56;
 
-// World metres to picture pixels, y upwards.
+// Maps metres in the world to pixels of the picture, y upwards.
 struct Plan {
   Eigen::AlignedBox3d box;
   double scale = 1;
@@ -26,7 +26,7 @@ struct Plan {
 std::string Outlines(const Plan& plan, const Scene& scene) {
   std::string text;
   for (const Facet& facet : scene.facets) {
-    // What faces up, furniture and floor; walls appear as the floor's edge.
+    // Only surfaces that face up are drawn: furniture and floor. Walls appear as the floor's edge.
     if (facet.Normal().z() < 0.5) continue;
     std::string points;
     const bool triangle = facet.kind == FacetKind::kTriangle;
@@ -46,7 +46,7 @@ std::string Cameras(const Plan& plan, const json& views) {
   for (const json& view : views) {
     const double x = plan.X(view["position_m"][0].get<double>()),
                  y = plan.Y(view["position_m"][1].get<double>());
-    // Third column of the rotation: the viewing direction.
+    // The third column of the rotation is the viewing direction.
     const double dx = view["R_scene_from_camera"][0][2].get<double>(),
                  dy = view["R_scene_from_camera"][1][2].get<double>();
     const double angle = std::atan2(-dy, dx), spread = 0.35, length = 34;
@@ -94,8 +94,8 @@ std::string LuxmeterPoints(const Plan& plan, const Session& session, const json&
     Point& point = points[reading.id];
     point.x = plan.X(reading.position_m.x());
     point.y = plan.Y(reading.position_m.y());
-    if (luxmeter[i]["predicted_lux"].is_number() && reading.illuminance_lx > 0) {
-      const double error = 100 * (luxmeter[i]["predicted_lux"].get<double>() / reading.illuminance_lx - 1);
+    if (luxmeter[i]["predicted_lx"].is_number() && reading.illuminance_lx > 0) {
+      const double error = 100 * (luxmeter[i]["predicted_lx"].get<double>() / reading.illuminance_lx - 1);
       if (std::abs(error) > std::abs(point.worst_percent)) point.worst_percent = error;
     }
   }

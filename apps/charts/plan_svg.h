@@ -1,8 +1,8 @@
-// A plan of the room as SVG: what was found where, at a glance.
+// Draws a plan of the room as SVG, with everything that was found in its place.
 //
-// Seen from above, x to the right, y up, metres: outlines of the mesh, cameras with their viewing direction,
-// luminaires with size and flux, luxmeter points coloured by the worst error of their readings. `result` is
-// that of ResultJson.
+// The plan is seen from above, x to the right, y up, in metres. It shows the outlines of the mesh and the
+// cameras with their viewing directions. Luminaires carry size and flux, and luxmeter points the colour of
+// their worst error. `result` is that of ResultJson.
 #ifndef LUXFIT_APPS_CHARTS_PLAN_SVG_H_
 #define LUXFIT_APPS_CHARTS_PLAN_SVG_H_
 
@@ -14,7 +14,7 @@
 
 namespace luxfit {
 
-// Empty where the scene has no facet.
+// Returns an empty text where the scene has no facet.
 std::string PlanSvg(const Session& session, const Scene& scene, const nlohmann::json& result);
 
 }  // namespace luxfit

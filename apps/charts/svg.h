@@ -1,4 +1,4 @@
-// Pieces of SVG that pictures of the program share: the document, text, and escaping of names.
+// Makes the pieces of SVG that the pictures of the program share: the document, text, and escaped names.
 #ifndef LUXFIT_APPS_CHARTS_SVG_H_
 #define LUXFIT_APPS_CHARTS_SVG_H_
 
@@ -6,10 +6,10 @@
 
 namespace luxfit {
 
-// A white page of that many pixels; `body` is drawn on it.
+// Makes a white page of that many pixels; `body` is drawn on it.
 std::string SvgDocument(double width_px, double height_px, const std::string& body);
 
-// `attributes` as in XML: " fill=\"red\"", or nothing.
+// `attributes` are written as in XML: " fill=\"red\"", or nothing.
 std::string SvgText(double x_px, double y_px, const std::string& text, const std::string& attributes = "");
 
 std::string SvgLine(double x1_px, double y1_px, double x2_px, double y2_px, const std::string& attributes);
@@ -17,11 +17,11 @@ std::string SvgLine(double x1_px, double y1_px, double x2_px, double y2_px, cons
 std::string SvgCircle(double x_px, double y_px, double radius_px, const std::string& attributes);
 
 enum class SvgMarkShape { kDisc, kSquare, kDiamond, kTriangle, kCross };
-// A point of a chart, about 2 radius_px wide, a little transparent.
+// Draws a point of a chart, about 2 radius_px wide and slightly transparent.
 std::string SvgMark(SvgMarkShape shape, const std::string& colour, double x_px, double y_px,
                     double radius_px);
 
-// &, <, > and quotes of any text, so that it can stand in the file.
+// Escapes &, <, > and quotes, so that any text can stand in the file.
 std::string XmlEscaped(const std::string& text);
 
 }  // namespace luxfit

@@ -17,8 +17,8 @@ constexpr double kImageWidthPx = 720, kMarginPx = 16, kTitlePx = 46, kLegendPx =
 constexpr int kCellsAcross = 40;
 constexpr double kLeastPx = 0.01, kMostPx = 10;
 
-// Blue where trusted, through pale yellow, to red; even in lightness both ways so that print and the
-// colour-blind can follow.
+// Runs from blue (certain) through pale yellow to red. Lightness changes evenly to both sides, so that the
+// scale works in print and for colour-blind readers.
 constexpr std::array<std::array<double, 3>, 5> kRamp = {
     {{43, 91, 168}, {120, 177, 211}, {246, 240, 195}, {240, 142, 86}, {177, 24, 43}}};
 
@@ -45,7 +45,7 @@ std::string HeatMap(const CalibratedCamera& camera, double scale) {
   std::string body;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < kCellsAcross; ++column) {
-      // A hair wider than the cell: no seams.
+      // Slightly wider than the cell, so that no seams show.
       body +=
           fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
                       kMarginPx + column * width, kTitlePx + row * height, width + 0.3, height + 0.3,

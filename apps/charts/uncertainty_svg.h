@@ -1,7 +1,7 @@
-// How far a calibrated camera may be trusted where, as SVG: sigma of directions over the image as a heat map,
+// Draws the uncertainty of a calibrated camera as SVG: a heat map of the sigma of directions over the image,
 // with the corners that it was calibrated from.
 //
-// Colours are logarithmic from 0.01 to 10 px; cells where nothing is known are hatched.
+// Colours are logarithmic from 0.01 to 10 px. Cells without information are hatched.
 #ifndef LUXFIT_APPS_CHARTS_UNCERTAINTY_SVG_H_
 #define LUXFIT_APPS_CHARTS_UNCERTAINTY_SVG_H_
 

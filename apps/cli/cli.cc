@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/session/earlier_result.h"
+
 namespace luxfit {
 
 void AddExample(CLI::App& command, const std::string& typed, const std::string& output) {
@@ -14,6 +16,20 @@ void AddExample(CLI::App& command, const std::string& typed, const std::string& 
   }
   text.pop_back();
   command.footer(text);
+}
+
+void AddRunFolder(CLI::App& command, std::string& folder) {
+  command.add_option("OUT", folder, "folder of an earlier run, or its result.json")
+      ->required()
+      ->transform(
+          CLI::Validator([](std::string& named) { return named = RunFolderOf(named), std::string(); }, ""));
+}
+
+void AddEarlierResult(CLI::App& command, const std::string& flag, std::string& file,
+                      const std::string& help) {
+  command.add_option(flag, file, help)
+      ->transform(
+          CLI::Validator([](std::string& named) { return named = ResultFileOf(named), std::string(); }, ""));
 }
 
 void AddThreads(CLI::App& command, Invocation& invocation) {

@@ -21,7 +21,7 @@ std::string FlagsOf(const CommandDescription& command) {
   return flags;
 }
 
-// Inside the single quotes of a zsh option spec.
+// Escapes text for the single quotes of a zsh option spec.
 std::string ZshText(const std::string& help) {
   std::string text;
   for (const char c : help) {

@@ -1,4 +1,4 @@
-// The command line as data: what completion scripts and manual pages are made from.
+// Describes the command line as data, from which completion scripts and manual pages are made.
 #ifndef LUXFIT_APPS_CLI_DESCRIBE_H_
 #define LUXFIT_APPS_CLI_DESCRIBE_H_
 
@@ -12,7 +12,7 @@ class App;
 namespace luxfit {
 
 struct OptionDescription {
-  std::vector<std::string> flags;  // "-o", "--out"; of a positional its name alone
+  std::vector<std::string> flags;  // "-o", "--out"; a positional has its name alone
   bool is_positional = false;
   bool takes_value = false;
   bool is_required = false;
@@ -24,14 +24,14 @@ struct CommandDescription {
   std::vector<OptionDescription> options;
 };
 
-// Subcommands in the order of --help.
+// Returns the subcommands in the order of --help.
 std::vector<CommandDescription> DescribeCommands(const CLI::App& app);
 
-// Scripts for bash-completion and zsh: commands, their options, files for values.
+// Return scripts for bash-completion and zsh: commands, their options, and files as values.
 std::string BashCompletion(const std::vector<CommandDescription>& commands);
 std::string ZshCompletion(const std::vector<CommandDescription>& commands);
 
-// roff, section 1: luxfit(1) lists the commands, luxfit-NAME(1) is one of them.
+// Return manual pages (roff, section 1): luxfit(1) lists the commands, luxfit-NAME(1) describes one of them.
 std::string OverviewManual(const std::vector<CommandDescription>& commands, const std::string& about,
                            const std::string& version);
 std::string CommandManual(const CommandDescription& command, const std::string& version);

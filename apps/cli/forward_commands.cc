@@ -1,4 +1,4 @@
-// Commands of the forward model: nothing is fitted, or what is fitted is judged.
+// Adds the commands of the forward model, and the charts that judge the forward model or the fit.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -18,7 +18,7 @@ void AddSessionAndOut(CLI::App& command, CommandOptions& options, Invocation& in
       ->required();
   command
       .add_option("--error", options.error_percent,
-                  "asked of patches, rays and bounces, percent of illuminance")
+                  "error that patches, rays and bounces may cause, percent of illuminance")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   AddJson(command, options.json);
@@ -42,7 +42,7 @@ void AddSimulate(CLI::App& app, Invocation& invocation) {
              "...");
 }
 
-// The whole fit instead of the forward model.
+// Adds the options that chart the whole fit instead of the forward model.
 void AddFitCharts(CLI::App& chart, CommandOptions& options) {
   StabilityOptions& stability = options.stability_options;
   CLI::Option* const degrade = chart.add_flag(
@@ -52,18 +52,18 @@ void AddFitCharts(CLI::App& chart, CommandOptions& options) {
       chart.add_flag("--fit", options.whole_fit,
                      "error of the whole fit against its time, over patches, views, states, ...");
   fit->excludes(degrade);
-  chart.add_option("--trials", stability.trials, "of --stability, a level")
+  chart.add_option("--trials", stability.trials, "trials of each level, for --stability")
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
       ->needs(degrade);
-  chart.add_option("--seed", stability.seed, "of --stability's random numbers")
+  chart.add_option("--seed", stability.seed, "seed of the random numbers, for --stability")
       ->capture_default_str()
       ->needs(degrade);
-  chart.add_option("--only", stability.only, "degradations of --stability, by name (default: all)")
+  chart.add_option("--only", stability.only, "degradations to apply, for --stability (default: all)")
       ->delimiter(',')
       ->needs(degrade);
   const CLI::Option* const elements =
-      chart.add_option("--elements", stability.elements, "observed elements that each fit uses")
+      chart.add_option("--elements", stability.elements, "number of observed elements that each fit uses")
           ->capture_default_str()
           ->check(CLI::PositiveNumber);
   const CLI::Option* const truth =
@@ -79,15 +79,15 @@ void AddFitCharts(CLI::App& chart, CommandOptions& options) {
 
 void AddChart(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
-      app.add_subcommand("chart", "speed against accuracy: of the forward model, or of the whole fit");
+      app.add_subcommand("chart", "chart speed against accuracy, of the forward model or of the whole fit");
   const Options options = std::make_shared<CommandOptions>();
   AddSessionAndOut(*command, *options, invocation);
   command
       ->add_option("--budget", options->budget_s, "seconds in all; points that would take longer are skipped")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  command->add_option("--result", options->earlier_result,
-                      "result.json of a fit: its luminaires and reflectances count as given");
+  AddEarlierResult(*command, "--result", options->earlier_result,
+                   "earlier fit (folder or result.json): its luminaires and reflectances count as given");
   AddFitCharts(*command, *options);
   command->final_callback([&invocation, options] {
     options->command_line = invocation.command_line;
@@ -110,8 +110,8 @@ void AddFormFactors(CLI::App& app, Invocation& invocation) {
   sub->add_option("MESH", options->mesh, "OBJ, PLY or glTF")->required();
   sub->add_option("-o,--out", options->file, "file to write, .csv or .json")->required();
   std::string methods;
-  for (const FormFactorMethod method : AllFormFactorMethods())
-    methods += (methods.empty() ? "" : " | ") + ToString(method);
+  for (const FormFactorOps& ops : FormFactorMethods())
+    methods += (methods.empty() ? "" : " | ") + std::string(ops.name);
   sub->add_option("--method", options->method, methods)->capture_default_str();
   sub->add_option("--rays", options->rays, "rays over the hemisphere of a patch")
       ->capture_default_str()
@@ -119,7 +119,7 @@ void AddFormFactors(CLI::App& app, Invocation& invocation) {
   sub->add_option("--patch-size", options->patch_size_m, "longest side of a patch, m")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
-  sub->add_option("--unit", options->unit, "of the mesh: m | cm | mm | in | ft")->capture_default_str();
+  sub->add_option("--unit", options->unit, "unit of the mesh: m | cm | mm | in | ft")->capture_default_str();
   AddJson(*sub, options->json);
   AddThreads(*sub, invocation);
   sub->final_callback([&invocation, options] {

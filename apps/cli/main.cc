@@ -16,7 +16,7 @@
 
 namespace {
 
-// Exit statuses of docs/session-format.md.
+// These are the exit statuses of docs/session-format.md.
 constexpr int kBadInput = 2, kMissingProgram = 3, kDefect = 70;
 
 std::string CommandLine(int argc, char** argv) {
@@ -45,6 +45,8 @@ int Run(const luxfit::Invocation& invocation) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Tables and progress lines keep their order where both streams go to one file.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   CLI::App app{
       "luxfit: luminaires, reflectances and their uncertainty from photos of a room and luxmeter readings",
       "luxfit"};

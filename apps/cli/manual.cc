@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-// Text of roff: no line is a request, no character an escape.
+// Escapes text for roff: no line becomes a request, no character an escape.
 std::string Roff(const std::string& text) {
   std::string escaped;
   bool at_start = true;

@@ -1,5 +1,5 @@
-// What to say of a command line that does not parse: what was expected, what came, the nearest name, and how
-// to get help.
+// Explains why a command line does not parse: what was expected, what was given, the nearest name, and how to
+// get help.
 #ifndef LUXFIT_APPS_CLI_PARSE_ERROR_H_
 #define LUXFIT_APPS_CLI_PARSE_ERROR_H_
 
@@ -13,7 +13,7 @@ class ParseError;
 
 namespace luxfit {
 
-// `arguments` as typed, without the program's name.
+// `arguments` are as typed, without the program's name.
 std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error,
                            const std::vector<std::string>& arguments);
 

@@ -1,4 +1,4 @@
-// Commands on what a run left in its folder.
+// Adds the commands on the results that a run left in its folder.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -13,7 +13,7 @@ void AddCheck(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("check", "measured against predicted luxmeter readings of an earlier run");
   const auto options = std::make_shared<CommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  AddRunFolder(*command, options->out);
   command->add_option("--subset", options->subset,
                       "a row for the readings of this pattern too: id or id@state, * for any text");
   AddJson(*command, options->json);
@@ -31,11 +31,10 @@ void AddCheck(CLI::App& app, Invocation& invocation) {
 void AddReport(CLI::App& app, Invocation& invocation) {
   CLI::App* const command = app.add_subcommand("report", "one self-contained HTML page of an earlier run");
   const auto options = std::make_shared<ReportCommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
-  command->add_option("--session", options->session,
-                      "the session file, where it is not where it was any more");
-  command->add_option("--targets", options->targets, "areas and observers with what is asked of them (TOML)");
-  command->add_option("--state", options->state, "the state shown first (the brightest)");
+  AddRunFolder(*command, options->out);
+  command->add_option("--session", options->session, "the session file, if it has moved since the run");
+  command->add_option("--targets", options->targets, "areas and observers with their requirements (TOML)");
+  command->add_option("--state", options->state, "the state shown first (default: the brightest)");
   AddJson(*command, options->json);
   AddThreads(*command, invocation);
   command->final_callback([&invocation, options] {

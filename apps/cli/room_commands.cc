@@ -1,4 +1,4 @@
-// Commands on the room that a run fitted.
+// Adds the commands on the room that a run fitted.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -12,11 +12,11 @@
 namespace luxfit {
 namespace {
 
-// What all of them share, added last.
+// Adds the options that all of them share, as the last ones.
 template <typename Options>
 void Complete(CLI::App& command, Invocation& invocation, const std::shared_ptr<Options>& options,
               int (*run)(const Options&)) {
-  command.add_option("--session", options->session, "the session file, where it is not where the run had it");
+  command.add_option("--session", options->session, "the session file, if it has moved since the run");
   AddJson(command, options->json);
   AddThreads(command, invocation);
   command.final_callback([&invocation, options, run] {
@@ -29,7 +29,7 @@ void AddExport(CLI::App& app, Invocation& invocation) {
   CLI::App* const command = app.add_subcommand(
       "export", "the fitted room for other programs: .ies, .vtp, .ply, Radiance, EXR, CSV");
   const auto options = std::make_shared<ExportCommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  AddRunFolder(*command, options->out);
   command->add_option("--only", options->only, "of " + ListNames(ExportNames()) + " (default: all)")
       ->delimiter(',');
   command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/export)");
@@ -43,7 +43,7 @@ void AddLuxmap(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("luxmap", "new photos of a fitted room as maps of illuminance, without another fit");
   const auto options = std::make_shared<LuxmapCommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  AddRunFolder(*command, options->out);
   command
       ->add_option("PHOTO", options->photos,
                    "photos, or one table .csv: file,camera,view[,exposure_s,time,aperture,iso]")
@@ -53,17 +53,18 @@ void AddLuxmap(CLI::App& app, Invocation& invocation) {
   command
       ->add_option_function<std::string>(
           "--pose", [options](const std::string&) { options->pose_from_tags = true; },
-          "tags: where they were taken from is found by the room's tags")
+          "tags: find the camera's pose from the room's tags")
       ->check(CLI::IsMember({"tags"}))
       ->excludes(view);
   command->add_option("--camera", options->camera, "the camera's id (default: the only one)");
   command->add_option("--exposure-s", options->exposure_s, "exposure time, s (default: the photo's metadata)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--state", options->state, "what should be on: warns of luminaires that are not so");
+  command->add_option("--state", options->state,
+                      "the state that should be on; warns of luminaires that differ");
   command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/luxmap)");
   Complete(*command, invocation, options, LuxmapCommand);
   AddExample(*command, "luxfit luxmap out evening.png --view v00 --exposure-s 0.206",
-             "evening.png : 90 % of the pixels know their illuminance\n"
+             "evening.png : 90 % of the pixels have a known illuminance\n"
              "  luminaire A          at 0.30 ± 0.00\n"
              "  ...\n"
              "  place        seen lx             predicted lx\n"
@@ -75,7 +76,7 @@ void AddCommission(CLI::App& app, Invocation& invocation) {
       "commission",
       "measured against designed, and the dimming levels that reach targets at the least power");
   const auto options = std::make_shared<CommissionCommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  AddRunFolder(*command, options->out);
   command->add_option("--design", options->design,
                       "TOML: [[luminaire]] as in a session, [power_w], [[point]] with illuminance_lx");
   command->add_option("--targets", options->targets, "TOML: [[area]] as for luxfit report");
@@ -93,16 +94,19 @@ void AddDim(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("dim", "which luminaires can be dimmed unseen by the people present");
   const auto options = std::make_shared<DimCommandOptions>();
-  command->add_option("OUT", options->out, "folder of an earlier run")->required();
+  AddRunFolder(*command, options->out);
   command
       ->add_option("--person", options->persons,
                    "x,y,z,dx,dy,dz (eye in m, direction of the gaze), a .toml of [[observer]] or a .csv; "
                    "may be given again")
       ->required();
-  command->add_option("--drop-percent", options->drop_percent, "of the light at each eye")
+  command
+      ->add_option("--drop-percent", options->drop_percent,
+                   "drop of the light at each eye that nobody notices, percent")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--state", options->state, "what is on now (default: the state with the most on)");
+  command->add_option("--state", options->state,
+                      "the state that is on now (default: the state with the most on)");
   command->add_option("--design", options->design, "TOML with [power_w] (default: 100 lm/W)");
   command->add_option("-o,--out", options->folder, "folder to write into (default: OUT/dim)");
   Complete(*command, invocation, options, DimCommand);

@@ -1,4 +1,4 @@
-// Commands on a session: from photos to luminaires.
+// Adds the commands on a session: from photos to luminaires.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -35,15 +35,14 @@ Added AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string
 void AddRunOptions(const Added& added) {
   added.command->add_flag("--dry-run", added.options->dry_run,
                           "tell which stages would run and why, and do nothing");
-  added.command->add_flag("--fresh", added.options->fresh, "take nothing over from an earlier run into OUT");
+  added.command->add_flag("--fresh", added.options->fresh, "reuse nothing of an earlier run in OUT");
 }
 
 void AddLuminairesOption(const Added& added) {
   AddRunOptions(added);
-  added.command->add_option(
-      "--luminaires", added.options->earlier_luminaires,
-      "result.json of an earlier fit: its luminaires count as given, such as those read "
-      "with covered walls");
+  AddEarlierResult(*added.command, "--luminaires", added.options->earlier_luminaires,
+                   "earlier fit (folder or result.json): its luminaires count as given, such as those read "
+                   "with covered walls");
 }
 
 void AddRun(CLI::App& app, Invocation& invocation) {

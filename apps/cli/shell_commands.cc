@@ -58,7 +58,7 @@ void AddShellCommands(CLI::App& app, Invocation& invocation) {
 
   CLI::App* const man = app.add_subcommand("man", "manual pages (roff), made from what --help says");
   const auto name = std::make_shared<std::string>(), folder = std::make_shared<std::string>();
-  man->add_option("COMMAND", *name, "of one command (default: luxfit itself)");
+  man->add_option("COMMAND", *name, "the command to describe (default: luxfit itself)");
   man->add_option("-o,--out", *folder, "write all of them into this folder instead");
   man->final_callback([&app, &invocation, name, folder] {
     invocation.run = [&app, name, folder] { return Manual(app, *name, *folder); };

@@ -1,4 +1,4 @@
-// `luxfit completion` and `luxfit man`: scripts and pages made from the command line's own help.
+// Adds `luxfit completion` and `luxfit man`, whose output is made from the help of the command line.
 #ifndef LUXFIT_APPS_CLI_SHELL_COMMANDS_H_
 #define LUXFIT_APPS_CLI_SHELL_COMMANDS_H_
 
@@ -6,7 +6,7 @@
 
 namespace luxfit {
 
-// Added last: they describe what was added before, and themselves.
+// Must be added last, since they describe all commands added before, and themselves.
 void AddShellCommands(CLI::App& app, Invocation& invocation);
 
 }  // namespace luxfit

@@ -1,4 +1,4 @@
-// Commands for the beginning, before there is a session.
+// Adds the commands for the beginning, before there is a session.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -65,12 +65,12 @@ void AddExplain(CLI::App& app, Invocation& invocation) {
       *command, "luxfit explain scale_undetermined",
       "Photos alone give fluxes up to one common factor. Positions, distributions and reflectances stand; "
       "lumens and lux do not.\n"
-      "Mend: name one luxmeter reading in `luxmeter.scale`, or ...");
+      "Fix: name one luxmeter reading in `luxmeter.scale`, or ...");
 }
 
 void AddInit(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
-      app.add_subcommand("init", "a session to start from, out of photos and a mesh; every guess is marked");
+      app.add_subcommand("init", "a draft of a session from photos and a mesh; every guess is marked");
   const auto options = std::make_shared<InitCommandOptions>();
   command->add_option("--photos", options->photos, "folder of the photos")->required();
   command->add_option("--mesh", options->mesh, "OBJ, PLY or glTF of the room")->required();
@@ -86,7 +86,7 @@ void AddInit(CLI::App& app, Invocation& invocation) {
              "luxfit init --photos office/photos --mesh office/room.obj --tags office/tags.json -o mine",
              "mine/session.toml: 49 photos, 6 states, 7 materials, tags 0 1 2 3 4 5 7 8 9 10 11\n"
              "check the lines that end in GUESS; then:\n"
-             "- photos.csv: exposure_s of 49 photos: they do not say it themselves\n"
+             "- photos.csv: exposure_s of 49 photos: their metadata lacks it\n"
              "...");
 }
 

@@ -13,12 +13,12 @@
 #include "apps/session/session_files.h"
 #include "apps/text/artifact.h"
 #include "apps/text/suggest.h"
-#include "calib/targets/board_drawing.h"
+#include "calib/targets/board.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kStepM = 0.0005;  // sizes that are chosen here are whole ones of these
+constexpr double kStepM = 0.0005;  // chosen sizes are multiples of this
 constexpr double kMarkerShare = 0.7;
 
 BoardType TypeFrom(const std::string& name) {
@@ -28,7 +28,7 @@ BoardType TypeFrom(const std::string& name) {
   throw std::runtime_error("TYPE: " + ExpectedOneOf({"aprilgrid", "chessboard", "charuco", "tags"}, name));
 }
 
-// The name of the flag that sets a member of Board or BoardStyle, for messages that name the member.
+// Returns the name of the flag that sets a member of Board or BoardStyle, for messages that name the member.
 std::string WithFlagNames(std::string message, const std::string& type) {
   if (type == "charuco" && message.rfind("tag_size_m", 0) == 0)
     return "--marker-size" + message.substr(std::string("tag_size_m").size());
@@ -67,14 +67,14 @@ Board BoardFrom(const BoardCommandOptions& options) {
   return board;
 }
 
-// The one length from which all others follow.
+// Returns the one length from which all others follow.
 void SetScale(double size_m, const BoardCommandOptions& options, Board& board) {
   (board.type == BoardType::kAprilGrid ? board.tag_size_m : board.square_size_m) = size_m;
   if (board.type != BoardType::kCharuco) return;
   board.tag_size_m = options.marker_size_m > 0 ? options.marker_size_m : RoundedDown(kMarkerShare * size_m);
 }
 
-// The largest size with which `needed_mm` fits on the paper. `needed_mm` grows with the size.
+// Returns the largest size with which `needed_mm` fits on the paper. `needed_mm` grows with the size.
 double LargestSizeM(const Paper& paper, const std::function<Eigen::Vector2d(double)>& needed_mm) {
   double low = 0, high = RoundedDown(paper.size_mm.maxCoeff() * 1e-3);
   while (high - low > 1.5 * kStepM) {
@@ -108,7 +108,7 @@ std::string BoardLine(const Board& board) {
       counts, board.square_size_m, board.tag_size_m, board.dictionary, first);
 }
 
-// "0-11,20" as a list.
+// Parses "0-11,20" into a list.
 std::vector<int> IdsFrom(const std::string& text) {
   constexpr int kMostIds = 2000;
   std::vector<int> ids;

@@ -1,6 +1,6 @@
-// `luxfit board`: calibration boards and room tags to print, as SVG or PDF at true scale.
+// Runs `luxfit board`: prints calibration boards and room tags as SVG or PDF at true scale.
 //
-// Prints what belongs into the session: the `board = { ... }` of its camera, or [tags].
+// Prints what belongs in the session: the `board = { ... }` of its camera, or [tags].
 //
 // Throws std::runtime_error for bad input and for a drawing that does not fit its paper (exit status 2).
 // Source: docs/session-format.md, "Boards".
@@ -15,7 +15,7 @@ struct BoardCommandOptions {
   std::string type;  // aprilgrid | chessboard | charuco | tags
   std::string file;  // .svg or .pdf
   std::string paper = "A4";
-  int columns = 0, rows = 0;  // 0: of the type's own
+  int columns = 0, rows = 0;  // 0: those of the type
   double tag_size_m = 0;      // 0: the largest, to half a millimetre, that fits
   double spacing = 0.3;
   double square_size_m = 0;  // as tag_size_m

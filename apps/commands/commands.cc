@@ -8,18 +8,19 @@
 
 #include "apps/commands/internal/room_run.h"
 #include "apps/session/earlier_result.h"
+#include "apps/stages/albedo/stage_stereo.h"
+#include "apps/stages/calibrate/stage_calibrate.h"
 #include "apps/stages/check_report.h"
 #include "apps/stages/prepared_session.h"
-#include "apps/stages/stage_calibrate.h"
-#include "apps/stages/stage_stereo.h"
 #include "apps/stages/stages.h"
+#include "apps/text/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/terminal.h"
 
 namespace luxfit {
 namespace {
 
-// The session of a command that asks for a room.
+// Reads the session of a command that needs a room.
 Session ReadRoomSession(const CommandOptions& options) {
   Session session = ReadSession(options.session);
   if (session.lights)
@@ -28,7 +29,7 @@ Session ReadRoomSession(const CommandOptions& options) {
   return session;
 }
 
-// How much the fit of a session stands; exit status 1 where there is no fit to begin with.
+// Charts the stability of a session's fit. Returns exit status 1 where the undegraded session has no fit.
 int ChartStability(const CommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
@@ -150,7 +151,8 @@ int RegisterCommand(const CommandOptions& options) {
 
 int CheckCommand(const CommandOptions& options) {
   const nlohmann::json result = ReadResult(options.out + "/result.json");
-  const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
+  nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
+  AddFormerKeys(check);
   if (options.json) {
     PrintText(
         nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}

@@ -1,7 +1,7 @@
-// The subcommands: each returns the process's exit status (0 done, 1 the data do not determine what was
-// asked).
+// Runs the subcommands. Each returns the process's exit status: 0 done, 1 the data do not determine what was
+// asked.
 //
-// Throws std::runtime_error for bad input (exit status 2, given by main).
+// Throws std::runtime_error for bad input; main then ends with exit status 2.
 // Source: docs/session-format.md, "Commands".
 #ifndef LUXFIT_APPS_COMMANDS_COMMANDS_H_
 #define LUXFIT_APPS_COMMANDS_COMMANDS_H_
@@ -18,39 +18,40 @@ struct CommandOptions {
   std::string out;           // folder; nothing is written outside it
   std::string command_line;  // as typed, for the artifacts
   bool json = false;         // print the result as JSON on standard output
-  bool prints = true;        // run and fit: the result on standard output
+  bool prints = true;        // run and fit: print the result on standard output
   int threads = 0;           // 0: all cores
-  // Of run, fit and albedo.
+  // For run, fit and albedo:
   bool dry_run = false;  // tell what would run and why
-  bool fresh = false;    // take nothing over from an earlier run
-  // Of simulate and chart.
+  bool fresh = false;    // reuse nothing of an earlier run
+  // For simulate and chart:
   double error_percent = 1;
-  std::string subset;              // of check: a pattern of readings with a row of its own
-  std::string earlier_luminaires;  // of run and fit: path of a result.json whose luminaires count as given
-  // Of chart.
+  std::string subset;              // for check: a pattern of readings with a row of its own
+  std::string earlier_luminaires;  // for run and fit: path of a result.json whose luminaires count as given
+  // For chart:
   double budget_s = 120;
   std::string earlier_result;  // path of a result.json whose luminaires and reflectances count as given
-  bool stability = false;      // of the whole fit, instead of the forward model
+  bool stability = false;      // chart the whole fit instead of the forward model
   StabilityOptions stability_options;
   bool whole_fit = false;  // error against time of the whole fit; elements and truth as in stability_options
 };
 
-// Everything, with OUT/report.html; and up to OUT/result.json.
+// RunCommand runs all stages and writes OUT/report.html; FitCommand ends with OUT/result.json.
 int RunCommand(const CommandOptions& options);
 int FitCommand(const CommandOptions& options);
-// Forward only: writes OUT/illuminance.csv and OUT/stages/simulate.json.
+// Runs the forward model only; writes OUT/illuminance.csv and OUT/stages/simulate.json.
 int SimulateCommand(const CommandOptions& options);
-// Speed against accuracy of the forward model: writes OUT/chart.csv, OUT/chart.svg, OUT/stages/chart.json. Or
-// how much the fit stands (apps/commands/stage_stability.h), or its error against time (apps/commands/stage_fit_chart.h).
+// Charts speed against accuracy of the forward model; writes OUT/chart.csv, OUT/chart.svg and
+// OUT/stages/chart.json. Or charts the stability of the fit (apps/commands/stage_stability.h), or its error
+// against time (apps/commands/stage_fit_chart.h).
 int ChartCommand(const CommandOptions& options);
-// Pixels to luminance: exposures, response and vignetting; writes OUT/stages/linearize.json.
+// Converts pixels to luminance by exposures, response and vignetting; writes OUT/stages/linearize.json.
 int LinearizeCommand(const CommandOptions& options);
-// Cameras from images of boards or of the room's tags: writes OUT/stages/calibrate.json and, beside it, files
-// of intrinsics (apps/stages/stage_calibrate.h).
+// Calibrates cameras from images of boards or of the room's tags; writes OUT/stages/calibrate.json and files
+// of intrinsics (apps/stages/calibrate/stage_calibrate.h).
 int CalibrateCommand(const CommandOptions& options);
 int RegisterCommand(const CommandOptions& options);
-// Albedo of a room (after everything that RunCommand does), or of an object by photometric stereo: writes
-// OUT/result.json and what apps/stages/stage_albedo.h and apps/stages/stage_stereo.h say.
+// Estimates the albedo of a room (after all stages of RunCommand), or of an object by photometric stereo.
+// Writes OUT/result.json and the files of apps/stages/albedo/stage_albedo.h and apps/stages/albedo/stage_stereo.h.
 int AlbedoCommand(const CommandOptions& options);
 // Reads OUT/result.json.
 int CheckCommand(const CommandOptions& options);

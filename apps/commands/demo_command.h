@@ -1,7 +1,7 @@
-// `luxfit demo`: the office that comes with luxfit, run from photos to report.
+// Runs `luxfit demo`: the office that comes with luxfit, from photos to report.
 //
-// Looks for the office's folder beside the program (../share/luxfit/office) and in the source tree it was
-// built from. Throws std::runtime_error naming both where it is in neither.
+// Looks for the office's folder beside the program (../share/luxfit/office) and in the source tree that it
+// was built from. Throws std::runtime_error naming both where neither has it.
 #ifndef LUXFIT_APPS_COMMANDS_DEMO_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_DEMO_COMMAND_H_
 

@@ -18,7 +18,7 @@
 #include "apps/text/csv_table.h"
 #include "apps/text/csv_text.h"
 #include "apps/text/suggest.h"
-#include "inverse/control/unseen_dimming.h"
+#include "inverse/control/dimming.h"
 
 namespace luxfit {
 namespace {
@@ -106,7 +106,8 @@ void ExpectInRoom(const FittedRoom& fitted, const std::vector<Gaze>& gazes) {
   }
 }
 
-// One row a person and luminaire: its share of what reaches the eye.
+// Returns one row for each person and luminaire, with the luminaire's share of the light that reaches the
+// eye.
 json SharesJson(const FittedRoom& fitted, const std::vector<Gaze>& gazes, const EyeLight& eyes,
                 const Eigen::MatrixXd& direct_lx, const Eigen::VectorXd& now) {
   json shares = json::array();

@@ -1,8 +1,8 @@
-// luxfit dim OUT --person ...: which luminaires can be dimmed unseen by the people present.
+// Runs `luxfit dim OUT --person ...`: finds the luminaires that can be dimmed unseen by the people present.
 //
-// Writes dim.json, luminaires.csv and persons.csv; columns: docs/commands.md.
+// Writes dim.json, luminaires.csv and persons.csv, whose columns docs/commands.md describes.
 //
-// Returns the exit status: 0; 1 where no luminaire's light is known to reach an eye. Throws
+// Returns the exit status: 0, or 1 where no luminaire's light is known to reach an eye. Throws
 // std::runtime_error for bad input.
 #ifndef LUXFIT_APPS_COMMANDS_DIM_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_DIM_COMMAND_H_
@@ -13,7 +13,7 @@
 namespace luxfit {
 
 struct DimCommandOptions {
-  std::string out;  // of the run
+  std::string out;  // folder of the run
   // "x,y,z,dx,dy,dz", a .toml of [[observer]] id, eye_m, looking, or a .csv id,x_m,y_m,z_m,dx,dy,dz
   std::vector<std::string> persons;
   double drop_percent = 10;

@@ -28,7 +28,7 @@ std::string Text(const std::vector<DoctorFinding>& findings) {
   std::string text;
   for (const DoctorFinding& finding : findings) {
     text += fmt::format("{:<5} {}\n", Name(finding.health), finding.what);
-    if (!finding.mend.empty()) text += "      " + finding.mend + "\n";
+    if (!finding.remedy.empty()) text += "      " + finding.remedy + "\n";
   }
   return text;
 }
@@ -68,7 +68,7 @@ int DoctorCommand(const DoctorCommandOptions& options) {
   if (options.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DoctorFinding& f : findings)
-      list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"mend", f.mend}});
+      list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"mend", f.remedy}});
     text = nlohmann::json{{"findings", list}}.dump(2) + "\n";
   }
   PrintText(text);

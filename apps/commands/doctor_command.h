@@ -1,7 +1,7 @@
-// `luxfit doctor`: what this machine has, and what a session still lacks, before any time is spent on a run.
+// Runs `luxfit doctor`: reports what this machine has and what a session still lacks, before a run takes any
+// time.
 //
-// Returns 0 where nothing is wrong, 1 where something is that a run would stumble over. Throws as ReadSession
-// does.
+// Returns 0 where nothing is wrong, and 1 where something would make a run fail. Throws as ReadSession does.
 #ifndef LUXFIT_APPS_COMMANDS_DOCTOR_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_DOCTOR_COMMAND_H_
 
@@ -19,7 +19,7 @@ int DoctorCommand(const DoctorCommandOptions& options);
 enum class Health { kGood, kNote, kBad };  // a note costs accuracy or an answer, not the run
 struct DoctorFinding {
   Health health = Health::kGood;
-  std::string what, mend;  // no mend where there is nothing to do
+  std::string what, remedy;  // `remedy` is empty where there is nothing to do
 };
 std::vector<DoctorFinding> ExamineMachine();
 

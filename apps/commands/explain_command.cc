@@ -24,7 +24,7 @@ std::vector<std::string> LinesOf(const std::string& text) {
   return lines;
 }
 
-// A line of the format's TOML: `key = value   # what it is`.
+// Holds a line of the format's TOML: `key = value   # what it is`.
 struct KeyLine {
   std::string topic, line;
 };
@@ -55,7 +55,7 @@ std::vector<KeyLine> KeyLines() {
   return keys;
 }
 
-// Rows of the format's tables, `| key | ... |`.
+// Reads the rows of the format's tables, `| key | ... |`.
 std::string RowsOn(const std::string& topic) {
   std::string rows;
   for (const std::string& line : LinesOf(kSessionFormatText)) {
@@ -82,7 +82,7 @@ std::string Topics() {
          "\n\nkeys of the session file: " + ListNames(ExplainedKeys(), 1000) + "\n";
 }
 
-// What a result says, and what it means.
+// Describes what a result reports, and what it means.
 std::string ResultText(const nlohmann::json& result) {
   std::string text;
   for (const nlohmann::json& w : result.at("warnings")) {
@@ -129,8 +129,8 @@ int ExplainCommand(const ExplainCommandOptions& options) {
   std::string text;
   if (options.topic.empty()) {
     text = Topics();
-  } else if (std::filesystem::is_directory(options.topic)) {
-    text = ResultText(ReadResult(options.topic + "/result.json"));
+  } else if (std::filesystem::is_directory(RunFolderOf(options.topic))) {
+    text = ResultText(ReadResult(ResultFileOf(options.topic)));
   } else {
     text = ExplanationOf(options.topic);
   }

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 using Export = std::function<ExportedFiles(const FittedRoom&, const std::string&, RunContext&)>;
 
-// `of` without the context that only maps of photos need.
+// Wraps an export that does not need the context, which only maps of photos need.
 Export Plain(ExportedFiles (*of)(const FittedRoom&, const std::string&)) {
   return
       [of](const FittedRoom& fitted, const std::string& folder, RunContext&) { return of(fitted, folder); };

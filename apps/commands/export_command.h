@@ -1,6 +1,6 @@
-// luxfit export OUT: a fitted room as files of other programs (apps/export/exports.h).
+// Runs `luxfit export OUT`: writes a fitted room as files of other programs (apps/export/exports.h).
 //
-// Returns the exit status: 0; 1 where something that `only` names is not determined. Throws
+// Returns the exit status: 0, or 1 where something that `only` names is not determined. Throws
 // std::runtime_error for bad input.
 #ifndef LUXFIT_APPS_COMMANDS_EXPORT_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_EXPORT_COMMAND_H_
@@ -11,15 +11,15 @@
 namespace luxfit {
 
 struct ExportCommandOptions {
-  std::string out;                // of the run
-  std::string session;            // in place of the one that the result names
-  std::string folder;             // to write into; empty: OUT/export
+  std::string out;                // folder of the run
+  std::string session;            // replaces the one that the result names
+  std::string folder;             // folder to write into; empty: OUT/export
   std::vector<std::string> only;  // names of exports; empty: all
   std::string command_line;
   bool json = false;
 };
 
-// In the order in which they are made.
+// Returns the names of the exports in the order in which they are made.
 std::vector<std::string> ExportNames();
 
 int ExportCommand(const ExportCommandOptions& options);

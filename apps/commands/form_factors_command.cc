@@ -13,7 +13,6 @@
 #include "forward/factors/form_factors.h"
 #include "forward/room/mesh_check.h"
 #include "forward/room/mesh_file.h"
-#include "forward/room/overlaps.h"
 
 namespace luxfit {
 namespace {
@@ -23,7 +22,7 @@ using nlohmann::json;
 FormFactorMethod MethodFrom(const std::string& name) {
   if (const auto method = FormFactorMethodFrom(name)) return *method;
   std::vector<std::string> names;
-  for (const FormFactorMethod method : AllFormFactorMethods()) names.push_back(ToString(method));
+  for (const FormFactorOps& ops : FormFactorMethods()) names.emplace_back(ops.name);
   throw std::runtime_error("--method: " + ExpectedOneOf(names, name));
 }
 
@@ -50,7 +49,7 @@ struct Computed {
   double time_s = 0;
 };
 
-// The matrix has a row and a column a patch.
+// Checks the size of the matrix, which has a row and a column for each patch.
 void ExpectMatrixSize(const Scene& scene, const FormFactorsCommandOptions& options) {
   constexpr double kMostPatches = 30000;  // 3.6 GB
   double patches = 0;
@@ -70,7 +69,7 @@ Computed Compute(const FormFactorsCommandOptions& options) {
   how.rays_per_element = options.rays;
   Computed computed;
   const Scene given = ReadScene(options.mesh, MetresPer(options.unit));
-  // Facets drawn on one another would both send light: as MakeRoom does.
+  // Facets that lie on one another would both send light; they are removed as in MakeRoom.
   computed.scene = WithoutOverlaps(given);
   ExpectMatrixSize(computed.scene, options);
   const RayScene rays(computed.scene);

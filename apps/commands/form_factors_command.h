@@ -1,6 +1,6 @@
-// `luxfit formfactors`: the form factors between the patches of a mesh, by any method, to a file.
+// Runs `luxfit formfactors`: writes the form factors between the patches of a mesh, by any method, to a file.
 //
-// CSV: one row a patch, with its facet, material, area (m2), centre (m), then its form factors to all
+// CSV: one row for each patch, with its facet, material, area (m2), centre (m), and its form factors to all
 // patches. JSON: the same with provenance, measures of closure and reciprocity, rays and time.
 //
 // Throws std::runtime_error for bad input (exit status 2).

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kPhotosForTags = 8;  // looked at for tags
+constexpr size_t kPhotosForTags = 8;  // number searched for tags
 
 std::string LowerExtension(const fs::path& path) {
   std::string text = path.extension().string();
@@ -49,7 +49,7 @@ std::vector<std::string> PhotosIn(const std::string& folder) {
   return files;
 }
 
-// A room is some metres wide: the first unit in which it is.
+// Returns the first unit in which the mesh is some metres wide, as a room is.
 void GuessUnit(const Eigen::Vector3d& size, const std::vector<SurveyedTag>& survey, const Scene& scene,
                SessionDraft& draft) {
   const std::vector<std::pair<std::string, double>> units = {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}};
@@ -105,7 +105,7 @@ void LookAtPhotos(const InitCommandOptions& options, SessionDraft& draft) {
   draft.cameras = static_cast<int>(sizes.size());
 }
 
-// Files of intrinsics beside the photos, the mesh or the session, of the photos' size.
+// Finds files of intrinsics beside the photos, the mesh or the session, of the photos' size.
 void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
   std::set<fs::path> folders = {fs::absolute(options.photos).lexically_normal(),
                                 fs::absolute(options.photos).lexically_normal().parent_path(),
@@ -122,7 +122,7 @@ void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
             draft.intrinsics[photo.camera] = fs::relative(entry.path(), options.out).string();
         }
       } catch (const std::runtime_error&) {
-        continue;  // another YAML
+        continue;  // another kind of YAML
       }
     }
   }

@@ -10,12 +10,12 @@
 
 #include "apps/commands/internal/new_photos.h"
 #include "apps/export/lux_photos.h"
-#include "apps/stages/given_session.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/text/artifact.h"
 #include "apps/text/csv_text.h"
 #include "apps/text/file_stem.h"
 #include "apps/text/suggest.h"
-#include "inverse/control/current_dimming.h"
+#include "inverse/control/dimming.h"
 
 namespace luxfit {
 namespace {
@@ -25,13 +25,13 @@ using nlohmann::json;
 constexpr double kMostlySaturated = 0.5;
 constexpr double kMuchUnexplained = 0.05;
 
-// A luxmeter's place: its column of light, and the element under it where it stands on a surface.
+// Holds a luxmeter's place, and the element under it where it stands on a surface.
 struct Place {
   std::string id;
   int element = -1;
 };
 
-// What one run of the command knows.
+// Holds what one run of the command knows.
 struct Watched {
   const FittedRoom& fitted;
   SurfaceScale scale;
@@ -85,7 +85,8 @@ json DimmingJson(const FittedRoom& fitted, const CurrentDimming& current) {
   return list;
 }
 
-// Light at a place over light at the middle of the element under it: the photo knows the element's mean.
+// Returns the light at a place over that at the middle of the element under it, because the photo shows the
+// element's mean.
 double AtPlace(const Watched& watched, const CurrentDimming& current, size_t place) {
   if (!current.is_determined) return 1;
   const int element = watched.places[place].element;
@@ -94,7 +95,8 @@ double AtPlace(const Watched& watched, const CurrentDimming& current, size_t pla
   return there > 0 && middle > 0 ? there / middle : 1;
 }
 
-// By the element under it where the photo shows that, and by the luminaires' dimming everywhere.
+// Lists the illuminance of every place: from the element under it where the photo shows that, and from the
+// luminaires' dimming everywhere.
 json PlacesJson(const Watched& watched, const CurrentDimming& current,
                 const std::vector<ElementIlluminance>& elements) {
   json list = json::array();
@@ -152,8 +154,8 @@ void WarnOfPhoto(const FittedRoom& fitted, const std::string& name, const std::s
          fmt::format("{}: {:.0f} % of the light is not explained by the luminaires ({:+.1f} lx in the mean); "
                      "what is predicted for places that the photo does not show is as uncertain",
                      name, 100 * current.unexplained_share, current.mean_unexplained_lx),
-         "daylight, a lamp that the fit does not know, or surfaces that changed: photograph the places, or "
-         "fit the room again"});
+         "daylight, a luminaire that the fit does not know, or surfaces that changed: photograph the places, "
+         "or fit the room again"});
   }
   if (state.empty()) return;
   const Eigen::VectorXd expected = DimmingOf(fitted, state);
@@ -176,8 +178,7 @@ json PhotoJson(const Watched& watched, const NewPhotos& read, const NewPhoto& ph
   const FittedRoom& fitted = watched.fitted;
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(photo.photo.camera)];
   const std::string name = std::filesystem::path(photo.photo.file).filename().string();
-  const LuminanceImage image =
-      Corrected(ReadLuminance(read.session, photo.photo, camera), corrections, read.session, photo.photo);
+  const LuminanceImage image = ReadCorrected(read.session, photo.photo, camera, corrections);
   const PhotoView view = ViewOf(fitted, photo.photo.camera, UnprojectAllPixels(camera), photo.cam_from_world);
   const LuxMap lux = MapIlluminance(view.dense, image, fitted.room.patches, watched.scale);
   if (lux.saturated_share > kMostlySaturated)
@@ -242,7 +243,7 @@ std::string ValueText(const json& value, const json& sigma) {
 std::string Table(const json& result) {
   std::string text;
   for (const json& photo : result["photos"]) {
-    text += fmt::format("{} {}: {:.0f} % of the pixels know their illuminance\n",
+    text += fmt::format("{} {}: {:.0f} % of the pixels have a known illuminance\n",
                         std::filesystem::path(photo["file"].get<std::string>()).filename().string(),
                         photo["time"].get<std::string>(), 100 * photo["known_share"].get<double>());
     for (const json& l : photo["luminaires"])
@@ -273,7 +274,7 @@ void ExpectScale(const FittedRoom& fitted) {
 int LuxmapCommand(const LuxmapCommandOptions& options) {
   const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
   ExpectScale(fitted);
-  if (!options.state.empty()) DimmingOf(fitted, options.state);  // names the known ones
+  if (!options.state.empty()) DimmingOf(fitted, options.state);  // throws, naming the known ones
   RunContext context;
   context.out = std::filesystem::absolute(options.folder.empty() ? fitted.out + "/luxmap" : options.folder)
                     .lexically_normal()

@@ -1,7 +1,7 @@
-// `luxfit report OUT`: one self-contained HTML page of an earlier run (apps/report/report.h).
+// Runs `luxfit report OUT`: makes one self-contained HTML page of an earlier run (apps/report/report.h).
 //
-// Prints where it is and the statistics of its areas; as JSON where asked for. Throws std::runtime_error for
-// an OUT without a result, targets or a state that do not read (exit status 2).
+// Prints its path and the statistics of its areas, as JSON on request. Throws std::runtime_error for an OUT
+// without a result, and for targets or a state that cannot be read (exit status 2).
 #ifndef LUXFIT_APPS_COMMANDS_REPORT_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_REPORT_COMMAND_H_
 
@@ -11,7 +11,7 @@ namespace luxfit {
 
 struct ReportCommandOptions {
   std::string out;      // folder of an earlier run
-  std::string session;  // in place of the one that result.json names; empty: that one
+  std::string session;  // replaces the one that result.json names; empty: that one
   std::string targets;  // TOML of areas and observers; empty: the floor against office work
   std::string state;    // shown first; empty: the brightest
   std::string command_line;

@@ -18,8 +18,8 @@ std::string PlusMinus(const json& value, const json& sigma, const char* format) 
 }
 
 std::string Interval(const json& reading) {
-  if (!reading.contains("interval95_lux")) return "-";
-  const json& interval = reading["interval95_lux"];
+  if (!reading.contains("interval95_lx")) return "-";
+  const json& interval = reading["interval95_lx"];
   return Number(interval[0], "{:.2f}") + " to " + Number(interval[1], "{:.2f}");
 }
 
@@ -62,19 +62,19 @@ std::string LuxmeterTable(const json& result) {
       "\nreading      state        measured lx   predicted lx       95 % interval       error %     z  "
       "role\n";
   for (const json& r : result["luxmeter"]) {
-    const bool both = r["measured_lux"].is_number() && r["predicted_lux"].is_number();
-    const double measured = both ? r["measured_lux"].get<double>() : 0;
+    const bool both = r["measured_lx"].is_number() && r["predicted_lx"].is_number();
+    const double measured = both ? r["measured_lx"].get<double>() : 0;
     const std::string error =
-        measured > 0 ? fmt::format("{:+.2f}", 100 * (r["predicted_lux"].get<double>() / measured - 1)) : "-";
+        measured > 0 ? fmt::format("{:+.2f}", 100 * (r["predicted_lx"].get<double>() / measured - 1)) : "-";
     text += fmt::format("{:<12} {:<10} {:>12}   {:<18} {:<19} {:>7} {:>5}  {}\n", r["id"].get<std::string>(),
-                        r["state"].get<std::string>(), Number(r["measured_lux"], "{:.2f}"),
-                        PlusMinus(r["predicted_lux"], r["sigma_lux"], "{:.2f}"), Interval(r), error,
+                        r["state"].get<std::string>(), Number(r["measured_lx"], "{:.2f}"),
+                        PlusMinus(r["predicted_lx"], r["sigma_lx"], "{:.2f}"), Interval(r), error,
                         r.contains("z") ? Number(r["z"], "{:.1f}") : "-", r["role"].get<std::string>());
   }
   const json& s = result["summary"];
   text += fmt::format(
       "checked {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest {:.2f} %\n",
-      s["readings_checked"].get<int>(), s["mean_abs_error_lux"].get<double>(),
+      s["readings_checked"].get<int>(), s["mean_abs_error_lx"].get<double>(),
       s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
   return text;
 }
@@ -83,12 +83,12 @@ std::string SimulationTable(const json& artifact) {
   std::string text = fmt::format("session {}: simulated\n", artifact["session"].get<std::string>());
   text += "\nreading      state               lx      direct    indirect  measured lx  error %\n";
   for (const json& r : artifact["luxmeter"]) {
-    const double predicted = r["predicted_lux"].get<double>();
-    const double measured = r["measured_lux"].is_number() ? r["measured_lux"].get<double>() : 0;
+    const double predicted = r["predicted_lx"].get<double>();
+    const double measured = r["measured_lx"].is_number() ? r["measured_lx"].get<double>() : 0;
     text +=
         fmt::format("{:<12} {:<10} {:>11.2f} {:>11.2f} {:>11.2f} {:>12} {:>8}\n", r["id"].get<std::string>(),
-                    r["state"].get<std::string>(), predicted, r["direct_lux"].get<double>(),
-                    r["indirect_lux"].get<double>(), Number(r["measured_lux"], "{:.2f}"),
+                    r["state"].get<std::string>(), predicted, r["direct_lx"].get<double>(),
+                    r["indirect_lx"].get<double>(), Number(r["measured_lx"], "{:.2f}"),
                     measured > 0 ? fmt::format("{:+.2f}", 100 * (predicted / measured - 1)) : "-");
   }
   const json& s = artifact["summary"];
@@ -96,7 +96,7 @@ std::string SimulationTable(const json& artifact) {
     text += fmt::format(
         "compared with {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest "
         "{:.2f} %\n",
-        s["readings_checked"].get<int>(), s["mean_abs_error_lux"].get<double>(),
+        s["readings_checked"].get<int>(), s["mean_abs_error_lx"].get<double>(),
         s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
   }
   return text + WarningText(artifact);
@@ -138,7 +138,7 @@ std::string ResultTables(const json& result) {
   }
   text += LuminaireTable(result);
   if (!result["materials"].empty()) text += MaterialTable(result);
-  // Hundreds of readings would bury the rest; `luxfit check` lists them all.
+  // Hundreds of readings would hide the rest; `luxfit check` lists them all.
   constexpr size_t kMaxReadings = 64;
   if (!result["luxmeter"].empty() && result["luxmeter"].size() <= kMaxReadings) text += LuxmeterTable(result);
   return text + WarningText(result);

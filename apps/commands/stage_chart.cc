@@ -8,8 +8,8 @@
 
 #include "apps/charts/chart_points.h"
 #include "apps/charts/chart_svg.h"
-#include "apps/stages/accuracy_choices.h"
-#include "apps/stages/given_session.h"
+#include "apps/stages/simulate/accuracy_choices.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
 #include "apps/text/input_error.h"
 #include "forward/views/illuminance_plane.h"
@@ -19,10 +19,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kWorkPlaneM = 0.8;  // EN 12464-1's usual height of a task, and a little
+constexpr double kWorkPlaneM = 0.8;  // slightly above EN 12464-1's usual height of a task
 constexpr int kPlaneSide = 8;        // points along the longer side
 
-// Whether most of what a point sees above it is the inside of the room.
+// Tells whether most of what a point sees above it is the inside of the room.
 bool IsInFreeAir(const RayScene& rays, const Sensor& sensor) {
   const SensorRays sample = SampleResponse(sensor, 64);
   Eigen::Index front = 0;
@@ -33,7 +33,7 @@ bool IsInFreeAir(const RayScene& rays, const Sensor& sensor) {
   return 2 * front > sample.directions.cols();
 }
 
-// For sessions without readings.
+// Serves sessions without readings.
 std::vector<Sensor> WorkPlane(const Session& session, const Scene& scene) {
   const Eigen::AlignedBox3d box = scene.Bounds();
   std::vector<Sensor> sensors;
@@ -128,7 +128,7 @@ json Artifact(const Session& session, const ChartOptions& options, const Chart& 
   return artifact;
 }
 
-// What is missing may have been fitted.
+// Reads the given session; where a value is missing, the message refers to the result of a fit.
 GivenScene ReadGiven(const Session& session, RunContext& context) {
   try {
     return ReadGivenScene(session, "chart", context);

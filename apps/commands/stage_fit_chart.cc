@@ -25,7 +25,7 @@ struct FitPoint {
   std::string factor;
   double value = 0;
   int patches = 0, photos = 0, luminaires = 0, observations = 0;
-  double time_s = 0;  // of the processor
+  double time_s = 0;  // processor time
   double position_mm = NAN, flux_percent = NAN, lux_percent = NAN;
   bool is_usable = true;
   std::vector<EstimatedLuminaire> found;
@@ -76,7 +76,7 @@ class FitSweep {
       point.is_usable = !refit.undetermined;
       point.found = refit.luminaires;
       point.lux_percent = refit.mean_lux_error_percent;
-    } catch (const std::runtime_error& e) {  // what the program says instead of a result
+    } catch (const std::runtime_error& e) {  // reported by the program instead of a result
       point.is_usable = false;
       std::fprintf(stderr, "fit chart %s = %g: %s\n", factor.c_str(), value, e.what());
     }
@@ -86,7 +86,7 @@ class FitSweep {
     points_.push_back(std::move(point));
   }
 
-  // Places of luminaires that photos of these observations' states show.
+  // Returns places of luminaires that are visible in photos of these observations' states.
   std::vector<SeenPlace> SeenIn(const std::vector<Observation>& observations) const {
     std::set<int> states;
     for (const Observation& o : observations) states.insert(o.state);
@@ -101,7 +101,7 @@ class FitSweep {
 
   std::vector<Observation> Thinned() const { return ThinElements(prepared_.observations, elements_); }
 
-  // The last one has them all, and is the reference where there is no truth.
+  // The last point has all elements, and is the reference where no truth is given.
   void OfElements() {
     std::set<int> observed;
     for (const Observation& o : prepared_.observations) observed.insert(o.element);
@@ -161,7 +161,7 @@ class FitSweep {
     }
   }
 
-  // The first luminaires alone, in the states that need no other.
+  // Keeps the first luminaires alone, in the states that need no other.
   void OfLuminaires() {
     const std::vector<Observation> all = Thinned();
     for (size_t n = 1; n <= prepared_.session.luminaires.size(); ++n) {
@@ -183,7 +183,7 @@ class FitSweep {
       readings.erase(std::remove_if(readings.begin(), readings.end(),
                                     [&](const SessionReading& r) { return states.count(r.state) == 0; }),
                      readings.end());
-      // Without the reading that set the scale, one of the others does.
+      // Without the reading that set the scale, another one sets it.
       const bool has_scale = std::any_of(readings.begin(), readings.end(), [](const SessionReading& r) {
         return r.role != ReadingRole::kCheck;
       });
@@ -266,7 +266,7 @@ const std::vector<Cost>& Costs() {
   return costs;
 }
 
-// Of ln time over ln size; NaN for fewer than two sizes.
+// Returns the slope of ln time over ln size; NaN for fewer than two sizes.
 double Slope(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& p : points)

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/commands/internal/stability_chart.h"
-#include "apps/stages/degradations.h"
+#include "apps/stages/degrade/degradations.h"
 #include "apps/text/artifact.h"
 #include "apps/text/trial_log.h"
 #include "calib/luminance/median.h"
@@ -27,7 +27,7 @@ double NumberOf(const json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-// One line of the log.
+// Writes one line of the log.
 json LineOf(const DegradedFit& fit) {
   const FitScore& s = fit.score;
   return {{"success", s.is_success},
@@ -61,7 +61,7 @@ FitScore ScoreOf(const json& line) {
   return s;
 }
 
-// Of the lines of one level's trials.
+// Summarizes the lines of one level's trials.
 LevelResult Summarize(double level, const std::vector<json>& lines) {
   LevelResult result;
   result.level = level;
@@ -80,7 +80,7 @@ LevelResult Summarize(double level, const std::vector<json>& lines) {
   return result;
 }
 
-// Remaining time from the trials done in this call.
+// Prints each trial with the remaining time, which follows from the trials of this call.
 class Progress {
  public:
   Progress(size_t total, size_t done) : total_(total), done_(done) {}
@@ -105,7 +105,7 @@ std::string TrialName(const Degradation& degradation, double level, int trial) {
   return fmt::format("{} {:g} {} #{}", degradation.name, level, degradation.unit, trial);
 }
 
-// Runs what the log does not have yet.
+// Runs the trials that the log does not have yet.
 std::vector<DegradationResult> RunTrials(DegradedSessions& sessions, const std::vector<Degradation>& asked,
                                          const StabilityOptions& options, TrialLog& log) {
   size_t total = 0, done = 0;
@@ -155,7 +155,7 @@ json EdgeJson(const DegradationResult& result) {
   return edge;
 }
 
-// What a trial's line depends on.
+// Identifies everything that a trial's line depends on.
 std::string KeyOf(const StabilityOptions& options, const RunContext& context) {
   json made_from = ProvenanceJson("luxfit-stability-1", context.provenance);
   made_from.erase("command");

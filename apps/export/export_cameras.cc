@@ -8,13 +8,12 @@
 #include "apps/text/artifact.h"
 #include "apps/text/file_stem.h"
 #include "calib/lens/camera_file.h"
-#include "calib/lens/colmap_cameras.h"
-#include "calib/register/colmap_model.h"
+#include "calib/register/colmap_files.h"
 
 namespace luxfit {
 namespace {
 
-// Formats that cannot hold a lens say so; the others are written all the same.
+// Formats that cannot hold a lens throw; the others are written nevertheless.
 void WriteWhatHolds(const std::string& path, const std::function<std::string()>& text,
                     ExportedFiles& exported) {
   try {
@@ -32,7 +31,7 @@ std::vector<std::string> CameraStems(const FittedRoom& fitted) {
   return DistinctFileStems(ids);
 }
 
-// The file name of a photo of the view.
+// Returns the file name of a photo of the view.
 std::string ImageName(const Session& session, const std::string& view) {
   for (const SessionPhoto& photo : session.photos) {
     if (photo.view == view) return std::filesystem::path(photo.file).filename().string();

@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-// One photo for each view, state and camera, in their order, and the names of their files.
+// Holds one photo for each view, state and camera, in their order, and the names of their files.
 struct NamedPhotos {
   std::vector<const SessionPhoto*> photos;
   std::vector<std::string> stems;
@@ -57,8 +57,7 @@ ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder,
                                    [&](const RegisteredView& v) { return v.view == photo.view; });
     if (view == views.end()) return;
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(photo.camera)];
-    const LuminanceImage image =
-        Corrected(ReadLuminance(session, photo, camera), corrections, session, photo);
+    const LuminanceImage image = ReadCorrected(session, photo, camera, corrections);
     const PixelMap& map = seen[static_cast<size_t>(view - views.begin())].dense;
     written[i] =
         WriteLuxMap(MapIlluminance(map, image, fitted.room.patches, scale), folder + "/" + named.stems[i],

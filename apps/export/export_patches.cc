@@ -2,15 +2,15 @@
 #include <cmath>
 
 #include "apps/export/exports.h"
+#include "apps/export/false_colours.h"
+#include "apps/export/value_mesh.h"
 #include "apps/text/artifact.h"
 #include "apps/text/file_stem.h"
-#include "calib/luminance/false_colours.h"
-#include "forward/views/value_mesh.h"
 
 namespace luxfit {
 namespace {
 
-// Light of the elements by state and by luminaire, with names that files can hold.
+// Holds the light of the elements by state and by luminaire, with names that suit files.
 std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd& albedo) {
   const std::string lx = fitted.is_absolute ? "lx_" : "relative_";
   const std::string cd = fitted.is_absolute ? "luminance_cd_m2_" : "luminance_relative_";
@@ -36,7 +36,7 @@ std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd
   return values;
 }
 
-// The state in which the most light is on.
+// Returns the state with the most light.
 std::string BrightestState(const FittedRoom& fitted) {
   std::string brightest;
   double most = -1;

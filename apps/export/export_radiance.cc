@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/export/exports.h"
-#include "apps/stages/given_session.h"
+#include "apps/export/radiance_scene.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/text/artifact.h"
 #include "apps/text/csv_text.h"
 #include "apps/text/file_stem.h"
 #include "forward/room/one_line.h"
-#include "forward/views/radiance_scene.h"
 
 namespace luxfit {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::string> LuminaireStems(const FittedRoom& fitted) {
   return DistinctFileStems(ids);
 }
 
-// A state's luminaires, dimmed.
+// Writes the luminaires of a state, dimmed.
 std::string StateText(const FittedRoom& fitted, const std::string& state,
                       const std::vector<std::string>& stems) {
   const Eigen::VectorXd dimming = DimmingOf(fitted, state);
@@ -43,7 +43,7 @@ Eigen::Matrix3Xd Grey(const FittedRoom& fitted) {
   return grey;
 }
 
-// Reflectances by colour where they were estimated.
+// Returns reflectances by colour where they were estimated.
 Eigen::Matrix3Xd Coloured(const FittedRoom& fitted) {
   Eigen::Matrix3Xd rgb = Grey(fitted);
   const auto& names = fitted.room.scene.materials;
@@ -66,7 +66,7 @@ std::string PointLines(const ReadingPlaces& places) {
   return text;
 }
 
-// What luxfit itself predicts there: one line a point, one column a state, beside the points' first names.
+// Writes the predictions of luxfit itself at the points: one line for each point, one column for each state.
 std::string PredictionCsv(const FittedRoom& fitted, const ReadingPlaces& places) {
   const std::vector<std::string> states = StateIds(fitted.session);
   std::vector<std::string> fields{"id"};

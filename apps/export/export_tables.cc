@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/export/exports.h"
+#include "apps/export/value_mesh.h"
 #include "apps/text/artifact.h"
 #include "apps/text/csv_text.h"
-#include "forward/views/value_mesh.h"
 
 namespace luxfit {
 namespace {
@@ -59,7 +59,7 @@ std::vector<CsvColumn> ViewColumns() {
        {{"method", "/method"}, {"tags", "/tags"}, {"reprojection_rms_px", "/reprojection_rms_px"}}});
 }
 
-// The readings of the result with their places, which only the session knows.
+// Returns the readings of the result with their places, which only the session has.
 json Readings(const FittedRoom& fitted) {
   json readings = fitted.result->at("luxmeter");
   const std::vector<SessionReading>& given = fitted.session.luxmeter.readings;
@@ -78,13 +78,13 @@ std::vector<CsvColumn> ReadingColumns() {
   return Joined({{{"id", "/id"}, {"state", "/state"}, {"role", "/role"}},
                  VectorColumns("", "_m", "/position_m"),
                  VectorColumns("n", "", "/normal"),
-                 {{"measured_lx", "/measured_lux"},
-                  {"measured_sigma_lx", "/measured_sigma_lux"},
-                  {"predicted_lx", "/predicted_lux"},
-                  {"prediction_sigma_lx", "/prediction_sigma_lux"},
-                  {"lower95_lx", "/interval95_lux/0"},
-                  {"upper95_lx", "/interval95_lux/1"},
-                  {"direct_lx", "/direct_lux"},
+                 {{"measured_lx", "/measured_lx"},
+                  {"measured_sigma_lx", "/measured_sigma_lx"},
+                  {"predicted_lx", "/predicted_lx"},
+                  {"prediction_sigma_lx", "/prediction_sigma_lx"},
+                  {"lower95_lx", "/interval95_lx/0"},
+                  {"upper95_lx", "/interval95_lx/1"},
+                  {"direct_lx", "/direct_lx"},
                   {"z", "/z"}}});
 }
 

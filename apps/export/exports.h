@@ -1,5 +1,5 @@
-// A fitted room as files of other programs. Each function writes into a folder of its own and returns what it
-// wrote and what it had to leave out.
+// Exports a fitted room as files of other programs. Each function writes into a folder of its own, and
+// returns what it wrote and what it left out.
 //
 //   luminaires   .ies and .ldt of the luminaires that the fit determined
 //   patches      patches and elements with light and reflectance: .vtp, .ply
@@ -8,8 +8,9 @@
 //   csv          everything tabular, units in the headers
 //   cameras      cameras and poses: OpenCV, mrcal, COLMAP, Kalibr
 //
-// Files and their columns, properties and channels: docs/exports.md. Where the fit has no absolute scale,
-// names end in _relative in place of their unit, and what needs one (luxmaps) is not written.
+// docs/exports.md describes the files with their columns, properties and channels. Where the fit has no
+// absolute scale, names end in _relative in place of their unit, and exports that need a scale (luxmaps) are
+// not written.
 //
 // Throws std::runtime_error naming a file that cannot be written or read.
 #ifndef LUXFIT_APPS_EXPORT_EXPORTS_H_

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "apps/session/earlier_result.h"
-#include "apps/stages/given_session.h"
-#include "apps/stages/registration_json.h"
+#include "apps/stages/register/registration_json.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/text/artifact.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
@@ -33,7 +33,7 @@ std::string SessionPathOf(const json& result, const std::string& given, const st
   return path;
 }
 
-// A mesh or session that changed since describes another room than the result.
+// Checks that mesh and session have not changed since the result, which describes the room of that time.
 void ExpectSameRoom(const json& result, const Session& session, const std::string& result_path) {
   for (const std::string& file : {session.path, session.scene ? session.scene->mesh : session.path}) {
     const auto known = result.at("inputs").find(file);
@@ -63,7 +63,7 @@ Eigen::VectorXd AlbedoOf(const json& result, const Scene& scene) {
   return albedo;
 }
 
-// Receivers x luminaires, lx.
+// Returns receivers x luminaires, lx.
 PlaceLight LightOf(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
                    const Eigen::VectorXd& albedo) {
   const Illuminance light =

@@ -1,18 +1,18 @@
-// A room with the light that an earlier run found in it: what report, exports, luxmap, commission and dim
-// use.
+// Reads a room with the light that an earlier run found in it, for report, exports, luxmap, commission and
+// dim.
 //
-// Read from OUT (result.json, stages/register.json) and the session that it was made from. Geometry, patches
-// and reflectances are those of the fit, luminaires those it found, so that what is predicted here is what
-// the result predicts. Light is one column a luminaire, fully on by itself: states and dimming are sums of
+// The room is read from OUT (result.json, stages/register.json) and from the session of the run. Geometry,
+// patches and reflectances are those of the fit, and luminaires those it found, so that predictions agree
+// with the result. Light has one column for each luminaire fully on by itself: states and dimming are sums of
 // columns.
 //
 //   E_e(state) = sum_k d_k(state) element_lx(e, k)
 //
-// Where the fit has no absolute scale (`is_absolute` false) fluxes and illuminances are relative, in the unit
-// of result.json's flux_relative.
+// Where the fit has no absolute scale (`is_absolute` false), fluxes and illuminances are relative, in the
+// unit of result.json's flux_relative.
 //
-// Throws std::runtime_error naming the file: no result of luxfit, one without luminaires, a session that is
-// no longer there or no longer that of the result.
+// Throws std::runtime_error naming the file: no result of luxfit, one without luminaires, or a session that
+// has been removed or has changed since the run.
 #ifndef LUXFIT_APPS_EXPORT_FITTED_ROOM_H_
 #define LUXFIT_APPS_EXPORT_FITTED_ROOM_H_
 
@@ -31,7 +31,7 @@ namespace luxfit {
 struct FittedRoom {
   std::string out;                               // absolute path of the folder
   std::shared_ptr<const nlohmann::json> result;  // result.json
-  Session session;                               // as written; its luminaires are those the fit found
+  Session session;                               // as written, with the luminaires that the fit found
   RegisteredSession registered;                  // empty: a fit to readings alone
   Room room;
   std::vector<Luminaire> luminaires;
@@ -42,20 +42,22 @@ struct FittedRoom {
   Eigen::MatrixXd element_direct_lx;  // the direct part
 };
 
-// `session_path` in place of the one that result.json names; empty: that one.
+// `session_path` replaces the one that result.json names; empty: that one.
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "");
 
-// Of a run that holds its room still and has written its result into `out`, an absolute path.
+// Makes the room of a run that still holds it and has written its result into `out`, an absolute path.
 FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);
 
-// At any places, sensors x luminaires, lx; indirect light by so many rays a place.
+// Computes the light at any places, sensors x luminaires, lx. Indirect light takes `rays_per_sensor` rays for
+// each place.
 struct PlaceLight {
   Eigen::MatrixXd total_lx, direct_lx;
 };
 PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors,
                    int rays_per_sensor = kSensorRays);
 
-// Dimming of the luminaires in a state of the session. Throws std::runtime_error naming the known states.
+// Returns the dimming of the luminaires in a state of the session. Throws std::runtime_error naming the known
+// states.
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state);
 
 }  // namespace luxfit

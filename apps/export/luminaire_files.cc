@@ -9,12 +9,13 @@
 
 #include "apps/text/file_stem.h"
 #include "apps/version.h"
-#include "forward/luminaire/photometry_writer.h"
+#include "forward/luminaire/distribution_ops.h"
+#include "forward/luminaire/photometry_file.h"
 
 namespace luxfit {
 namespace {
 
-// What the files hold of a luminaire; they say nothing of its place.
+// Returns what the files hold of a luminaire, which excludes its place.
 bool IsInFiles(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::kLogFlux) return true;
   return parameter.kind == ParameterKind::kLuminaire &&
@@ -32,7 +33,7 @@ bool IsDetermined(const RoomFit& fit, size_t luminaire) {
     return std::count(list.begin(), list.end(), p.id()) > 0;
   };
   return std::none_of(solved.parameters.begin(), solved.parameters.end(), [&](const Parameter& p) {
-    // A flux at its bound is no flux: the fit fled from light that it could not explain.
+    // A flux at its bound is meaningless: the fit could not explain the light.
     const bool is_lost = p.kind == ParameterKind::kLogFlux && holds(solved.at_bound, p);
     return p.index == static_cast<int>(luminaire) && IsInFiles(p) &&
            (is_lost || holds(solved.undetermined, p));
@@ -41,8 +42,7 @@ bool IsDetermined(const RoomFit& fit, size_t luminaire) {
 
 std::string Described(const Luminaire& luminaire) {
   std::string text = ToString(luminaire.distribution);
-  if (luminaire.distribution == Distribution::kCosinePower)
-    text += fmt::format(" {:.2f}", luminaire.cosine_exponent);
+  if (OpsOf(luminaire.distribution).has_exponent) text += fmt::format(" {:.2f}", luminaire.cosine_exponent);
   text += ", " + ToString(luminaire.shape);
   if (luminaire.shape == LuminaireShape::kPoint) return text;
   text += fmt::format(" {:.3f}", luminaire.size_m[0]);

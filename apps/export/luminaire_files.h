@@ -1,7 +1,8 @@
-// OUT/luminaires/ID.ies and ID.ldt: fitted luminaires as lighting programs load them.
+// Writes OUT/luminaires/ID.ies and ID.ldt: fitted luminaires as lighting programs load them.
 //
-// Written for luminaires whose flux is in lm and whose flux, distribution and size the data determine
-// (a flux at its bound is not); of the others nothing is left there, not even of an earlier run.
+// Files are written for luminaires whose flux is in lm and whose flux, distribution and size the data
+// determine. A flux at its bound is not determined. For other luminaires no file remains, not even one of an
+// earlier run.
 #ifndef LUXFIT_APPS_EXPORT_LUMINAIRE_FILES_H_
 #define LUXFIT_APPS_EXPORT_LUMINAIRE_FILES_H_
 
@@ -9,7 +10,7 @@
 
 namespace luxfit {
 
-// By luminaire, relative to OUT; empty names where none were written.
+// Returns the paths by luminaire, relative to OUT; empty names where none were written.
 std::vector<LuminaireFiles> WriteLuminaireFiles(const Session& session, const RoomFit& fit,
                                                 const RunContext& context);
 

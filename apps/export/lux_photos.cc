@@ -1,9 +1,9 @@
 #include "apps/export/lux_photos.h"
 
+#include "apps/export/exr_channels.h"
+#include "apps/export/false_colours.h"
 #include "apps/version.h"
-#include "calib/luminance/exr_channels.h"
-#include "calib/luminance/false_colours.h"
-#include "inverse/observe/tag_quads.h"
+#include "inverse/observe/observe.h"
 
 namespace luxfit {
 

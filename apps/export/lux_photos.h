@@ -1,4 +1,4 @@
-// Photos of registered views as maps of illuminance, and their files: what export and luxmap share.
+// Makes maps of illuminance from photos of registered views, and their files, for export and luxmap.
 #ifndef LUXFIT_APPS_EXPORT_LUX_PHOTOS_H_
 #define LUXFIT_APPS_EXPORT_LUX_PHOTOS_H_
 
@@ -12,16 +12,16 @@
 
 namespace luxfit {
 
-// What a camera sees from one place.
+// Holds what a camera sees from one place.
 struct PhotoView {
   PixelMap dense;   // every pixel that sees one surface
-  PixelMap strict;  // those that stand for the middle of an element, as a fit takes them
+  PixelMap strict;  // pixels that represent the middle of an element, as a fit takes them
 };
 PhotoView ViewOf(const FittedRoom& fitted, int camera, const PixelDirections& directions,
                  const Eigen::Isometry3d& cam_from_world);
 
-// STEM.exr: illuminance_lx, sigma_lx, gap (docs/exports.md). STEM.png: false colours with their scale.
-// Returns the paths.
+// Writes STEM.exr (illuminance_lx, sigma_lx, gap; docs/exports.md) and STEM.png (false colours with their
+// scale). Returns the paths.
 std::vector<std::string> WriteLuxMap(const LuxMap& lux, const std::string& path_stem,
                                      const std::string& what);
 

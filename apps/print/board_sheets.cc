@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRimMm = 6;     // printers leave as much white
+constexpr double kRimMm = 6;     // margin that printers cannot print on
 constexpr double kFootMm = 12;   // scale bar and caption
 constexpr double kTextMm = 2.8;  // font
 constexpr double kBarMm = 100;   // scale bar, where the page is wide enough
@@ -21,7 +21,7 @@ Eigen::Vector2d SizeMm(const BoardDrawing& drawing) {
   return kMmPerM * (drawing.max_m - drawing.min_m + Eigen::Vector2d::Constant(2 * drawing.margin_m));
 }
 
-// The drawing with the corner of its white margin at `at_mm`.
+// Moves the drawing so that the corner of its white margin is at `at_mm`.
 void Place(const BoardDrawing& drawing, const Eigen::Vector2d& at_mm, PrintPage& page) {
   const Eigen::Vector2d origin_m = drawing.min_m - Eigen::Vector2d::Constant(drawing.margin_m);
   for (const BlackRectangle& r : drawing.black)
@@ -53,7 +53,7 @@ Paper ExpectFit(const Paper& paper, const Eigen::Vector2d& needed_mm, const std:
           : "it fits on " + named + ", or "));
 }
 
-// An arrow to the top of the page, `height_mm` high, its foot at `at_mm`.
+// Draws an arrow to the top of the page, `height_mm` high, with its foot at `at_mm`.
 void AddArrow(const Eigen::Vector2d& at_mm, double height_mm, PrintPage& page) {
   const Eigen::Vector2d tip_mm = at_mm - Eigen::Vector2d(0, height_mm);
   const double wing_mm = height_mm / 3;
@@ -69,7 +69,7 @@ void PlaceTag(const std::string& family, int id, double size_m, const Eigen::Vec
   const double base_mm = at_mm.y() + SizeMm(drawing).y() + kLabelMm - 3;
   AddArrow({at_mm.x() + 2.5, base_mm}, 5, page);
   page.texts.push_back({{at_mm.x() + 6, base_mm - 0.5}, kTextMm + 0.7, fmt::format("id {}", id)});
-  // A narrow tag has its size below its id.
+  // A narrow tag carries its size below its id.
   page.texts.push_back(
       {{at_mm.x() + 6, base_mm + 2.5}, kTextMm - 0.5, fmt::format("{}, {:g} mm", family, kMmPerM * size_m)});
 }
@@ -94,14 +94,14 @@ std::vector<PrintPage> TagSheets(const std::string& family, const std::vector<in
   if (ids.empty()) return {};
   const BoardDrawing first = DrawSingleTag(family, ids.front(), size_m);
   constexpr double kLabelWidthMm = 32;
-  // White around the tag too where another one or the label follows.
+  // The tag also needs a white margin where another one or the label follows.
   const Eigen::Vector2d cell_mm(std::max(SizeMm(first).x(), kLabelWidthMm), SizeMm(first).y() + kLabelMm);
   const Eigen::Vector2d rims_mm(2 * kRimMm, 2 * kRimMm + kFootMm);
   const Paper fitting = ExpectFit(paper, cell_mm + rims_mm, "a tag of this size");
   const auto count = [&](const Eigen::Vector2d& size_mm) {
     return ((size_mm - rims_mm).array() / cell_mm.array() + 1e-6).floor().cast<int>().eval();
   };
-  // The way of the paper that holds more.
+  // Takes the orientation of the paper that holds more.
   Eigen::Vector2d size_mm = fitting.size_mm;
   if (count(size_mm.reverse()).prod() > count(size_mm).prod()) size_mm = size_mm.reverse().eval();
   const Eigen::Array2i grid = count(size_mm);

@@ -18,7 +18,7 @@ struct NamedSize {
   const char* name;
   double width_mm, height_mm;
 };
-// Smallest first. ISO 216 and ANSI/ASME Y14.1.
+// Sizes of ISO 216 and ANSI/ASME Y14.1, smallest first.
 constexpr std::array<NamedSize, 9> kSizes = {{{"A5", 148, 210},
                                               {"A4", 210, 297},
                                               {"letter", 215.9, 279.4},

@@ -1,4 +1,4 @@
-// Paper by name or size.
+// Finds paper by name or size.
 //
 // Throws std::runtime_error("--paper: expected ..., got ...").
 #ifndef LUXFIT_APPS_PRINT_PAPER_H_
@@ -15,13 +15,14 @@ struct Paper {
   Eigen::Vector2d size_mm;
 };
 
-// A0 to A5, letter, legal, tabloid (upright), or WIDTHxHEIGHT in mm.
+// Reads A0 to A5, letter, legal, tabloid (upright), or WIDTHxHEIGHT in mm.
 Paper PaperFrom(const std::string& text);
 
-// The paper, turned if need be, so that `needed_mm` fits; upright where both do; nothing where neither does.
+// Returns the paper, turned if necessary, so that `needed_mm` fits: upright where both orientations fit,
+// nothing where neither does.
 std::optional<Paper> Fitting(const Paper& paper, const Eigen::Vector2d& needed_mm);
 
-// The smallest named paper on which `needed_mm` fits, "" for none.
+// Returns the smallest named paper on which `needed_mm` fits, "" where none is large enough.
 std::string SmallestPaperFor(const Eigen::Vector2d& needed_mm);
 
 }  // namespace luxfit

@@ -1,6 +1,7 @@
-// Pages to print at true scale: black rectangles, lines and text, in millimetres from the top-left corner.
+// Writes pages to print at true scale: black rectangles, lines and text, in millimetres from the top-left
+// corner.
 //
-// A page is written as SVG (one page a file, its size in mm) or as PDF. All rectangles are one path, so that
+// A page is written as SVG (one page a file, its size in mm) or as PDF. All rectangles form one path, so that
 // those that touch leave no seam.
 #ifndef LUXFIT_APPS_PRINT_PRINT_PAGE_H_
 #define LUXFIT_APPS_PRINT_PRINT_PAGE_H_
@@ -21,7 +22,7 @@ struct PrintLine {
 
 struct PrintText {
   Eigen::Vector2d at_mm;  // left end of the base line
-  double height_mm = 3;   // of the font
+  double height_mm = 3;   // font size
   std::string text;       // ASCII
 };
 
@@ -34,7 +35,7 @@ struct PrintPage {
 
 std::string PageSvg(const PrintPage& page);
 
-// The bytes of a PDF file.
+// Returns the bytes of a PDF file.
 std::string PagesPdf(const std::vector<PrintPage>& pages, const std::string& title);
 
 }  // namespace luxfit

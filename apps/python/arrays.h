@@ -1,4 +1,4 @@
-// What Python gets of the program's values: JSON as dicts and lists, lists of points as arrays.
+// Converts the program's values for Python: JSON to dicts and lists, lists of points to arrays.
 #ifndef LUXFIT_APPS_PYTHON_ARRAYS_H_
 #define LUXFIT_APPS_PYTHON_ARRAYS_H_
 
@@ -18,19 +18,19 @@ using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 
 pybind11::object PythonFrom(const nlohmann::json& json);
 
-// A number; NaN for null and for what is not there.
+// Returns a number; NaN for null and for a missing key.
 double NumberOrNan(const nlohmann::json& object, const std::string& key);
-// n x 3, a row an entry of `list`; NaN likewise.
+// Returns n x 3, one row for each entry of `list`; NaN as above.
 RowMajorXd VectorRows(const nlohmann::json& list, const std::string& key);
 
-// Cosine-corrected sensors from two n x 3 arrays, the normals of any length but 0. Throws std::runtime_error
-// for other shapes and for what is not finite.
+// Makes cosine-corrected sensors from two n x 3 arrays; normals may have any length except 0. Throws
+// std::runtime_error for other shapes and for values that are not finite.
 std::vector<Sensor> SensorsFrom(const RowMajorXd& position_m, const RowMajorXd& normal);
 
-// center_m, normal (n, 3), area_m2 (n,), material (n,), vertices_m (n, 4, 3): the corners in turn, the last
-// one twice where the patch is a triangle.
+// Returns center_m, normal (n, 3), area_m2 (n,), material (n,) and vertices_m (n, 4, 3). Vertices are the
+// corners in order; a triangle repeats its last one.
 pybind11::dict PatchArrays(const Patches& patches);
-// center_m, normal, area_m2, patch (n,).
+// Returns center_m, normal, area_m2, patch (n,).
 pybind11::dict ElementArrays(const Patches& patches);
 
 }  // namespace luxfit

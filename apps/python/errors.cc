@@ -10,7 +10,7 @@ namespace {
 
 namespace py = pybind11;
 
-// Kept for the translator, which takes no state. Never released: statics end after the interpreter.
+// Kept for the translator, which has no state. Never released, because statics end after the interpreter.
 py::handle& InputErrorClass() {
   static py::handle instance;
   return instance;
@@ -36,7 +36,7 @@ void Translate(std::exception_ptr thrown) {
 
 void BindErrors(py::module_& module) {
   InputErrorClass() = PyErr_NewExceptionWithDoc(
-      "luxfit.InputError", "What is wrong in a file or argument: FILE:LINE: key: expected X, got Y; mend.",
+      "luxfit.InputError", "An error in a file or argument: FILE:LINE: key: expected X, got Y; remedy.",
       PyExc_ValueError, nullptr);
   MissingProgramClass() = PyErr_NewExceptionWithDoc(
       "luxfit.MissingProgramError", "A program that is needed and not installed, with its Debian package.",

@@ -8,12 +8,12 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
-#include "apps/stages/given_luminaire.h"
+#include "apps/stages/simulate/given_luminaire.h"
 #include "apps/text/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/version.h"
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/photometry_file.h"
-#include "forward/luminaire/photometry_writer.h"
 
 namespace luxfit {
 namespace {
@@ -46,7 +46,7 @@ bool IsFile(const std::string& photometry) {
   return extension == ".ies" || extension == ".ldt" || extension == ".IES" || extension == ".LDT";
 }
 
-// What a [[luminaire]] of a session may say, as far as light needs it.
+// Holds the keys of a session's [[luminaire]] that light depends on.
 struct Arguments {
   std::optional<double> flux_lm, cosine_exponent;
   std::string photometry;
@@ -55,16 +55,16 @@ struct Arguments {
 };
 
 void Check(const Arguments& given, const Luminaire& luminaire) {
-  const std::vector<std::string> kinds = {"isotropic", "lambertian", "cosine_power", "table"};
-  const bool is_kind = std::count(kinds.begin(), kinds.end(), given.photometry) > 0;
-  if (!is_kind && !IsFile(given.photometry))
-    throw Wrong("photometry", ExpectedOneOf(kinds, given.photometry) + ", or a file (.ies, .ldt)");
+  const DistributionOps* const ops = FindDistribution(given.photometry);
+  if (ops == nullptr && !IsFile(given.photometry))
+    throw Wrong("photometry",
+                ExpectedOneOf(PhotometryNames(), given.photometry) + ", or a file (.ies, .ldt)");
   if (!IsFile(given.photometry) && !given.flux_lm)
     throw Wrong("flux_lm", "expected a flux in lm, got None; only photometric files have one of their own");
   const bool has_exponent = given.cosine_exponent && *given.cosine_exponent > 0;
-  if (given.photometry == "cosine_power" && !has_exponent)
-    throw Wrong("cosine_exponent", "expected a number > 0 beside photometry = \"cosine_power\"");
-  if (given.photometry == "table" &&
+  if (ops != nullptr && ops->has_exponent && !has_exponent)
+    throw Wrong("cosine_exponent", "expected a number > 0 beside photometry = " + Quoted(given.photometry));
+  if (ops != nullptr && ops->has_table &&
       (given.gamma_deg.size() < 2 || given.gamma_deg.size() != given.cd_per_klm.size()))
     throw Wrong("gamma_deg, cd_per_klm", "expected two lists of one length, two entries or more");
   const std::vector<std::string> shapes = {"point", "disc", "rectangle", "sphere"};
@@ -92,7 +92,9 @@ Luminaire MakeLuminaire(const Eigen::Vector3d& position_m, const Arguments& give
   session.aim = UnitVector("aim", aim);
   session.heading = UnitVector("heading", heading);
   if (given.flux_lm) session.flux_lm = Flux(*given.flux_lm);
-  if (given.photometry == "table") Check(given, Luminaire{});
+  // A table is made of the given nodes, which are checked first.
+  const DistributionOps* const ops = FindDistribution(given.photometry);
+  if (ops != nullptr && ops->has_table) Check(given, Luminaire{});
   Luminaire luminaire = ReadGivenLuminaire(session).luminaire;
   Check(given, luminaire);
   return luminaire;
@@ -111,7 +113,8 @@ Eigen::VectorXd IntensityCd(const Luminaire& luminaire, const RowMajorXd& direct
 
 py::dict PhotometryDict(const std::filesystem::path& path) {
   PhotometryFile file = ReadPhotometry(path.string());
-  // Photometry about a horizontal axis (LM-63 type B) is turned into C and gamma, as everything here has it.
+  // Photometry about a horizontal axis (LM-63 type B) is converted to C and gamma, which everything here
+  // uses.
   if (!file.table.table_from_luminaire.isIdentity()) {
     file.table = Resampled(file.table, 5, 1);
     file.notes.emplace_back("type B photometry, interpolated every 5 degrees of C and 1 degree of gamma");

@@ -12,6 +12,7 @@ PYBIND11_MODULE(luxfit, module) {
     result = luxfit.read_result("out")                       the same of an earlier run
     light = luxfit.simulate(session.with_result("out"))      forward: illuminance per luminaire, patches
     room = luxfit.Room("room.obj")                           form factors and illuminance of one's own luminaires
+    fit = luxfit.fit_room(room, states, photos=...)          a fit without a session file
 
 World frame right-handed, z up, metres; fluxes lm, illuminance lx, exitance lm/m2, intensity cd. What the data do not
 determine is NaN in arrays and None in dicts.)";
@@ -22,4 +23,5 @@ determine is NaN in arrays and None in dicts.)";
   luxfit::BindSession(module);
   luxfit::BindSimulation(module);
   luxfit::BindResult(module);
+  luxfit::BindFit(module);
 }

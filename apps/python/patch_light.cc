@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "forward/light/colour_illuminance.h"
+#include "forward/light/illuminance.h"
 #include "forward/radiosity/transport.h"
 
 namespace luxfit {
@@ -17,7 +17,7 @@ PatchLight ComputePatchLight(const Room& room, const std::vector<Luminaire>& lum
   const auto count = static_cast<Eigen::Index>(luminaires.size());
   PatchLight light{Eigen::MatrixXd::Zero(patches, count), Eigen::MatrixXd::Zero(patches, count)};
   Eigen::MatrixXd channel_lx;
-  Eigen::Index solved = -1;  // the channel that these are of
+  Eigen::Index solved = -1;  // the channel of this solution
   for (Eigen::Index c = 0; c < 3; ++c) {
     if (weights[c] == 0) continue;
     if (solved < 0 || albedo_rgb.row(c) != albedo_rgb.row(solved)) {

@@ -1,10 +1,11 @@
-// Illuminance and luminous exitance of every patch of a room, by luminaire.
+// Computes illuminance and luminous exitance of every patch of a room, by luminaire.
 //
 //   E_jk = mean over the elements of j of (direct + interreflected illuminance) of luminaire k      lx
 //   M_jk = sum_c w_c rho_jc E_jkc / sum_c w_c                                                       lm/m2
 //
-// over the channels c = R, G, B, each with its own interreflection; a patch's luminance is M / pi. Fluxes are
-// the luminaires' own; patches x luminaires. Throws as ComputeColourIlluminance does.
+// The sums run over the channels c = R, G, B, each with its own interreflection. A patch's luminance is M /
+// pi. Fluxes are the luminaires' own. Results are patches x luminaires. Throws as ComputeColourIlluminance
+// does.
 #ifndef LUXFIT_APPS_PYTHON_PATCH_LIGHT_H_
 #define LUXFIT_APPS_PYTHON_PATCH_LIGHT_H_
 

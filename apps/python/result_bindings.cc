@@ -11,7 +11,9 @@
 #include "apps/export/fit_uncertainty.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/session/earlier_result.h"
 #include "apps/text/artifact.h"
+#include "apps/text/former_keys.h"
 #include "apps/text/suggest.h"
 #include "forward/room/threads.h"
 
@@ -21,7 +23,7 @@ namespace {
 namespace py = pybind11;
 using nlohmann::json;
 
-// result.json and, of stages/fit.json, the parameters with their covariance.
+// Holds result.json and, from stages/fit.json, the parameters with their covariance.
 struct Result {
   json whole;
   FitUncertainty fit;
@@ -34,13 +36,13 @@ struct Result {
 };
 
 Result ReadResultOf(const std::filesystem::path& given) {
-  const std::filesystem::path out = std::filesystem::is_directory(given) ? given : given.parent_path();
-  const std::filesystem::path path = std::filesystem::is_directory(given) ? given / "result.json" : given;
+  const std::filesystem::path path = ResultFileOf(given.string()), out = path.parent_path();
   Result result{ReadJson(path.string()), {}};
   if (!result.whole.is_object() || result.whole.value("format", "") != "luxfit-result-1")
     throw std::runtime_error(
         path.string() +
         ": format: expected \"luxfit-result-1\"; give the folder that `luxfit run` wrote into");
+  AddPresentKeys(result.whole);
   if (std::filesystem::exists(out / "stages" / "fit.json")) result.fit = ReadFitUncertainty(out.string());
   return result;
 }
@@ -50,7 +52,7 @@ Result Fit(const std::filesystem::path& session, const std::filesystem::path& ou
   CommandOptions options;
   options.session = session.string();
   options.out = out.string();
-  if (luminaires) options.earlier_luminaires = luminaires->string();
+  if (luminaires) options.earlier_luminaires = ResultFileOf(luminaires->string());
   options.threads = threads;
   options.fresh = fresh;
   options.prints = false;
@@ -88,10 +90,12 @@ RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& na
 
 using ResultClass = py::class_<Result>;
 
-// Lists of dicts, in the keys of result.json.
+// Adds properties that are lists of dicts, with the keys of result.json.
 void AddLists(ResultClass& result) {
-  for (const char* key : {"summary", "luminaires", "materials", "views", "luxmeter", "choices", "warnings"})
+  for (const char* key : {"luminaires", "materials", "views", "luxmeter", "choices", "warnings"})
     result.def_property_readonly(key, [key](const Result& r) { return PythonFrom(r.List(key)); });
+  result.def_property_readonly(
+      "summary", [](const Result& r) { return PythonFrom(r.whole.value("summary", json::object())); });
   result.def_property_readonly(
       "whole", [](const Result& r) { return PythonFrom(r.whole); }, "All of result.json.");
   result.def_property_readonly(
@@ -99,7 +103,7 @@ void AddLists(ResultClass& result) {
       "done, or undetermined (see warnings).");
 }
 
-// One row an entry of those lists.
+// Adds properties that are arrays, with one row for each entry of those lists.
 void AddColumns(ResultClass& result) {
   const auto names = [&](const char* name, const char* of, const char* key, const char* help) {
     result.def_property_readonly(
@@ -126,9 +130,9 @@ void AddColumns(ResultClass& result) {
   names("reading_ids", "luxmeter", "id", "list of n");
   names("reading_states", "luxmeter", "state", "list of n");
   names("reading_roles", "luxmeter", "role", "fit, scale or check.");
-  numbers("measured_lx", "luxmeter", "measured_lux", "(n,)");
-  numbers("predicted_lx", "luxmeter", "predicted_lux", "(n,)");
-  numbers("prediction_sigma_lx", "luxmeter", "prediction_sigma_lux",
+  numbers("measured_lx", "luxmeter", "measured_lx", "(n,)");
+  numbers("predicted_lx", "luxmeter", "predicted_lx", "(n,)");
+  numbers("prediction_sigma_lx", "luxmeter", "prediction_sigma_lx",
           "(n,): of the prediction, model error included.");
 }
 

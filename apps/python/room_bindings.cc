@@ -11,6 +11,7 @@
 #include "apps/python/patch_light.h"
 #include "apps/session/session_scene.h"
 #include "apps/text/suggest.h"
+#include "forward/factors/form_factors.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
 #include "forward/room/mesh_file.h"
@@ -20,6 +21,20 @@ namespace {
 
 namespace py = pybind11;
 using Albedo = std::map<std::string, double>;
+
+std::vector<std::string> MethodNames() {
+  std::vector<std::string> names;
+  for (const FormFactorOps& ops : FormFactorMethods()) names.emplace_back(ops.name);
+  return names;
+}
+
+// Returns the names of the methods: "hybrid, analytic or malley".
+std::string MethodsInWords() {
+  const std::vector<std::string> names = MethodNames();
+  std::string words = names.front();
+  for (size_t i = 1; i < names.size(); ++i) words += (i + 1 < names.size() ? ", " : " or ") + names[i];
+  return words;
+}
 
 std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::string& unit,
                                double patch_size_m, std::optional<double> element_size_m,
@@ -34,11 +49,7 @@ std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::str
   options.patches.patch_size_m = patch_size_m;
   options.patches.element_size_m = element_size_m.value_or(patch_size_m / 4);
   const auto known = FormFactorMethodFrom(method);
-  if (!known) {
-    std::vector<std::string> names;
-    for (const FormFactorMethod m : AllFormFactorMethods()) names.push_back(ToString(m));
-    throw std::runtime_error("Room: method: " + ExpectedOneOf(names, method));
-  }
+  if (!known) throw std::runtime_error("Room: method: " + ExpectedOneOf(MethodNames(), method));
   options.form_factors = {rays, *known};
   const py::gil_scoped_release release;
   auto room = std::make_unique<Room>(MakeRoom(ReadScene(mesh.string(), metres->second), options));
@@ -109,13 +120,14 @@ py::dict RoomPatchLight(const Room& room, const std::vector<Luminaire>& luminair
 }  // namespace
 
 void BindRoom(py::module_& module) {
-  py::class_<Room>(
-      module, "Room",
+  // pybind11 copies it.
+  const std::string about =
       "A mesh (OBJ, PLY: z up; glTF: y up, turned) cut into patches and elements, with its form factors: "
       "all that light needs of geometry.\n\n"
       "unit: of the mesh (m, cm, mm, in, ft). Elements (patch_size_m / 4 by default) receive light, "
-      "patches send it. method: hybrid, analytic, malley, malley_stratified, isocell, montecarlo, "
-      "hemicube, single_plane or wallace, with so many rays over the hemisphere of an element.")
+      "patches send it. method: " +
+      MethodsInWords() + ", with so many rays over the hemisphere of an element.";
+  py::class_<Room>(module, "Room", about.c_str())
       .def(py::init(&ReadRoom), py::arg("mesh"), py::arg("unit") = "m", py::kw_only(),
            py::arg("patch_size_m") = 0.4, py::arg("element_size_m") = py::none(),
            py::arg("method") = "hybrid", py::arg("rays") = 64)

@@ -153,10 +153,8 @@ RowMajorXd Dimming(const Session& session) {
   return dimming;
 }
 
-// A folder of results, or its result.json.
-Session WithResultOf(const Session& session, std::filesystem::path out) {
-  if (std::filesystem::is_directory(out)) out /= "result.json";
-  return WithResult(session, out.string());
+Session WithResultOf(const Session& session, const std::filesystem::path& out) {
+  return WithResult(session, ResultFileOf(out.string()));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/patch_light.h"
-#include "apps/stages/given_session.h"
+#include "apps/stages/simulate/given_session.h"
 #include "forward/light/choose_accuracy.h"
 #include "forward/room/threads.h"
 
@@ -17,11 +17,11 @@ namespace {
 
 namespace py = pybind11;
 
-// Light of a session that gives everything, by luminaire at full flux.
+// Holds the light of a session that gives everything, by luminaire at full flux.
 struct Simulation {
   GivenScene given;
   AccuracyChoice accuracy;
-  std::optional<SceneLight> scene_light;  // always there: has no empty state
+  std::optional<SceneLight> scene_light;  // always set; SceneLight has no empty state
   PatchLight patches;
   Eigen::VectorXd flux_lm;
   Eigen::MatrixXd dimming_of_reading;  // readings x luminaires
@@ -70,7 +70,7 @@ Simulation Simulate(const Session& session, double error_percent, int threads) {
   return result;
 }
 
-// Of the readings: a row of `by_place` each, dimmed.
+// Returns one row of `by_place` for each reading, dimmed.
 Eigen::VectorXd AtReadings(const Simulation& s, const Eigen::MatrixXf& by_place) {
   const Eigen::MatrixXd full = AtFullFlux(by_place, s.flux_lm);
   Eigen::VectorXd lx(s.dimming_of_reading.rows());

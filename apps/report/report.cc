@@ -31,7 +31,7 @@ json StatesJson(const FittedRoom& fitted) {
   return states;
 }
 
-// Under what conditions it was measured.
+// Returns the conditions of the measurement.
 json ConditionsJson(const FittedRoom& fitted) {
   const Session& session = fitted.session;
   json photos = json::array();
@@ -98,7 +98,7 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
   const ReportTargets targets =
       options.targets_path.empty() ? DefaultTargets(fitted.room.scene) : ReadTargets(options.targets_path);
   const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
-  DimmingOf(fitted, state);  // names the known ones where it is not one
+  DimmingOf(fitted, state);  // throws, naming the known states, where it is none
   json data = {{"format", "luxfit-report-1"},    {"luxfit_version", kVersion},        {"date", NowUtc()},
                {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
   data["result"] = *fitted.result;

@@ -1,7 +1,7 @@
-// The report of a run: OUT/report.html, one file that opens from disk with no network.
+// Makes the report of a run: OUT/report.html, one file that opens from disk without a network.
 //
-// The light is that of the fitted room (apps/export/fitted_room.h): one column a luminaire, so that the page's
-// sliders recombine it. docs/report.md says what each part means.
+// The light is that of the fitted room (apps/export/fitted_room.h), with one column a luminaire, so that the
+// page's sliders can recombine it. docs/report.md explains each part.
 #ifndef LUXFIT_APPS_REPORT_REPORT_H_
 #define LUXFIT_APPS_REPORT_REPORT_H_
 
@@ -16,17 +16,18 @@ namespace luxfit {
 
 struct ReportOptions {
   std::string targets_path;  // empty: DefaultTargets
-  std::string state;         // shown first, and of the photos; empty: the brightest
+  std::string state;         // shown first, also in the photos; empty: the brightest
   std::string command_line;
 };
 
-// The state of the session in which the luminaires give the most light.
+// Returns the state of the session in which the luminaires give the most light.
 std::string BrightestState(const FittedRoom& fitted);
 
-// All that the page holds. Throws std::runtime_error for targets or a state that do not read.
+// Returns all data of the page. Throws std::runtime_error for targets or a state that cannot be read.
 nlohmann::json ReportData(const FittedRoom& fitted, const ReportOptions& options);
 
-// Of that: the states, the statistics of the areas and the ratings of the observers by state.
+// Returns the states, the statistics of the areas and the ratings of the observers by state, out of
+// ReportData.
 nlohmann::json ReportSummary(const nlohmann::json& data);
 
 // Writes OUT/report.html and returns its path.

@@ -9,7 +9,7 @@ namespace luxfit {
 
 std::string JsonForHtml(const nlohmann::json& data) {
   std::string text;
-  // Bytes that are not UTF-8 (an id of an old file) must not stop the report.
+  // Bytes that are not UTF-8 (an id in an old file) must not stop the report.
   for (const char c : data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)) {
     if (c == '<') {
       text += "\\u003c";
@@ -30,7 +30,7 @@ std::string ReportPage(const std::string& title, const nlohmann::json& data) {
                                                     {"STYLE", std::string(assets.css)},
                                                     {"DATA", JsonForHtml(data)},
                                                     {"SCRIPT", std::string(assets.script)}};
-  // Placeholders are <!--NAME--> in the page's own text alone: what is put in is not looked at again.
+  // Placeholders are <!--NAME--> in the page's own text alone; inserted text is not searched again.
   std::string page;
   size_t at = 0;
   const std::string html(assets.html);

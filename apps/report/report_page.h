@@ -1,8 +1,8 @@
-// The page of a report: one HTML file that needs nothing else.
+// Makes the page of a report: one HTML file that needs nothing else.
 //
-// Style, program (three.js among it) and data stand in it. The data are JSON in a script element that no
-// browser runs: every '<', '>' and '&' of it is written as \u003c, \u003e, \u0026, so that no text of the
-// user can end it.
+// The file holds style, program (including three.js) and data. The data are JSON in a script element that no
+// browser runs. Every '<', '>' and '&' in it is written as \u003c, \u003e, \u0026, so that no text of the
+// user can end the element.
 //
 // Source: HTML Living Standard, sec. 4.12.1.3 (restrictions for contents of script elements).
 #ifndef LUXFIT_APPS_REPORT_REPORT_PAGE_H_
@@ -14,7 +14,7 @@
 
 namespace luxfit {
 
-// Made by the build from apps/report/ (CMakeLists.txt).
+// The build makes it from apps/report/ (CMakeLists.txt).
 struct ReportAssets {
   std::string_view html, css, script;
 };

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-// Odd, so that the standard's points are among the fine ones.
+// Refines the grid by an odd factor, so that the standard's points are among the fine ones.
 void Refine(const FittedRoom& fitted, ReportPlane& plane) {
   constexpr Eigen::Index kMaxFinePoints = 800;
   for (Eigen::Index side = 3; side * side * plane.grid.points.cols() <= kMaxFinePoints; side += 2)
@@ -23,7 +23,7 @@ void Refine(const FittedRoom& fitted, ReportPlane& plane) {
   plane.fine_kinds = ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);
 }
 
-// One call for all planes: the luminaires' shadows are looked for once.
+// Lights the fine points of all planes in one call, so that the luminaires' shadows are searched only once.
 void LightFinePoints(const FittedRoom& fitted, std::vector<ReportPlane>& planes) {
   constexpr int kRays = 2048;
   std::vector<Sensor> sensors;
@@ -85,10 +85,10 @@ std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
   return observers;
 }
 
-// The vertical plane at the eye: a meter that looks where the observer looks.
+// Returns the sensor at the eye: a meter that faces where the observer looks.
 Sensor EyeOf(const TargetObserver& target) { return {target.eye_m, target.looking, {}}; }
 
-// A file's or a table's numbers, not those of a page: rows of a place are its luminaires.
+// Encodes the light of `count` places from `first` on; the rows of a place are its luminaires.
 json LightJson(const PredictedPlaces& light, Eigen::Index first, Eigen::Index count) {
   const Eigen::Index lamps = light.total_lx.cols();
   json block = {{"total", Base64Floats(light.total_lx.middleRows(first, count))}};
@@ -189,7 +189,7 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
   places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors,
                                fit.covariance.size() > 0 ? ParameterCovariance{fit.parameters, fit.covariance}
                                                          : ParameterCovariance{});
-  // Sigmas would be confident where a parameter is not known at all.
+  // Sigmas would be too small where a parameter is not known at all.
   if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
   return places;
 }

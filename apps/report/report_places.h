@@ -1,7 +1,7 @@
-// The light of a report at places: at the meter's, over work planes, at observers' eyes.
+// Computes the light of a report at places: at the meter's points, over work planes, at observers' eyes.
 //
-// One column a luminaire fully on, lx (relative where the fit has no absolute scale), and a factor of their
-// covariance by stages/fit.json; states and dimming are sums of columns.
+// There is one column for each luminaire fully on, in lx (relative where the fit has no absolute scale). A
+// factor of the columns' covariance follows from stages/fit.json. States and dimming are sums of columns.
 #ifndef LUXFIT_APPS_REPORT_REPORT_PLACES_H_
 #define LUXFIT_APPS_REPORT_REPORT_PLACES_H_
 
@@ -11,9 +11,9 @@
 
 #include "apps/export/fitted_room.h"
 #include "apps/session/report_targets.h"
-#include "apps/stages/given_session.h"
+#include "apps/stages/simulate/given_session.h"
 #include "forward/views/glare.h"
-#include "forward/views/plane_statistics.h"
+#include "forward/views/illuminance_plane.h"
 #include "inverse/model/predicted_places.h"
 
 namespace luxfit {
@@ -24,8 +24,8 @@ struct ReportPlane {
   PlaneGrid grid;
   std::vector<GridPointKind> kinds;
   Eigen::Index first_place = 0;
-  // The same rectangle at `refined` times as many points a side, for lines of equal illuminance: total_lx
-  // alone, by fewer rays (about 0.3 % of the indirect light).
+  // The same rectangle with `refined` times as many points a side, for lines of equal illuminance. It has
+  // total_lx alone, from fewer rays (about 0.3 % of the indirect light).
   int refined = 1;
   PlaneGrid fine_grid;
   std::vector<GridPointKind> fine_kinds;
@@ -34,7 +34,7 @@ struct ReportPlane {
 
 struct ReportObserver {
   TargetObserver target;
-  bool is_inside = false;            // a solid: no glare is computed
+  bool is_inside = false;            // inside a solid: no glare is computed
   std::vector<GlareSource> sources;  // by luminaire
   Eigen::Index place = 0;
 };
@@ -49,7 +49,7 @@ struct ReportPlaces {
 };
 ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets);
 
-// Illuminance and the factor of its covariance for places from `first` on, under dimming.
+// Return illuminance and the factor of its covariance for places from `first` on, under dimming.
 Eigen::VectorXd IlluminanceUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming,
                                  Eigen::Index first, Eigen::Index count);
 Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming, Eigen::Index first,
@@ -58,7 +58,8 @@ Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd&
 PlaneStatistics StatisticsUnder(const ReportPlaces& places, const ReportPlane& plane,
                                 const Eigen::VectorXd& dimming);
 
-// NaN where it is not defined: a luminaire without a known luminous area that is on, no background light.
+// Returns the glare rating. It is NaN where it is undefined: no background light, or a luminaire that is on
+// without a known luminous area.
 double GlareUnder(const ReportPlaces& places, const ReportObserver& observer, const Eigen::VectorXd& dimming);
 
 nlohmann::json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places);

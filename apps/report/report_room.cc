@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/export/fit_uncertainty.h"
-#include "apps/stages/given_luminaire.h"
+#include "apps/report/display_cells.h"
+#include "apps/stages/simulate/given_luminaire.h"
 #include "apps/text/base64.h"
 #include "apps/text/json_vectors.h"
-#include "forward/views/display_cells.h"
 
 namespace luxfit {
 namespace {
@@ -32,7 +32,7 @@ json FacetsJson(const FittedRoom& fitted, const DisplayCells& display) {
   return {{"count", facets.size()}, {"corners", Base64Floats(corners)}, {"kinds", Base64Shorts(kinds)}};
 }
 
-// i, j, upper of every cell, and how many of them each facet has.
+// Encodes i, j and upper of every cell, and the number of cells of each facet.
 json CellPlacesJson(const FittedRoom& fitted, const DisplayCells& display) {
   std::vector<uint16_t> places;
   std::vector<int> counts(fitted.room.patches.facets.size(), 0);
@@ -58,7 +58,7 @@ std::vector<uint16_t> DirectShares(const Eigen::MatrixXd& direct, const Eigen::M
   return shares;
 }
 
-// Luminous intensity over gamma in the half planes at C and C + 180 degrees; cd.
+// Returns luminous intensity (cd) over gamma in the half planes at C and C + 180 degrees.
 json PlaneCurve(const Luminaire& luminaire, double c_rad) {
   const LuminaireAxes axes = AxesOf(luminaire);
   // C runs counter-clockwise seen from behind (forward/luminaire/photometry.h), against `across`.
@@ -77,7 +77,7 @@ json CurvesJson(const Luminaire& luminaire) {
   return {{"c0", PlaneCurve(luminaire, 0)}, {"c90", PlaneCurve(luminaire, M_PI / 2)}};
 }
 
-// 95 % of a normal distribution in three dimensions; null where the data did not determine the position.
+// Returns the 95 % ellipsoid of a normal distribution; null where the data did not determine the position.
 json EllipsoidJson(const Eigen::Matrix3d& covariance_m2) {
   if (!covariance_m2.allFinite()) return {};
   const double radius = std::sqrt(7.8147);  // chi squared of three degrees of freedom at 95 %
@@ -143,7 +143,7 @@ json ReportCamerasJson(const FittedRoom& fitted) {
     for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0),
                                          Eigen::Vector2d(right, bottom), Eigen::Vector2d(0, bottom)}) {
       const Eigen::Vector3d direction = world_from_cam.linear() * Unproject(camera, pixel);
-      // A corner outside the lens's circle has no ray.
+      // A corner outside the lens's image circle has no ray.
       if (direction.allFinite()) corners.push_back(VectorJson(direction));
     }
     cameras.push_back({{"view", view.view},

@@ -7,10 +7,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "apps/report/encoded_image.h"
 #include "apps/session/photo_corrections.h"
 #include "apps/stages/stages.h"
 #include "apps/text/base64.h"
-#include "calib/luminance/encoded_image.h"
 #include "forward/views/surface_view.h"
 
 namespace luxfit {
@@ -21,14 +21,15 @@ using nlohmann::json;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kMaxWidthPx = 400;
 
-// A photo and its prediction, pixel by pixel, reduced.
+// Holds a photo and its prediction, pixel by pixel, reduced.
 struct ComparedView {
   std::string view;
   std::array<ImagePlane, 3> photo_rgb, predicted_rgb;  // relative luminance; cd/m2
   ImagePlane photo, predicted;                         // NaN where the photo tells nothing
 };
 
-// Red, green, blue where every material has a colour, else the grey reflectance; the last is always grey.
+// Holds red, green and blue where every material has a colour, else the grey reflectance. The last channel is
+// always grey.
 Eigen::MatrixXd ChannelsOf(const FittedRoom& fitted) {
   Eigen::MatrixXd albedo = fitted.albedo.replicate(1, 4);
   const json& materials = fitted.result->at("materials");
@@ -69,14 +70,14 @@ ImagePlane PlaneOf(const Eigen::VectorXd& column, int width_px, int height_px) {
       .cast<float>();
 }
 
-// What a view shows of each luminaire alone, fully on: pixels x channels. Light adds, so every state is a
-// sum.
+// Returns what a view shows of each luminaire alone, fully on: pixels x channels. Light adds, so that every
+// state is a sum.
 std::vector<Eigen::MatrixXd> LuminanceOf(const FittedRoom& fitted, const std::vector<LitRoom>& lit,
                                          const RegisteredView& view, int width_px, int height_px) {
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
   const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
   Eigen::Matrix3Xd directions = DirectionsOf(camera, world_from_cam.linear(), width_px, height_px);
-  // Corners outside the lens's circle: the axis stands in for them, the photo shows nothing there.
+  // Corners outside the lens's image circle take the axis instead, since the photo shows nothing there.
   const Eigen::Vector3d axis = world_from_cam.linear().col(2);
   for (auto direction : directions.colwise()) {
     if (!direction.allFinite()) direction = axis;
@@ -90,7 +91,7 @@ std::vector<Eigen::MatrixXd> LuminanceOf(const FittedRoom& fitted, const std::ve
   return luminance;
 }
 
-// The part of a photo; the prediction is to come.
+// Fills in the photo's part; the prediction follows later.
 ComparedView ReducedPhoto(const LuminanceImage& image, const std::string& view, int width_px) {
   ComparedView compared;
   compared.view = view;
@@ -110,7 +111,7 @@ void Predict(const std::vector<Eigen::MatrixXd>& of_luminaire, const Eigen::Vect
   view.predicted = PlaneOf(luminance.col(3), width, height);
 }
 
-// The value that a share of the finite ones lies below; 0 where there are none.
+// Returns the value that the given share of the finite ones lies below; 0 where there are none.
 double QuantileOf(std::vector<float> values, double share) {
   values.erase(std::remove_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }),
                values.end());
@@ -128,7 +129,8 @@ ImagePlane ResidualPercent(const ComparedView& view, double scale) {
   return (view.predicted > 0).select(residual, ImagePlane::Constant(residual.rows(), residual.cols(), kNaN));
 }
 
-// Blue where the photo is darker than predicted, red where brighter, white between; grey: not told.
+// Colours are blue where the photo is darker than predicted, red where it is brighter, white between, and
+// grey where it has no residual.
 DisplayPicture DivergingPicture(const ImagePlane& percent) {
   const Eigen::Vector3d low(33, 86, 165), middle(250, 250, 250), high(178, 34, 34);
   DisplayPicture picture{static_cast<int>(percent.cols()), static_cast<int>(percent.rows()), {}};
@@ -172,11 +174,12 @@ int WidthFor(const Camera& camera, size_t pictures, int max_pixels) {
   return std::clamp(static_cast<int>(width), 16, std::min(kMaxWidthPx, camera.width_px));
 }
 
-// Photos that can be compared: of registered views, with a luminaire on. By state in the session's order.
+// Holds photos that can be compared: those of registered views with a luminaire on, by state in the session's
+// order.
 struct StatePhotos {
   std::string state;
   Eigen::VectorXd dimming;
-  std::vector<const SessionPhoto*> photo_of_view;  // null: none in this state
+  std::vector<const SessionPhoto*> photo_of_view;  // null: no photo in this state
   std::vector<ComparedView> views;
 };
 
@@ -229,8 +232,7 @@ void CompareView(const FittedRoom& fitted, const Session& session, const PhotoCo
   tbb::parallel_for(size_t{0}, states.size(), [&](size_t s) {
     const SessionPhoto* photo = states[s].photo_of_view[index];
     if (photo == nullptr) return;
-    compared[s] = ReducedPhoto(
-        Corrected(ReadLuminance(session, *photo, camera), corrections, session, *photo), view.view, width_px);
+    compared[s] = ReducedPhoto(ReadCorrected(session, *photo, camera, corrections), view.view, width_px);
   });
   std::vector<Eigen::MatrixXd> luminance;
   for (size_t s = 0; s < states.size(); ++s) {

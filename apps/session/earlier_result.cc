@@ -1,9 +1,11 @@
 #include "apps/session/earlier_result.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/text/artifact.h"
+#include "apps/text/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 
@@ -23,7 +25,7 @@ void Replace(SessionLuminaire& luminaire, const json& fitted, FluxUnit unit, con
     throw InputError({path, 0}, "luminaires",
                      "expected fluxes in lm, but that of " + Quoted(luminaire.id) +
                          " is relative; run the fit with a luxmeter reading that sets the scale");
-  luminaire.line = std::max(luminaire.line, 1);  // it is described now
+  luminaire.line = std::max(luminaire.line, 1);  // > 0: the luminaire is described now
   luminaire.position_m = VectorFrom(fitted.at("position_m"));
   luminaire.aim = VectorFrom(fitted.at("aim"));
   luminaire.flux_lm = flux.get<double>();
@@ -70,12 +72,24 @@ std::runtime_error NotWhole(const std::string& path, const json::exception& e) {
 
 }  // namespace
 
+std::string ResultFileOf(const std::string& named) {
+  namespace fs = std::filesystem;
+  return fs::is_directory(named) ? (fs::path(named) / "result.json").string() : named;
+}
+
+std::string RunFolderOf(const std::string& named) {
+  const std::filesystem::path path = named;
+  if (path.filename() != "result.json") return named;
+  return path.has_parent_path() ? path.parent_path().string() : ".";
+}
+
 json ReadResult(const std::string& path) {
   json result = ReadJson(path);
   if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
     throw InputError({path, 0}, "format",
                      "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
                      "wrote");
+  AddPresentKeys(result);
   return result;
 }
 

@@ -1,7 +1,7 @@
-// A session whose luminaires and reflectances are those of an earlier fit.
+// Replaces a session's luminaires and reflectances by those of an earlier fit.
 //
-// What the result holds replaces what the session says; what the fit did not determine stays as the session
-// has it, and is missing where that says nothing.
+// Values of the result replace those of the session. A value that the fit did not determine stays as the
+// session has it, and is missing where the session does not give it.
 //
 // Throws std::runtime_error naming the file where it is no result of luxfit, or one without fluxes in lm.
 #ifndef LUXFIT_APPS_SESSION_EARLIER_RESULT_H_
@@ -14,15 +14,20 @@
 
 namespace luxfit {
 
-// The same with luminaires alone, which no fit then changes; reflectances stay the session's.
+// Replaces the luminaires alone, which no fit then changes. Reflectances stay the session's.
 Session WithLuminairesOf(Session session, const std::string& path);
 
-// Fluxes of a fit without an absolute scale are relative: refused, or taken as they are.
+// Fluxes of a fit without an absolute scale are relative: kLumen refuses them, kAny takes them as they are.
 enum class FluxUnit { kLumen, kAny };
 Session WithResult(Session session, const std::string& path, FluxUnit unit = FluxUnit::kLumen);
 
-// OUT/result.json. Throws where the file is something else.
+// Reads OUT/result.json. Throws where the file is something else.
 nlohmann::json ReadResult(const std::string& path);
+
+// An earlier result is named everywhere in one of two ways: the folder of its run, or the result.json in it.
+// Return the file and the folder that such a name stands for; other names stay as they are.
+std::string ResultFileOf(const std::string& named);
+std::string RunFolderOf(const std::string& named);
 
 }  // namespace luxfit
 

@@ -26,7 +26,7 @@ bool IsNothing(const std::string& state) {
   return words.count(Lower(state)) > 0;
 }
 
-// A, B2, lamp1, desk_spot: names of things rather than of occasions.
+// Tells names of things (A, B2, lamp1, desk_spot) from names of occasions.
 bool IsLuminaireName(const std::string& state) {
   const std::string lower = Lower(state);
   const bool has_digit = lower.find_first_of("0123456789") != std::string::npos;
@@ -40,7 +40,7 @@ struct Split {
   std::string first, last;
 };
 
-// At the last _ or -.
+// Splits the name at the last _ or -.
 Split SplitName(const std::string& stem) {
   const size_t at = stem.find_last_of("_-");
   if (at == std::string::npos || at == 0 || at + 1 == stem.size()) return {stem, ""};
@@ -53,7 +53,8 @@ bool IsNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Half of the photos and more share their view with another, and no two share both.
+// Tells whether at least half of the photos share their view with another, and no two share both view and
+// state.
 bool IsOfSharedViews(const std::vector<NamedPhoto>& photos) {
   std::map<std::string, size_t> of_view;
   std::set<std::pair<std::string, std::string>> pairs;

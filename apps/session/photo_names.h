@@ -1,12 +1,12 @@
-// What the names of photos tell: which show one view, and what was on in each.
+// Guesses from the names of photos which of them show one view, and what was on in each.
 //
 //   day1/IMG_1.png, day2/IMG_1.png    the same names in several folders: folder = state, name = view
-//   v00_A.png, v00_all.png            two names and more that share what is before the last _ or -:
-//   view_state;
+//   v00_A.png, v00_all.png            two names and more that share the part before the last _ or -:
+//                                     view_state;
 //                                     state_view where the first part is a word for a state (all, off, ...)
 //   anything else, numbers for states every photo is a view of its own, all in one state
 //
-// Guesses, for `luxfit init` to write down and a person to check.
+// `luxfit init` writes the guesses down for a person to check.
 #ifndef LUXFIT_APPS_SESSION_PHOTO_NAMES_H_
 #define LUXFIT_APPS_SESSION_PHOTO_NAMES_H_
 
@@ -25,12 +25,13 @@ struct PhotoNames {
   std::string because;
 };
 
-// Paths relative to the folder of the photos.
+// `files` are paths relative to the folder of the photos.
 PhotoNames GuessViewsAndStates(const std::vector<std::string>& files);
 
-// What may be on in each state, by its name: nothing (off, dark, ambient, none), the one luminaire of that
-// name (A, B2, lamp1), else everything (all, on, full, and occasions such as evening, whose dimming nobody
-// can guess). Where no name looks like a luminaire's, every other one is taken for one.
+// Guesses from its name what is on in a state. Names such as off, dark, ambient and none mean nothing; the
+// name of a luminaire (A, B2, lamp1) means that one. All other names (all, on, full, and occasions such as
+// evening, whose dimming cannot be guessed) mean everything. Where no name looks like a luminaire's, every
+// other name is taken for one.
 struct GuessedState {
   std::string id;
   std::vector<std::string> luminaires;

@@ -114,7 +114,7 @@ std::string Vector3Toml(const Eigen::Vector3d& v) {
   return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x(), v.y(), v.z());
 }
 
-// "+x", or the angle from +x where it lies along no axis.
+// Returns "+x", or the angle from +x where the direction lies along no axis.
 std::string DirectionName(const Eigen::Vector3d& direction) {
   for (int axis = 0; axis < 2; ++axis) {
     if (std::abs(direction[axis]) > 0.999)
@@ -175,7 +175,7 @@ ReportTargets DefaultTargets(const Scene& scene) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d u = floor->edge_u.normalized(), v = floor->edge_v.normalized();
   const Eigen::Vector3d centre = floor->origin + 0.5 * (floor->edge_u + floor->edge_v) + kSeatedEyeM * up;
-  // Just off the wall: a head leans against nothing.
+  // Seated observers keep a small distance from the wall.
   constexpr double kOffWallM = 0.2;
   const double half_u = 0.5 * floor->edge_u.norm() - kOffWallM,
                half_v = 0.5 * floor->edge_v.norm() - kOffWallM;

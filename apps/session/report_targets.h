@@ -1,14 +1,14 @@
-// What the light of a room is held against: areas and observers of a TOML that the user edits.
+// Reads the targets of a room's light: areas and observers of a TOML file that the user edits.
 //
 //   [[area]]    id, task | average_lx, uniformity, ugr; height_m, polygon_m | origin_m, edge_u_m, edge_v_m;
 //               margin_m, spacing_m
 //   [[observer]] id, eye_m, looking; ugr
 //
-// A `task` is a row of EN 12464-1:2021, table 34 (offices) or 9 (traffic zones); keys beside it go before it.
-// Without a polygon or edges an area is the whole floor, at height_m, less margin_m. Absent requirements are
-// empty optionals: statistics are given, and nothing is held against them.
+// A `task` is a row of EN 12464-1:2021, table 34 (offices) or 9 (traffic zones); keys beside it take
+// precedence. Without a polygon or edges an area is the whole floor at height_m, less margin_m. Absent
+// requirements are empty optionals: statistics are still computed, and compared with nothing.
 //
-// Throws std::runtime_error("FILE:LINE: key: expected X, got Y; mend").
+// Throws std::runtime_error("FILE:LINE: key: expected X, got Y; remedy").
 // Source: docs/report.md, "Targets".
 #ifndef LUXFIT_APPS_SESSION_REPORT_TARGETS_H_
 #define LUXFIT_APPS_SESSION_REPORT_TARGETS_H_
@@ -19,11 +19,10 @@
 #include <vector>
 
 #include "forward/views/illuminance_plane.h"
-#include "forward/views/work_plane.h"
 
 namespace luxfit {
 
-// A row of the standard.
+// Holds one row of the standard.
 struct LightingTask {
   std::string key, name;
   double average_lx = 0, uniformity = 0, ugr = 0;
@@ -38,7 +37,7 @@ struct TargetArea {
   double margin_m = kStandardMargin;
   double spacing_m = 0;                    // 0: EN 12464-1
   std::vector<Eigen::Vector2d> polygon_m;  // empty: none
-  std::optional<IlluminancePlane> plane;   // of edges that were given
+  std::optional<IlluminancePlane> plane;   // from the edges, where they are given
 };
 
 struct TargetObserver {
@@ -56,11 +55,11 @@ struct ReportTargets {
 
 ReportTargets ReadTargets(const std::string& path);
 
-// The floor at 0.75 m held against office work (writing, typing, reading), seen by seated observers in the
-// middle of each side of it. Nothing where the scene has no floor.
+// Returns the default targets: the floor at 0.75 m for office work (writing, typing, reading), and seated
+// observers at the middle of each of its sides. Returns nothing where the scene has no floor.
 ReportTargets DefaultTargets(const Scene& scene);
 
-// As a file that ReadTargets reads.
+// Writes the targets as a file that ReadTargets reads.
 std::string TargetsToml(const ReportTargets& targets);
 
 }  // namespace luxfit

@@ -40,8 +40,8 @@ std::string ReadName(const TomlCursor& root, const std::string& path) {
   return fs::path(AbsolutePath(path)).parent_path().filename().string();
 }
 
-// A camera without intrinsics is calibrated: from images of a board, or of the room's surveyed tags, which
-// the session's own photos show.
+// Checks that a camera without intrinsics can be calibrated: from images of a board, or from the room's
+// surveyed tags, which the session's own photos show.
 void ExpectCalibrationTargets(const TomlCursor& root, const TomlCursor& cameras, const Session& session) {
   for (const TomlCursor& table : cameras.Elements("a list of tables [[camera]]")) {
     if (table.Find("intrinsics")) continue;
@@ -53,7 +53,7 @@ void ExpectCalibrationTargets(const TomlCursor& root, const TomlCursor& cameras,
   }
 }
 
-// The tables need the states, and a session without [states] has the one that its tables name.
+// Reads the tables, which need the states. A session without [states] has the one state that its tables name.
 Session WithTables(const TomlCursor& root, const std::string& folder, Session session) {
   const auto photos = root.Find("photos");
   const auto luxmeter = root.Find("luxmeter");
@@ -77,7 +77,7 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
   return session;
 }
 
-// A start is given for views that there are.
+// Checks that [registration] start names existing views.
 void CheckStartViews(const TomlCursor& registration, const std::vector<SessionPhoto>& photos) {
   const auto start = registration.Find("start");
   if (!start) return;
@@ -92,7 +92,8 @@ void CheckStartViews(const TomlCursor& registration, const std::vector<SessionPh
   }
 }
 
-// A session with [lights] is of an object: it has no room, and its lights are no luminaires of one.
+// Checks a session with [lights]. It is that of an object: it has no room, and its lights are not luminaires
+// of a room.
 void ExpectObjectSession(const TomlCursor& root) {
   const auto lights = root.Find("lights");
   if (!lights) return;
@@ -106,7 +107,7 @@ void ExpectObjectSession(const TomlCursor& root) {
   }
 }
 
-// What there is of a model's files.
+// Returns the files of a model that exist.
 std::vector<std::string> ColmapModelFiles(const std::string& folder) {
   std::vector<std::string> files;
   if (folder.empty()) return files;
@@ -120,7 +121,7 @@ std::vector<std::string> ColmapModelFiles(const std::string& folder) {
   return files;
 }
 
-// Every file of the session, each once, in the order of the format.
+// Returns every file of the session once, in the order of the format.
 std::vector<std::string> InputFiles(const Session& session) {
   std::vector<std::string> files{session.path};
   const auto add = [&](const std::string& file) {
@@ -169,7 +170,7 @@ Session ReadSession(const std::string& path) {
     session.registration = ReadRegistrationSection(*registration, folder);
   if (const auto cameras = root.Find("camera")) {
     session.cameras = ReadCameras(*cameras, folder);
-    // An object's photos are taken as orthographic: no lens is asked for.
+    // Photos of an object are taken as orthographic, so no lens is needed.
     if (!root.Find("lights")) ExpectCalibrationTargets(root, *cameras, session);
   }
   if (const auto calibration = root.Find("calibration"))

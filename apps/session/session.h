@@ -1,11 +1,11 @@
-// The session: one TOML file and the tables it names, read, checked and resolved to absolute paths.
+// Reads a session, one TOML file and the tables that it names, and checks it; paths become absolute.
 //
-// Units are those of the format: m, s, lm, lx; `scene.unit` is turned into metres per mesh unit. What the
-// file leaves out is an empty optional or an empty list, never a made-up value.
+// Units are those of the format: m, s, lm, lx. `scene.unit` is converted to metres per mesh unit. A value
+// that the file leaves out is an empty optional or an empty list, never an invented value.
 //
 // Throws std::runtime_error("FILE:LINE: key: expected ..., got ...") for anything malformed: unknown keys
 // (with the nearest known one), missing files, wrong headers, decimal commas, unknown camera, state or
-// luminaire names, duplicate ids.
+// luminaire names, and duplicate ids.
 //
 // Source: docs/session-format.md.
 #ifndef LUXFIT_APPS_SESSION_SESSION_H_
@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/lens/lens_kind.h"
+#include "calib/lens/lens_family.h"
 #include "calib/luminance/response.h"
 #include "calib/luminance/vignetting.h"
 #include "calib/targets/board.h"
@@ -31,26 +31,26 @@ struct SessionScene {
   double metres_per_unit = 1;
   std::string unit = "m";
   std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance, in [0, 1)
-  int line = 0;                                             // of [scene.albedo], else of [scene]
+  int line = 0;                                             // line of [scene.albedo], else of [scene]
 };
 
 struct SessionTags {
   std::string family = "tag36h11";
   std::string map_path;  // empty: no map was given
   std::vector<SurveyedTag> survey;
-  double size_m = 0;  // of every tag, where there is no map; 0: not given
+  double size_m = 0;  // side of every tag where there is no map; 0: not given
 };
 
 struct SessionRegistration {
   std::string method = "auto";  // tags | colmap | both | auto
-  std::string colmap_model;     // absolute path of a folder; empty: none
-  // Roughly where the camera of each of these views stood, in the scene's frame; empty or three and more.
+  std::string colmap_model;     // absolute path of its folder; empty: none
+  // Rough places of the cameras of these views in the scene's frame; empty, or three and more.
   std::map<std::string, Eigen::Vector3d> start_positions_m;
 };
 
 struct SessionCamera {
   std::string id;
-  std::string intrinsics;  // absolute path; empty: to be had from the calibration images
+  std::string intrinsics;  // absolute path; empty: calibrated from images
   std::optional<Board> board;
   std::vector<std::string> calibration_images;  // absolute paths, sorted; empty: none
   std::string response = "linear";              // linear | estimate | file
@@ -58,18 +58,18 @@ struct SessionCamera {
   std::string vignetting = "none";              // none | estimate | file
   std::string vignetting_path;
   std::string calibration_corners;              // absolute path of a corners.vnl; empty: corners are found
-  std::optional<Eigen::Array2i> image_size_px;  // of cameras whose corners come without images
+  std::optional<Eigen::Array2i> image_size_px;  // where corners come without images
   double black_level_counts = 0;
   double cdm2_per_count_s = 0;  // 0: unknown
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
-  int line = 0;  // of its [[camera]]
-  // Filled in by the linearize stage.
-  std::optional<CameraResponse> response_curve;  // none: linear
-  std::optional<Vignetting> vignetting_model;    // of a flat field; none: V = 1, or estimated from surfaces
-  double full_scale_counts = 65535;              // of its photos, above black for RAW
+  int line = 0;  // line of its [[camera]]
+  // The linearize stage fills these in.
+  std::optional<CameraResponse> response_curve;  // absent: linear
+  std::optional<Vignetting> vignetting_model;  // from a flat field; absent: V = 1, or estimated from surfaces
+  double full_scale_counts = 65535;            // counts of its photos, above black for RAW
 };
 
-// One file of a bracket.
+// Holds one file of a bracket.
 struct SessionExposure {
   std::string file;
   // exposure_s * (iso / iso of the camera's first photo) * (f-number of that / f-number)^2, as corrected.
@@ -82,10 +82,10 @@ struct SessionPhoto {
   int camera = 0;    // index into cameras
   std::string view;
   std::string state;
-  double exposure_s = 0;  // 0: the table leaves it to the file
+  double exposure_s = 0;  // 0: the photo's own metadata states it
   std::optional<double> f_number, iso;
   int line = 0;  // in the photo table
-  // Filled in by the linearize stage, which makes one photo of the rows of one view, state and camera:
+  // The linearize stage fills this in: it makes one photo of the rows of one view, state and camera, with the
   // longest exposure first.
   std::vector<SessionExposure> bracket;
 };
@@ -95,18 +95,18 @@ struct SessionState {
   std::map<std::string, double> dimming;  // luminaire id -> 0..1
 };
 
-// An object under distant lights switched in turn, seen from one place: photometric stereo.
+// Describes an object under distant lights switched in turn, seen from one place: photometric stereo.
 struct SessionLights {
   struct Light {
     Eigen::Vector3d to_light = Eigen::Vector3d::UnitZ();  // unit; x right, y up, z towards the camera
     double strength = 1;
   };
-  std::string view, mask;                       // of the object; the mask's absolute path
-  std::string directions_path;                  // of the table; empty: from the mirror sphere
-  std::map<std::string, Light> light_of_state;  // empty likewise
-  double direction_sigma_deg = 0;               // of the table; 0: exact
+  std::string view, mask;       // view of the object; absolute path of its mask
+  std::string directions_path;  // path of the table; empty: directions come from the mirror sphere
+  std::map<std::string, Light> light_of_state;  // empty: directions come from the mirror sphere
+  double direction_sigma_deg = 0;               // sigma of the directions in the table; 0: exact
   std::string mirror_view, mirror_mask;         // empty: no mirror sphere
-  bool strengths_known = true;                  // alike, or as in the table
+  bool strengths_known = true;                  // all equal, or as in the table
   std::string ambient_state;                    // all lights off; empty: none
   std::string reference_mask;                   // pixels of known albedo; empty: none
   double reference_albedo = 0;
@@ -119,7 +119,7 @@ struct SessionLuminaire {
       "auto";  // isotropic | lambertian | cosine_power | table | auto | a file as the session has it
   std::string photometry_path;  // absolute path of that .ies or .ldt; empty: none
   std::optional<double> cosine_exponent;
-  std::vector<double> gamma_deg, cd_per_klm;  // of a given table; empty: to be estimated
+  std::vector<double> gamma_deg, cd_per_klm;  // nodes of a given table; empty: to be estimated
   Eigen::ArrayXXd emission;                   // cells along the heading x across; empty: even
   std::optional<std::string> shape;           // point | disc | rectangle | sphere
   std::vector<double> size_m;
@@ -129,8 +129,8 @@ struct SessionLuminaire {
   std::optional<Eigen::Vector3d> heading;  // unit
   std::optional<double> flux_lm;
   std::optional<double> flux_sigma_lm;
-  bool is_held = false;  // an earlier fit's: nothing of it is estimated
-  int line = 0;          // of its [[luminaire]]; 0: only named in [states]
+  bool is_held = false;  // from an earlier fit: nothing of it is estimated
+  int line = 0;          // line of its [[luminaire]]; 0: only named in [states]
 };
 
 enum class ReadingRole { kFit, kScale, kCheck };
@@ -144,27 +144,27 @@ struct SessionReading {
   double illuminance_lx = 0;  // 0 where not measured; without ambient light after the linearize stage
   double ambient_lx = 0;      // measured there with all luminaires off, and subtracted
   ReadingRole role = ReadingRole::kCheck;
-  std::string sensor;  // of several of one meter, each with a gain of its own; empty: the meter's only one
+  std::string sensor;  // id where a meter has several sensors, each with its own gain; else empty
   int line = 0;        // in the readings table
 };
 
 struct SessionLuxmeter {
   std::string readings_path;  // empty: no [luxmeter] section
   std::vector<SessionReading> readings;
-  SensorResponse response;       // of every reading
-  std::string sensitivity_path;  // of its table; empty: cosine
+  SensorResponse response;       // for every reading
+  std::string sensitivity_path;  // path of its table; empty: cosine
   std::string meter_class;       // "", L, A, B, C
-  // Relative standard uncertainty of one reading that all readings share (calibration), from the class; 0 if
-  // none given.
+  // Relative standard uncertainty that all readings share (calibration), from the class; 0 where none is
+  // given.
   double common_sigma = 0;
-  double sensor_sigma = 0.03;  // relative, of the gains of sensors that the table names
+  double sensor_sigma = 0.03;  // relative sigma of the gains of sensors that the table names
 };
 
-// How cameras without intrinsics are calibrated.
+// Says how cameras without intrinsics are calibrated.
 struct SessionCalibration {
   std::optional<LensKind> lens;    // absent: chosen
   std::string back_end = "mrcal";  // mrcal | opencv
-  std::string rig = "auto";        // auto | numbers | order | none: what makes a set of images
+  std::string rig = "auto";        // auto | numbers | order | none: how images form sets
   double focal_start_px = 0;       // 0: scanned
 };
 
@@ -191,13 +191,13 @@ struct Session {
 
 Session ReadSession(const std::string& path);
 
-// With luminaires "lamp1", "lamp2", ... until there are `count`, on in every state.
+// Adds luminaires "lamp1", "lamp2", ... until there are `count`, each on in every state.
 Session WithMoreLuminaires(Session session, int count);
 
-// Among session.states; -1: none of that name.
+// Returns the index into session.states; -1 where no state has that name.
 int StateIndex(const Session& session, const std::string& id);
 
-// Of its first camera; the format's own where there is none.
+// Returns the luminance weights of the session's first camera; those of the format where there is no camera.
 Eigen::Vector3d LuminanceWeights(const Session& session);
 
 }  // namespace luxfit

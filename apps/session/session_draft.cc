@@ -120,7 +120,7 @@ std::vector<std::string> ToDo(const SessionDraft& draft) {
   const auto count = std::count_if(draft.photos.begin(), draft.photos.end(),
                                    [](const DraftPhoto& photo) { return !photo.exposure.exposure_s; });
   if (count > 0)
-    list.push_back(fmt::format("photos.csv: exposure_s of {} photos: they do not say it themselves", count));
+    list.push_back(fmt::format("photos.csv: exposure_s of {} photos: their metadata lacks it", count));
   if (draft.tags.empty())
     list.push_back(
         "[tags]: survey where the tags hang, and give the map: without it the scene's frame is not known");

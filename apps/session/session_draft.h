@@ -1,4 +1,4 @@
-// A session file as `luxfit init` writes it: from what was found, with every guess marked.
+// Writes a session file as `luxfit init` does, from what was found, with every guess marked.
 #ifndef LUXFIT_APPS_SESSION_SESSION_DRAFT_H_
 #define LUXFIT_APPS_SESSION_SESSION_DRAFT_H_
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/session/photo_names.h"
-#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/exposure.h"
 
 namespace luxfit {
 
@@ -40,7 +40,7 @@ std::string SessionText(const SessionDraft& draft);
 std::string PhotoTable(const SessionDraft& draft);
 std::string ReadingsTemplate();
 
-// What is left to do before `luxfit run`, in the order of its weight.
+// Lists what is left to do before `luxfit run`, the most important first.
 std::vector<std::string> ToDo(const SessionDraft& draft);
 
 }  // namespace luxfit

@@ -23,7 +23,7 @@ std::vector<std::string> FileNamesIn(const fs::path& folder) {
   return names;
 }
 
-// A folder's name in which no character is a wildcard.
+// Escapes a folder's name, so that no character is a wildcard.
 std::string WithoutMagic(const std::string& name) {
   std::string escaped;
   for (const char c : name) {

@@ -1,6 +1,7 @@
-// Files that a session names: found beside it, or reported with the nearest name that is there.
+// Finds the files that a session names, beside it or by an absolute path.
 //
-// Throws std::runtime_error("FILE:LINE: key: expected an existing file, got ...; mend").
+// Throws std::runtime_error("FILE:LINE: key: expected an existing file, got ...; remedy"), with the nearest
+// name that is there.
 #ifndef LUXFIT_APPS_SESSION_SESSION_FILES_H_
 #define LUXFIT_APPS_SESSION_SESSION_FILES_H_
 
@@ -12,18 +13,18 @@
 
 namespace luxfit {
 
-// `name` relative to `folder` (or absolute), as the user would write it; checked to be a file.
+// Returns the path of an existing file. `name` is relative to `folder` or absolute, as the user writes it.
 std::string FindFile(const SourcePlace& place, const std::string& key, const std::string& folder,
                      const std::string& name);
 std::string FindFile(const TomlCursor& value, const std::string& folder);
 
-// The files that a pattern names (`*`, `?` and `[...]` as in a shell, in folders too), absolute, sorted; at
-// least one.
+// Returns the files that a pattern names (`*`, `?` and `[...]` as in a shell, in folders too), at least one.
+// Paths are absolute and sorted.
 std::vector<std::string> FindFiles(const TomlCursor& pattern, const std::string& folder);
 
 std::string AbsolutePath(const std::string& path);
 
-// The lower-case extension with its dot, "" for none.
+// Returns the lower-case extension with its dot, "" where there is none.
 std::string ExtensionOf(const std::string& name);
 
 }  // namespace luxfit

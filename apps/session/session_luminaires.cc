@@ -6,12 +6,13 @@
 
 #include "apps/session/session_files.h"
 #include "apps/text/suggest.h"
+#include "forward/luminaire/distribution_ops.h"
 
 namespace luxfit {
 namespace {
 
-// How many lengths a shape has: the disc's and the sphere's diameter; the rectangle's along heading and
-// across.
+// Returns how many lengths a shape has: one for the diameter of a disc or sphere; two for a rectangle, along
+// the heading and across it.
 const std::map<std::string, size_t>& LengthsOfShape() {
   static const std::map<std::string, size_t> lengths{
       {"point", 0}, {"disc", 1}, {"rectangle", 2}, {"sphere", 1}};
@@ -50,7 +51,7 @@ std::optional<std::string> ReadShape(const TomlCursor& table, size_t lengths_giv
                                    : "; write " + std::string(expected == 1 ? "[0.2]" : "[0.6, 0.6]")));
 }
 
-// Reads a sigma, which means nothing without its value.
+// Reads a sigma, which has no meaning without its value.
 std::optional<double> ReadSigma(const TomlCursor& table, const std::string& key, const std::string& value_key,
                                 const std::string& unit) {
   const auto sigma = table.Find(key);
@@ -67,14 +68,21 @@ std::vector<double> ReadNumbers(const TomlCursor& list, const std::string& what)
   return numbers;
 }
 
-// The nodes of photometry = "table": both lists, or none where they are to be estimated.
+// Checks a key that only some distributions have.
+void ExpectBeside(const TomlCursor& key, const SessionLuminaire& luminaire,
+                  bool (*has_it)(const DistributionOps&)) {
+  const DistributionOps* const ops = FindDistribution(luminaire.photometry);
+  if (ops != nullptr && has_it(*ops)) return;
+  throw key.Error("expected it beside photometry = " + ListQuoted(PhotometryNames(has_it)) +
+                  " only, got photometry = " + Quoted(luminaire.photometry) + "; remove one of them");
+}
+
+// Reads the nodes of photometry = "table": both lists, or none where they are to be estimated.
 void ReadTable(const TomlCursor& table, SessionLuminaire& luminaire) {
   const auto gamma = table.Find("gamma_deg"), intensity = table.Find("cd_per_klm");
   if (!gamma && !intensity) return;
   const TomlCursor& given = gamma ? *gamma : *intensity;
-  if (luminaire.photometry != "table")
-    throw given.Error("expected it beside photometry = \"table\" only, got photometry = " +
-                      Quoted(luminaire.photometry) + "; remove one of them");
+  ExpectBeside(given, luminaire, [](const DistributionOps& ops) { return ops.has_table; });
   if (!gamma || !intensity)
     throw given.Error(
         "expected gamma_deg and cd_per_klm together, got one of them; add the other, or remove it to have "
@@ -96,7 +104,7 @@ void ReadTable(const TomlCursor& table, SessionLuminaire& luminaire) {
     throw intensity->Error("expected an intensity above 0, got none; correct them");
 }
 
-// Rows of cells along the heading, one after the other across.
+// Reads rows of cells: each row runs along the heading, and the rows follow one another across it.
 Eigen::ArrayXXd ReadEmission(const TomlCursor& emission, const SessionLuminaire& luminaire) {
   if (luminaire.shape.value_or("") != "rectangle")
     throw emission.Error("expected it beside shape = \"rectangle\" only; add the shape, or remove the key");
@@ -127,13 +135,13 @@ SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folde
     if (IsPhotometricFile(luminaire.photometry)) {
       luminaire.photometry_path = AbsolutePath(FindFile(*photometry, folder));
     } else {
-      photometry->OneOf({"auto", "isotropic", "lambertian", "cosine_power", "table"});
+      std::vector<std::string> names = PhotometryNames();
+      names.insert(names.begin(), "auto");
+      photometry->OneOf(names);
     }
   }
   if (const auto exponent = table.Find("cosine_exponent")) {
-    if (luminaire.photometry != "cosine_power")
-      throw exponent->Error("expected it beside photometry = \"cosine_power\" only, got photometry = " +
-                            Quoted(luminaire.photometry) + "; remove one of them");
+    ExpectBeside(*exponent, luminaire, [](const DistributionOps& ops) { return ops.has_exponent; });
     luminaire.cosine_exponent = exponent->NumberAbove(0, "");
   }
   ReadTable(table, luminaire);
@@ -156,7 +164,7 @@ SessionLuminaire ReadLuminaire(const TomlCursor& table, const std::string& folde
   return luminaire;
 }
 
-// How many there are; only a session without [states] may leave that open.
+// Reads how many luminaires there are; only a session without [states] may leave the number open.
 void ReadCount(const TomlCursor& session, NamedLuminaires& named) {
   const auto known = static_cast<int>(named.luminaires.size());
   const bool has_states = session.Find("states").has_value();

@@ -1,8 +1,8 @@
-// The sections [states], [luminaires] and [[luminaire]] of a session.
+// Reads the sections [states], [luminaires] and [[luminaire]] of a session.
 //
 // Throws std::runtime_error("FILE:LINE: key: ...") for dimmings outside 0..1, ids that two luminaires share,
-// shapes whose size does not fit, sigmas without a value, and values that the format knows and this version
-// cannot serve.
+// shapes whose size does not fit, sigmas without a value, and values of the format that this version does not
+// support.
 //
 // Source: docs/session-format.md.
 #ifndef LUXFIT_APPS_SESSION_SESSION_LUMINAIRES_H_
@@ -16,17 +16,18 @@
 
 namespace luxfit {
 
-// In file order, dimming of each luminaire named.
+// Reads the states in file order, with the dimming of each luminaire that they name.
 std::vector<SessionState> ReadStates(const TomlCursor& section);
 
-// [[luminaire]] in file order, then those that only [states] names, in its order.
+// Holds the luminaires of [[luminaire]] in file order, followed by those that only [states] names, in its
+// order.
 struct NamedLuminaires {
   std::vector<SessionLuminaire> luminaires;
-  int count = 0;                    // of all there are, named or not
+  int count = 0;                    // number of all luminaires, named or not
   bool count_is_estimated = false;  // there may be more
-  int max = 12;                     // of those
+  int max = 12;                     // largest count
 };
-// `session` is the whole document, `folder` where it lies.
+// `session` is the whole document, `folder` the folder that it lies in.
 NamedLuminaires ReadLuminaires(const TomlCursor& session, const std::string& folder);
 
 }  // namespace luxfit

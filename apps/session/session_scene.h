@@ -1,6 +1,7 @@
-// The sections [scene], [tags] and [registration] of a session.
+// Reads the sections [scene], [tags] and [registration] of a session.
 //
-// Each takes its section and the session's folder, and throws std::runtime_error("FILE:LINE: key: ...").
+// Each function takes its section and the session's folder, and throws std::runtime_error("FILE:LINE: key:
+// ...").
 //
 // Source: docs/session-format.md.
 #ifndef LUXFIT_APPS_SESSION_SESSION_SCENE_H_

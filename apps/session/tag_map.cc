@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Rounded figures of a survey (0.71 for sqrt(1/2)) stay inside; a vector given in other units or a wrong axis
-// does not.
+// The tolerances admit rounded figures of a survey (0.71 for sqrt(1/2)). They refuse a vector in other units
+// or a wrong axis.
 constexpr double kUnitTolerance = 0.02;
 constexpr double kPerpendicularTolerance = 0.02;
 
@@ -33,7 +33,7 @@ int LineOf(const std::string& text, size_t byte) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::min(byte, text.size()), '\n'));
 }
 
-// Where each element of the outermost list begins: the parser keeps no lines.
+// Finds where each element of the outermost list begins, because the parser keeps no lines.
 std::vector<int> ElementLines(const std::string& text) {
   std::vector<int> lines;
   int depth = 0, line = 1;
@@ -59,7 +59,7 @@ std::vector<int> ElementLines(const std::string& text) {
   return lines;
 }
 
-// One entry of the list, with the place that its errors name.
+// Holds one entry of the list with the place that its errors name.
 struct TagEntry {
   const Json& json;
   SourcePlace place;
@@ -147,7 +147,7 @@ Json ParseText(const std::string& path, const std::string& text) {
     const int line = LineOf(text, error.byte > 0 ? error.byte - 1 : 0);
     throw InputError({path, line}, "",
                      std::string("expected valid JSON, got ") + error.what() +
-                         "; mend the line, or the comma or bracket before it");
+                         "; fix the line, or the comma or bracket before it");
   }
 }
 

@@ -9,7 +9,7 @@
 
 #include "apps/text/name_pattern.h"
 #include "apps/text/suggest.h"
-#include "inverse/check/luxmeter_findings.h"
+#include "inverse/check/luxmeter_check.h"
 
 namespace luxfit {
 namespace {
@@ -19,14 +19,14 @@ using nlohmann::json;
 std::vector<NamedReading> CheckedReadings(const json& luxmeter) {
   std::vector<NamedReading> readings;
   for (const json& entry : luxmeter) {
-    const bool both = entry["measured_lux"].is_number() && entry["predicted_lux"].is_number();
+    const bool both = entry["measured_lx"].is_number() && entry["predicted_lx"].is_number();
     if (!both || entry["role"] != "check") continue;
     NamedReading named{entry["id"].get<std::string>(), entry["state"].get<std::string>(), {}};
-    named.reading.measured_lx = entry["measured_lux"].get<double>();
-    named.reading.predicted_lx = entry["predicted_lux"].get<double>();
-    named.reading.measured_sigma_lx = entry.value("measured_sigma_lux", 0.0);
-    // Of results before the model error was written, the prediction's own sigma alone.
-    named.reading.predicted_sigma_lx = entry.value("prediction_sigma_lux", entry.value("sigma_lux", 0.0));
+    named.reading.measured_lx = entry["measured_lx"].get<double>();
+    named.reading.predicted_lx = entry["predicted_lx"].get<double>();
+    named.reading.measured_sigma_lx = entry.value("measured_sigma_lx", 0.0);
+    // Results that do not hold the model error give the prediction's own sigma alone.
+    named.reading.predicted_sigma_lx = entry.value("prediction_sigma_lx", entry.value("sigma_lx", 0.0));
     readings.push_back(named);
   }
   return readings;
@@ -51,9 +51,9 @@ json Row(const std::string& of, const std::vector<NamedReading>& readings, const
   const LuxmeterSummary summary = SummarizeLuxmeter(own);
   return {{"of", of},
           {"readings", summary.readings_checked},
-          {"mean_lux", own.empty() ? 0 : measured_lx / static_cast<double>(own.size())},
+          {"mean_lx", own.empty() ? 0 : measured_lx / static_cast<double>(own.size())},
           {"mean_error_percent", measured_lx > 0 ? 100 * difference_lx / measured_lx : 0},
-          {"mean_abs_error_lux", summary.mean_abs_error_lx},
+          {"mean_abs_error_lx", summary.mean_abs_error_lx},
           {"mean_abs_error_percent", summary.mean_abs_error_percent},
           {"max_abs_error_percent", summary.max_abs_error_percent}};
 }
@@ -99,7 +99,7 @@ json CheckJson(const json& luxmeter, const std::string& subset) {
 }
 
 std::string CheckText(const json& check) {
-  // Hundreds of ids would bury the rest; result.json has them all.
+  // Hundreds of ids would hide the rest; result.json has them all.
   constexpr size_t kMaxRows = 64;
   const json& table = check["table"];
   if (table.empty() || table[0]["readings"] == 0) return "";
@@ -110,9 +110,9 @@ std::string CheckText(const json& check) {
     const json& row = table[i];
     text +=
         fmt::format("{:<12} {:>8} {:>8.1f} {:>14} {:>17.2f} {:>11.2f} {:>11.2f}\n",
-                    row["of"].get<std::string>(), row["readings"].get<int>(), row["mean_lux"].get<double>(),
+                    row["of"].get<std::string>(), row["readings"].get<int>(), row["mean_lx"].get<double>(),
                     fmt::format("{:+.2f}", row["mean_error_percent"].get<double>()),
-                    row["mean_abs_error_lux"].get<double>(), row["mean_abs_error_percent"].get<double>(),
+                    row["mean_abs_error_lx"].get<double>(), row["mean_abs_error_percent"].get<double>(),
                     row["max_abs_error_percent"].get<double>());
   }
   const json& common = check["common"];

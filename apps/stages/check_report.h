@@ -1,8 +1,8 @@
-// Luxmeter readings against their predictions: what `luxfit check` prints and `check` in result.json holds.
+// Compares luxmeter readings with their predictions, for `luxfit check` and for `check` in result.json.
 //
-// Rows of the table: one a meter id over its states, the mean of all, the mean of a subset. Errors are in lx
-// and in percent of the mean reading of the row, as published comparisons give them. Only readings with role
-// "check" that were measured and predicted take part.
+// The table has one row for each meter id over its states, the mean of all, and the mean of a subset. Errors
+// are in lx and in percent of the mean reading of the row, as published comparisons give them. Only readings
+// with role "check" that were measured and predicted are used.
 #ifndef LUXFIT_APPS_STAGES_CHECK_REPORT_H_
 #define LUXFIT_APPS_STAGES_CHECK_REPORT_H_
 
@@ -11,11 +11,11 @@
 
 namespace luxfit {
 
-// `luxmeter`: that of result.json. `subset`: a pattern, id or id@state; empty: none. Throws
+// `luxmeter` is that of result.json. `subset` is a pattern, id or id@state; empty means none. Throws
 // std::runtime_error where it matches no reading that checks.
 nlohmann::json CheckJson(const nlohmann::json& luxmeter, const std::string& subset = "");
 
-// The same for the terminal.
+// Formats the comparison for the terminal.
 std::string CheckText(const nlohmann::json& check);
 
 }  // namespace luxfit

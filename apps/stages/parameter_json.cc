@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-// The key of the owner; empty: nobody owns it.
+// Returns the key of the owner; empty where nothing owns the parameter.
 std::string OwnerKey(ParameterKind kind) {
   switch (kind) {
     case ParameterKind::kLuminaire:

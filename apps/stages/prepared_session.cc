@@ -6,10 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/stages/internal/linearize.h"
-#include "apps/stages/internal/linearized_json.h"
-#include "apps/stages/internal/observations_json.h"
-#include "apps/stages/registration_json.h"
+#include "apps/stages/linearize/linearize.h"
+#include "apps/stages/linearize/linearized_json.h"
+#include "apps/stages/linearize/photo_store.h"
+#include "apps/stages/observe/observations_json.h"
+#include "apps/stages/register/registration_json.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/artifact.h"
 #include "inverse/check/luxmeter_check.h"
@@ -27,7 +28,7 @@ Eigen::Vector3d VectorOrNan(const json& v) {
   return {at(0), at(1), at(2)};
 }
 
-// Photos can be laid over the mesh only where the poses are in its frame.
+// Photos match the mesh only where the poses are in its frame.
 void ExpectSceneFrame(const Session& session, const RegisteredSession& registered) {
   if (!session.scene || registered.registration.frame.rfind("tag ", 0) != 0) return;
   throw std::runtime_error(
@@ -37,7 +38,7 @@ void ExpectSceneFrame(const Session& session, const RegisteredSession& registere
       registered.registration.frame + ", got nothing; add start or tags.map");
 }
 
-// Of the readings that only check; NaN: there are none.
+// Returns the mean error of the readings that only check; NaN where there are none.
 double MeanCheckError(const Session& session, const RoomFit& fit) {
   std::vector<CheckedReading> checked;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
@@ -56,29 +57,42 @@ double MeanCheckError(const Session& session, const RoomFit& fit) {
 Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context) {
   session = WithoutAmbientReadings(std::move(session), context);
   if (session.photos.empty()) return session;
-  const json product = CachedStage("linearize", inputs.linearize, context,
-                                   [&] { return LinearizedJson(LinearizePhotos(session, context)); });
-  return WithLinearized(std::move(session), product);
+  if (const auto kept = KeptProduct("linearize", inputs.linearize, context))
+    return WithLinearized(std::move(session), *kept);
+  const StageMark mark(context);
+  session = LinearizePhotos(std::move(session), context);
+  KeepProduct("linearize", inputs.linearize, context, mark, LinearizedJson(session));
+  return session;
 }
 
 RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context) {
   if (linearized.photos.empty()) return {};
-  return RegistrationFromJson(CachedStage("register", inputs.registration, context, [&] {
-    return RegistrationJson(linearized, RegisterSession(ForRegistration(linearized), context));
-  }));
+  if (const auto kept = KeptProduct("register", inputs.registration, context))
+    return RegistrationFromJson(*kept);
+  const StageMark mark(context);
+  RegisteredSession registered = RegisterSession(ForRegistration(linearized), context);
+  KeepProduct("register", inputs.registration, context, mark, RegistrationJson(linearized, registered));
+  return registered;
+}
+
+SessionObservations ObserveKept(const Session& linearized, const RegisteredSession& registered,
+                                const Room& room, const SessionInputs& inputs, RunContext& context) {
+  if (registered.registration.views.empty()) return {};
+  if (const auto kept = KeptProduct("observe", inputs.observe, context)) return ObservationsFromJson(*kept);
+  const StageMark mark(context);
+  SessionObservations observed = ObserveSession(ForObservation(linearized), registered, room, context);
+  KeepProduct("observe", inputs.observe, context, mark, ObservationsJson(observed));
+  return observed;
 }
 
 PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context) {
   Room room = LoadRoom(session, context);
   session = LinearizeKept(std::move(session), inputs, context);
+  context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, inputs, context);
   ExpectSceneFrame(session, registered);
-  SessionObservations observed;
-  if (!registered.registration.views.empty()) {
-    observed = ObservationsFromJson(CachedStage("observe", inputs.observe, context, [&] {
-      return ObservationsJson(ObserveSession(ForObservation(session), registered, room, context));
-    }));
-  }
+  SessionObservations observed = ObserveKept(session, registered, room, inputs, context);
+  context.photos.reset();
   return {std::move(session), std::move(room), std::move(registered), std::move(observed.observations),
           std::move(observed.seen)};
 }

@@ -1,9 +1,11 @@
-// A session up to its observations: what a fit starts from, and those who fit again and again (charts).
+// Prepares a session up to its observations, for a fit, or for many fits of the same session (charts).
 //
-//   linearize -> register -> observe, each kept in OUT/stages/ (apps/stages/stage_cache.h) and run again only where
-//   something that it depends on has changed
+//   linearize -> register -> observe
 //
-// What a refit changes afterwards is the room, the observations or the readings. Throws as the stages do
+// Each stage is kept in OUT/stages/ (apps/stages/stage_cache.h) and runs again only where something that it
+// depends on has changed.
+//
+// A refit may then change the room, the observations or the readings. Throws as the stages do
 // (apps/stages/stages.h), and where a session with a room has poses in another frame than the mesh's.
 #ifndef LUXFIT_APPS_STAGES_PREPARED_SESSION_H_
 #define LUXFIT_APPS_STAGES_PREPARED_SESSION_H_
@@ -22,31 +24,31 @@ struct PreparedSession {
   Session session;  // linearized
   Room room;
   RegisteredSession registered;
-  std::vector<Observation> observations;  // of every view, not thinned
-  std::vector<SeenPlace> seen;            // where luminaires show
+  std::vector<Observation> observations;  // from every view, not thinned
+  std::vector<SeenPlace> seen;            // where luminaires are visible
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
 PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context);
 PreparedSession PrepareSession(const Session& session, RunContext& context);
 
-// The first stages alone.
+// Runs the first stages alone.
 Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context);
 RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context);
 
-// A fit of the session in that state, by all that `luxfit fit` does, without progress lines. Throws as
-// FitSession does.
+// Fits the session in that state with all steps of `luxfit fit`, without progress lines. Throws as FitSession
+// does.
 struct Refit {
   RoomFit fit;
-  std::vector<EstimatedLuminaire> luminaires;  // those found; flux relative where no scale is known
+  std::vector<EstimatedLuminaire> luminaires;  // as found; flux is relative where no scale is known
   std::vector<std::string> warnings;           // codes
   bool undetermined = false;                   // exit status 1
-  double mean_lux_error_percent = 0;           // of the readings that only check; NaN: there are none
+  double mean_lux_error_percent = 0;           // over the readings that only check; NaN: there are none
 };
 Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,
                    const RunContext& context);
 
-// True luminaires from a JSON file {"lamps": [{"id", "position", "flux_lm"}, ...]}, as that of
-// fixtures/office. Throws std::runtime_error naming the file where it is of another form.
+// Reads true luminaires from a JSON file {"lamps": [{"id", "position", "flux_lm"}, ...]}, such as that of
+// fixtures/office. Throws std::runtime_error naming the file where it has another form.
 std::vector<EstimatedLuminaire> ReadTruth(const std::string& path);
 
 }  // namespace luxfit

@@ -6,6 +6,8 @@
 
 #include "apps/stages/check_report.h"
 #include "apps/stages/stages.h"
+#include "apps/text/former_keys.h"
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/check/luxmeter_check.h"
 #include "inverse/fit/fit_outcome.h"
@@ -51,20 +53,14 @@ json MaterialsJson(const Session& session, const Room& room, const RoomFit& fit)
                                       : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
     material["albedo_rgb"] = determined && rgb.allFinite() ? Vector(rgb) : json();
     material["sigma"] = determined ? json(sigma) : json();
-    // Also of those that nobody saw: light is reflected by them all the same.
+    // Unseen materials are listed too, since they also reflect light.
     material["albedo_in_model"] = fit.fit.state.albedo[static_cast<Eigen::Index>(m)];
     materials.push_back(material);
   }
   return materials;
 }
 
-// Whether light or shape depends on the heading.
-bool DependsOnHeading(const Luminaire& luminaire) {
-  return luminaire.shape == LuminaireShape::kRectangle ||
-         (luminaire.distribution == Distribution::kMeasured && !IsSymmetricAboutAim(*luminaire.table));
-}
-
-// Nodes as in session files: cd per 1000 lm of the luminaire's flux.
+// Returns nodes as in session files: cd per 1000 lm of the luminaire's flux.
 void AddNodes(const IntensityTable& table, json& entry) {
   constexpr double kDegrees = 180 / M_PI;
   for (size_t j = 0; j < table.gamma_rad.size(); ++j) {
@@ -87,8 +83,8 @@ json SizeJson(const Luminaire& luminaire) {
 }
 
 std::string PhotometryName(const Luminaire& luminaire, const SessionLuminaire& given) {
-  if (luminaire.distribution != Distribution::kMeasured) return ToString(luminaire.distribution);
-  return given.photometry_path.empty() ? "table" : given.photometry;
+  const DistributionOps& ops = OpsOf(luminaire.distribution);
+  return ops.has_table && !given.photometry_path.empty() ? given.photometry : ops.photometry;
 }
 
 json LuminairesJson(const Session& session, const RoomFit& fit, const std::vector<LuminaireFiles>& files) {
@@ -96,6 +92,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
     if (!fit.luminaire_found[k]) continue;
     const Luminaire& luminaire = fit.fit.state.luminaires[k];
+    const DistributionOps& ops = OpsOf(luminaire.distribution);
     const int index = static_cast<int>(k);
     const auto sigma = [&](LuminaireQuantity quantity) {
       return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
@@ -109,7 +106,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
                   {"photometry", PhotometryName(luminaire, session.luminaires[k])},
                   {"shape", ToString(luminaire.shape)},
                   {"size_m", SizeJson(luminaire)}};
-    // Without an absolute scale a number of lumens would be made up.
+    // Without an absolute scale, lumens would have no meaning.
     const bool is_known = IsFluxKnown(fit, k);
     entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();
     entry["flux_sigma_lm"] =
@@ -125,9 +122,9 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
       constexpr double kDegrees = 180 / M_PI;
       entry["heading_sigma_deg"] = kDegrees * sigma(LuminaireQuantity::kHeading);
     }
-    if (entry["photometry"] == "table") AddNodes(*luminaire.table, entry);
+    if (ops.has_table && session.luminaires[k].photometry_path.empty()) AddNodes(*luminaire.table, entry);
     if (luminaire.emission.size() > 0) entry["emission"] = EmissionJson(luminaire.emission);
-    if (luminaire.distribution == Distribution::kCosinePower) {
+    if (ops.has_exponent) {
       entry["cosine_exponent"] = luminaire.cosine_exponent;
       entry["cosine_exponent_sigma"] = luminaire.cosine_exponent * sigma(LuminaireQuantity::kExponent);
     }
@@ -155,28 +152,29 @@ void AddLuxmeter(const Session& session, const RoomFit& fit, json& result) {
     json entry = {{"id", given.id},
                   {"state", given.state},
                   {"role", RoleName(given.role)},
-                  {"measured_lux", given.is_measured ? json(reading.measured_lx) : json()}};
+                  {"measured_lx", given.is_measured ? json(reading.measured_lx) : json()}};
     const bool predicted = prediction.is_known;
-    entry["predicted_lux"] = predicted ? json(reading.predicted_lx) : json();
-    entry["direct_lux"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx) : json();
-    entry["sigma_lux"] = predicted ? json(prediction.parameter_sigma_lx) : json();
-    entry["prediction_sigma_lux"] = predicted ? json(prediction.sigma_lx) : json();
+    entry["predicted_lx"] = predicted ? json(reading.predicted_lx) : json();
+    entry["direct_lx"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx) : json();
+    entry["sigma_lx"] = predicted ? json(prediction.parameter_sigma_lx) : json();
+    entry["prediction_sigma_lx"] = predicted ? json(prediction.sigma_lx) : json();
     if (predicted) {
       constexpr double kTwoSided95 = 1.96;
-      entry["interval95_lux"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * prediction.sigma_lx),
-                                 reading.predicted_lx + kTwoSided95 * prediction.sigma_lx};
+      entry["interval95_lx"] = {std::max(0.0, reading.predicted_lx - kTwoSided95 * prediction.sigma_lx),
+                                reading.predicted_lx + kTwoSided95 * prediction.sigma_lx};
     }
-    if (given.is_measured) entry["measured_sigma_lux"] = reading.measured_sigma_lx;
+    if (given.is_measured) entry["measured_sigma_lx"] = reading.measured_sigma_lx;
     if (given.is_measured && predicted) entry["z"] = ZScore(reading);
     result["luxmeter"].push_back(entry);
     if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
   }
   const LuxmeterSummary summary = SummarizeLuxmeter(checked);
-  result["summary"] = {{"mean_abs_error_lux", summary.mean_abs_error_lx},
+  result["summary"] = {{"mean_abs_error_lx", summary.mean_abs_error_lx},
                        {"mean_abs_error_percent", summary.mean_abs_error_percent},
                        {"max_abs_error_percent", summary.max_abs_error_percent},
                        {"readings_checked", summary.readings_checked}};
   result["check"] = CheckJson(result["luxmeter"]);
+  for (const char* part : {"luxmeter", "summary", "check"}) AddFormerKeys(result[part]);
 }
 
 json DirectShareJson(const DirectShare& share) {
@@ -219,7 +217,7 @@ json ResultJson(const Session& session, const Room& room, const RegisteredSessio
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
   result["luminaires"] = LuminairesJson(session, fit, files);
-  // Relative luminance per cd/m2: what makes the camera a luminance meter.
+  // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
   AddLuxmeter(session, fit, result);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);

@@ -6,8 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "apps/stages/given_luminaire.h"
-#include "inverse/fit/count_luminaires.h"
+#include "apps/stages/simulate/given_luminaire.h"
+#include "forward/luminaire/distribution_ops.h"
+#include "inverse/fit/fit_room.h"
 
 namespace luxfit {
 namespace {
@@ -15,7 +16,8 @@ namespace {
 KnownPhotometry PhotometryOf(const SessionLuminaire& given) {
   if (!given.photometry_path.empty()) return KnownPhotometry::kFile;
   if (given.photometry == "auto") return KnownPhotometry::kNothing;
-  if (given.photometry != "table") return KnownPhotometry::kLobe;
+  const DistributionOps* const ops = FindDistribution(given.photometry);
+  if (ops == nullptr || !ops->has_table) return KnownPhotometry::kLobe;
   return given.gamma_deg.empty() ? KnownPhotometry::kTableOpen : KnownPhotometry::kTable;
 }
 
@@ -58,7 +60,7 @@ Meter MeterOf(const Session& session) {
   return meter;
 }
 
-// By material of the room's mesh: the luminance reflectance that the session gives.
+// Returns the luminance reflectance that the session gives, by material of the room's mesh.
 std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room) {
   std::vector<std::optional<double>> known(room.scene.materials.size());
   for (size_t m = 0; session.scene && m < known.size(); ++m) {
@@ -69,7 +71,7 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
   return known;
 }
 
-// Relative luminance 1 is full scale at 1 s.
+// Returns the given scale of the camera. A relative luminance of 1 is full scale at 1 s.
 std::optional<double> CameraScale(const Session& session) {
   if (session.cameras.empty() || !(session.cameras[0].cdm2_per_count_s > 0)) return std::nullopt;
   const SessionCamera& camera = session.cameras[0];

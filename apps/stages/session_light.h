@@ -10,14 +10,14 @@
 
 namespace luxfit {
 
-// One a state, by session.luminaires.
+// Returns one vector for each state, in the order of session.luminaires.
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session);
 
 // Throws as ReadGivenLuminaire does.
 RoomObservations RoomObservationsOf(const Session& session, const Room& room,
                                     const SessionObservations& observed);
 
-// The session with as many luminaires as its light asks for, where it leaves their number open.
+// Returns the session with as many luminaires as its light requires, where it leaves their number open.
 Session WithCountedLuminaires(Session session, const Room& room, const SessionObservations& observed,
                               RunContext& context);
 

@@ -35,54 +35,43 @@ void Write(const std::string& path, const json& kept) {
   WriteText(path, std::string(bytes.begin(), bytes.end()));
 }
 
-// What a stage says beside its product.
-class Sayings {
- public:
-  explicit Sayings(const RunContext& context)
-      : choices_(context.choices.size()), warnings_(context.warnings.size()) {}
-
-  json Since(const RunContext& context) const {
-    json choices = json::array(), warnings = json::array();
-    for (size_t i = choices_; i < context.choices.size(); ++i) {
-      const Choice& c = context.choices[i];
-      choices.push_back({c.what, c.chosen, c.among, c.because});
-    }
-    for (size_t i = warnings_; i < context.warnings.size(); ++i) {
-      const Warning& w = context.warnings[i];
-      warnings.push_back({w.code, w.message, w.remedy});
-    }
-    return {{"choices", choices}, {"warnings", warnings}, {"undetermined", context.undetermined}};
+json Sayings(const RunContext& context, const StageMark& mark) {
+  json choices = json::array(), warnings = json::array();
+  for (size_t i = mark.choices; i < context.choices.size(); ++i) {
+    const Choice& c = context.choices[i];
+    choices.push_back({c.what, c.chosen, c.among, c.because});
   }
-
-  static void Repeat(const json& said, RunContext& context) {
-    for (const json& c : said.at("choices"))
-      context.choices.push_back({c.at(0), c.at(1), c.at(2).get<std::vector<std::string>>(), c.at(3)});
-    for (const json& w : said.at("warnings")) context.warnings.push_back({w.at(0), w.at(1), w.at(2)});
-    context.undetermined = context.undetermined || said.at("undetermined").get<bool>();
+  for (size_t i = mark.warnings; i < context.warnings.size(); ++i) {
+    const Warning& w = context.warnings[i];
+    warnings.push_back({w.code, w.message, w.remedy});
   }
+  return {{"choices", choices}, {"warnings", warnings}, {"undetermined", context.undetermined}};
+}
 
- private:
-  size_t choices_, warnings_;
-};
+void Repeat(const json& said, RunContext& context) {
+  for (const json& c : said.at("choices"))
+    context.choices.push_back({c.at(0), c.at(1), c.at(2).get<std::vector<std::string>>(), c.at(3)});
+  for (const json& w : said.at("warnings")) context.warnings.push_back({w.at(0), w.at(1), w.at(2)});
+  context.undetermined = context.undetermined || said.at("undetermined").get<bool>();
+}
 
 }  // namespace
 
-json CachedStage(const std::string& stage, const StageInputs& inputs, RunContext& context,
-                 const std::function<json()>& compute) {
-  const std::string path = PathOf(context.out, stage);
-  // Its artifact for people must be there as well.
-  const bool is_whole = std::filesystem::exists(context.out + "/stages/" + stage + ".json");
-  if (const auto kept = ReadKept(path); is_whole && kept && kept->at("inputs").get<StageInputs>() == inputs) {
-    const StageTimer timer(context, stage, "nothing that it depends on has changed: that of the last run");
-    Sayings::Repeat(kept->at("said"), context);
-    context.reused_stages.push_back(stage);
-    return kept->at("product");
-  }
-  const Sayings before(context);
-  json product = compute();
-  Write(path,
-        {{"format", kFormat}, {"inputs", inputs}, {"said", before.Since(context)}, {"product", product}});
-  return product;
+std::optional<json> KeptProduct(const std::string& stage, const StageInputs& inputs, RunContext& context) {
+  // The readable artifact of the stage must exist as well.
+  if (!std::filesystem::exists(context.out + "/stages/" + stage + ".json")) return std::nullopt;
+  const auto kept = ReadKept(PathOf(context.out, stage));
+  if (!kept || kept->at("inputs").get<StageInputs>() != inputs) return std::nullopt;
+  const StageTimer timer(context, stage, "nothing that it depends on has changed: that of the last run");
+  Repeat(kept->at("said"), context);
+  context.reused_stages.push_back(stage);
+  return kept->at("product");
+}
+
+void KeepProduct(const std::string& stage, const StageInputs& inputs, const RunContext& context,
+                 const StageMark& mark, const json& product) {
+  Write(PathOf(context.out, stage),
+        {{"format", kFormat}, {"inputs", inputs}, {"said", Sayings(context, mark)}, {"product", product}});
 }
 
 std::optional<StageInputs> LastInputs(const std::string& out, const std::string& stage) {

@@ -1,13 +1,12 @@
-// What a stage gave, kept in OUT/stages/NAME.cbor for as long as nothing that it depends on changes.
+// Keeps the product of a stage in OUT/stages/NAME.cbor as long as nothing that it depends on changes.
 //
-// With the product come the choices and warnings that the stage recorded, so that a run which goes on from it
-// says the same. A file that cannot be read counts as none.
+// The choices and warnings that the stage recorded are kept with the product, so that a run that reuses it
+// reports the same. A file that cannot be read is ignored.
 //
 // Source: RFC 8949 (CBOR).
 #ifndef LUXFIT_APPS_STAGES_STAGE_CACHE_H_
 #define LUXFIT_APPS_STAGES_STAGE_CACHE_H_
 
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -17,15 +16,25 @@
 
 namespace luxfit {
 
-// The product of an earlier run where `inputs` are those it had, else what `compute` gives, which is then
-// kept.
-nlohmann::json CachedStage(const std::string& stage, const StageInputs& inputs, RunContext& context,
-                           const std::function<nlohmann::json()>& compute);
+// Returns the product that an earlier run kept where `inputs` are the same as then, and reports what that run
+// reported. Returns nothing where the stage has to run.
+std::optional<nlohmann::json> KeptProduct(const std::string& stage, const StageInputs& inputs,
+                                          RunContext& context);
 
-// The inputs that a stage last ran with in this folder; nothing where it has not.
+// Marks where the reports of a stage begin.
+struct StageMark {
+  explicit StageMark(const RunContext& context)
+      : choices(context.choices.size()), warnings(context.warnings.size()) {}
+  size_t choices, warnings;
+};
+// Keeps a product for the next run, with what the stage reported since `mark`.
+void KeepProduct(const std::string& stage, const StageInputs& inputs, const RunContext& context,
+                 const StageMark& mark, const nlohmann::json& product);
+
+// Returns the inputs that a stage last ran with in this folder; nothing where it has not run.
 std::optional<StageInputs> LastInputs(const std::string& out, const std::string& stage);
 
-// Inputs for others' use: a whole run, whose product is result.json itself.
+// Keeps the inputs of a whole run, whose product is result.json itself.
 void KeepInputs(const std::string& out, const std::string& stage, const StageInputs& inputs);
 
 }  // namespace luxfit

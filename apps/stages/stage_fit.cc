@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-// Parameters as fitted (logarithms as such) with their whole covariance, for those who propagate it further.
+// Writes parameters as fitted (logarithms included) with their whole covariance, for further propagation.
 void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
   nlohmann::json artifact = ProvenanceJson("luxfit-fit-1", context.provenance);
   artifact["message"] = fit.message;

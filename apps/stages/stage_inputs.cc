@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/stages/view_tags.h"
+#include "apps/stages/register/view_tags.h"
 #include "apps/text/artifact.h"
 
 namespace luxfit {
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Path and content; of a folder those of its files.
+// Hashes path and content of a file; for a folder those of its files.
 std::string HashPath(const std::string& path) {
   if (path.empty()) return "";
   std::error_code error;
@@ -72,7 +72,7 @@ class Parts {
     return files;
   }
 
-  // Those that registration looks at.
+  // Returns the photos that registration looks at.
   std::set<std::string> RegisteredPhotos() const {
     std::set<std::string> combinations, files;
     for (const SessionPhoto& photo : session_.photos)

@@ -1,4 +1,4 @@
-// What the outcome of each stage depends on: a hash for every part of a session, by a name that a user
+// Hashes what the outcome of each stage depends on: every part of a session, under a name that a user
 // understands.
 //
 //   linearize   cameras, photos
@@ -7,8 +7,8 @@
 //   observe     both, states
 //   result      everything, readings and luminaires too
 //
-// Files count by path and content, tables of the session file by their keys and values (not by comments or
-// layout), and the program by its own bytes: another build redoes everything.
+// Files count by path and content, and tables of the session file by their keys and values (not by comments
+// or layout). The program counts by its own bytes: another build repeats everything.
 #ifndef LUXFIT_APPS_STAGES_STAGE_INPUTS_H_
 #define LUXFIT_APPS_STAGES_STAGE_INPUTS_H_
 
@@ -25,14 +25,16 @@ using StageInputs = std::map<std::string, std::string>;
 struct SessionInputs {
   StageInputs linearize, registration, observe, result;
 };
-// Of a session as ReadSession gives it. `earlier_luminaires`: path of a result.json, empty: none.
+// Returns the inputs of a session as ReadSession gives it. `earlier_luminaires` is the path of a result.json;
+// empty: none.
 SessionInputs InputsOfStages(const Session& session, const std::string& earlier_luminaires);
 
-// The session without what that stage's inputs do not name, so that it cannot depend on it.
+// Return the session without the parts that the stage's inputs do not name, so that the stage cannot depend
+// on them.
 Session ForRegistration(Session session);
 Session ForObservation(Session session);
 
-// Names that are in one of the two only, or differ: sorted.
+// Returns the names that only one of the two has, or whose hashes differ, sorted.
 std::vector<std::string> ChangedInputs(const StageInputs& before, const StageInputs& now);
 
 }  // namespace luxfit

@@ -20,17 +20,17 @@ void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
   for (const SurveyedTag& tag : session.tags.survey) centers.push_back(tag.center_in_world);
   const SurveyCheck check = CheckSurvey(scene, centers, session.scene->metres_per_unit);
   if (check.fits) return;
-  const std::string mend = check.better_unit.empty()
-                               ? "check that mesh and tag map share one frame"
-                               : fmt::format("the mesh fits with unit = \"{}\"", check.better_unit);
+  const std::string remedy = check.better_unit.empty()
+                                 ? "check that mesh and tag map share one frame"
+                                 : fmt::format("the mesh fits with unit = \"{}\"", check.better_unit);
   throw std::runtime_error(
       fmt::format("{}: scene.unit: expected the surveyed tags to lie on the mesh, but with unit = \"{}\" "
                   "a quarter of them are {:.3g} m and more away; {}",
-                  session.path, session.scene->unit, check.distance_m, mend));
+                  session.path, session.scene->unit, check.distance_m, remedy));
 }
 
-// Form factors take elements x patches x 4 bytes: a room in millimetres read as metres would ask for
-// petabytes.
+// Checks the size of the room. Form factors take elements x patches x 4 bytes: a room in millimetres that is
+// read as metres would take petabytes.
 void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOptions& options) {
   constexpr double kMaxElements = 1e6;
   double area_m2 = 0;
@@ -39,7 +39,7 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
   const Eigen::Vector3d size = scene.Bounds().sizes();
   throw std::runtime_error(fmt::format(
       "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the mesh is "
-      "{:.4g} m x {:.4g} m x {:.4g} m; is its unit another?",
+      "{:.4g} m x {:.4g} m x {:.4g} m; check the unit",
       session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
       size.x(), size.y(), size.z()));
 }

@@ -1,11 +1,12 @@
-// The stages of a run and what each hands on.
+// Declares the stages of a run and what each hands on.
 //
 //   scene -> linearize -> register -> observe -> fit -> result
 //
-// Stages read the session and what came before; they print progress on standard error and write nothing but
-// their own artifact in OUT/stages/. What the data do not determine is a warning, never an exception.
+// Each stage reads the session and the products of the stages before. It prints progress on standard error
+// and writes only its own artifact in OUT/stages/. Where the data determine too little, it warns and does not
+// throw.
 //
-// Throws std::runtime_error for what the user wrote wrong and only decoding shows (an 8-bit photo declared
+// Throws std::runtime_error for mistakes of the user that only decoding reveals (an 8-bit photo declared
 // linear, a mesh in another unit than declared, no tag in any view).
 #ifndef LUXFIT_APPS_STAGES_STAGES_H_
 #define LUXFIT_APPS_STAGES_STAGES_H_
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/session/photo_corrections.h"
 #include "apps/session/session.h"
 #include "apps/text/artifact.h"
 #include "calib/lens/camera.h"
@@ -31,23 +33,25 @@
 
 namespace luxfit {
 
+class PhotoStore;
 class ProgressLine;
 
-// What all stages share: where to write, and what was found on the way.
+// Holds what all stages share: where to write, and what was found on the way.
 struct RunContext : Findings {
   std::string out;
   Provenance provenance;
   std::map<std::string, double> timing_s;
-  std::map<std::string, double> expected_s;  // what stages took in the last run into that folder
-  std::shared_ptr<ProgressLine> progress;    // of the stage that runs, where lines are printed
-  std::vector<std::string> reused_stages;    // not run: those of the last run stand
+  std::map<std::string, double> expected_s;  // times of the stages in the last run into that folder
+  std::shared_ptr<ProgressLine> progress;    // for the running stage, where lines are printed
+  std::vector<std::string> reused_stages;    // not run: products of the last run are used
+  std::shared_ptr<PhotoStore> photos;        // decoded photos of the run's linearized session; may be null
   bool is_quiet = false;                     // no progress lines
 
   void Add(const Findings& more);
 };
 
-// Measures a stage from its making to its end, adds to context.timing_s, shows a progress line where one is
-// given.
+// Measures a stage from construction to destruction, adds the time to context.timing_s, and shows a progress
+// line where one is given.
 class StageTimer {
  public:
   StageTimer(RunContext& context, std::string stage, const std::string& line);
@@ -62,10 +66,10 @@ class StageTimer {
   std::shared_ptr<ProgressLine> progress_;
 };
 
-// One more of `total` is done of the stage that runs; from any thread.
+// Counts one more of `total` parts of the running stage as done. Any thread may call it.
 void Advance(const RunContext& context, size_t total);
 
-// The mesh of a session that has a [scene], checked against the tag survey, and what is wrong with it.
+// Loads the mesh of a session that has a [scene], checks it against the tag survey, and lists its defects.
 struct LoadedMesh {
   Scene scene;
   std::vector<MeshFinding> findings;
@@ -73,13 +77,14 @@ struct LoadedMesh {
 LoadedMesh LoadMesh(const Session& session);
 void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunContext& context);
 
-// That mesh with its form factors; an empty room where the session has no [scene].
+// Returns that mesh with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);
 
-// Photos as the later stages use them: one for each view, state and camera with its bracket of exposures, the
-// cameras with their response and vignetting. Writes OUT/stages/linearize.json.
+// Returns the session with its photos as the later stages use them. There is one for each view, state and
+// camera, with its bracket of exposures; cameras have their response and vignetting. Writes
+// OUT/stages/linearize.json.
 Session LinearizePhotos(Session session, RunContext& context);
-// That, and readings without ambient light.
+// Does the same, and removes ambient light from the readings.
 Session LinearizeSession(Session session, RunContext& context);
 
 struct RegisteredSession {
@@ -88,15 +93,21 @@ struct RegisteredSession {
 };
 RegisteredSession RegisterSession(const Session& session, RunContext& context);
 
-// What a view's pose comes from: tags | colmap | both.
+// Returns the source of a view's pose: tags | colmap | both.
 std::string MethodOf(const RegisteredView& view);
 
-// One photo of a linearized session as relative luminance, its bracket merged; checks that it is linear, or
-// its camera's response known, and of the camera's size.
+// Reads one photo of a linearized session as relative luminance, its bracket merged. Checks that the photo is
+// linear or its camera's response known, and that it has the camera's size.
 LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
+// Returns the same from the context's store, where it has one.
+std::shared_ptr<const LuminanceImage> ReadKept(const Session& session, const SessionPhoto& photo,
+                                               const Camera& camera, const RunContext& context);
+// Returns the same with what an earlier run found of the photo and its camera.
+LuminanceImage ReadCorrected(const Session& session, const SessionPhoto& photo, const Camera& camera,
+                             const PhotoCorrections& corrections);
 
-// What photos of registered views tell: relative luminance of every element in each, and the places where
-// luminaires show.
+// Holds what photos of registered views show: the relative luminance of every element in each, and the places
+// where luminaires are visible.
 struct SessionObservations {
   std::vector<Observation> observations;
   std::vector<SeenPlace> seen;
@@ -107,30 +118,30 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
 RoomFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
                    RunContext& context);
 
-// What a session gives in full, simulated: the artifact of OUT/stages/simulate.json, which it writes with
-// OUT/illuminance.csv (id,state,lux,direct_lux,indirect_lux of every reading). Patches, rays and bounces are
-// chosen for that error.
+// Simulates a session in which everything is given. Returns the artifact of OUT/stages/simulate.json, which
+// it writes with OUT/illuminance.csv (id, state, illuminance_lx, direct_lx, indirect_lx of every reading). Patches, rays
+// and bounces are chosen for the given error.
 nlohmann::json SimulateSession(const Session& session, double error_percent, RunContext& context);
 
-// Speed against accuracy of the forward model on such a session: writes OUT/chart.csv, OUT/chart.svg and
-// OUT/stages/chart.json, which it returns.
+// Charts speed against accuracy of the forward model on such a session. Writes OUT/chart.csv, OUT/chart.svg
+// and OUT/stages/chart.json, which it returns.
 struct ChartOptions {
-  double error_percent = 1;  // that the automatic choice is asked for
+  double error_percent = 1;  // error asked of the automatic choice
   double budget_s = 120;     // points that would take longer are skipped
-  int threads = 0;           // asked for; 0: all
+  int threads = 0;           // number asked for; 0: all
 };
 nlohmann::json ChartSession(const Session& session, const ChartOptions& options, RunContext& context);
 
-// Parts of any artifact.
+// Return parts that any artifact may have.
 nlohmann::json ChoicesJson(const RunContext& context);
 nlohmann::json WarningsJson(const RunContext& context);
 
-// Photometric files of a luminaire, relative to OUT; empty: none were written.
+// Names the photometric files of a luminaire, relative to OUT; empty where none were written.
 struct LuminaireFiles {
   std::string ies, ldt;
 };
 
-// OUT/result.json and, as text, the tables for the terminal. `registered` may be empty (no photos); `files`
+// Return OUT/result.json and the tables for the terminal. `registered` may be empty (no photos); `files` is
 // by luminaire.
 nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
                           const RoomFit& fit, const std::vector<LuminaireFiles>& files,

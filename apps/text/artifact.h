@@ -1,10 +1,11 @@
-// Files that luxfit writes: JSON artifacts that can be understood alone, put in place whole or not at all.
+// Writes and reads the files that luxfit makes: JSON artifacts that explain themselves, written whole or not
+// at all.
 //
-// Every artifact opens with format, version, command line and the hashes (XXH3, 128 bit) of the inputs it was
-// made from. A file is written under a temporary name beside its target and renamed, so readers never see
-// half of it.
+// Every artifact opens with its format, the version, the command line and the hashes of its inputs (XXH3, 128
+// bit). A file is written under a temporary name beside its target and then renamed, so that readers never
+// see half of it.
 //
-// Throws std::runtime_error naming the path when it cannot be written or read.
+// Throws std::runtime_error naming the path where it cannot be written or read.
 #ifndef LUXFIT_APPS_TEXT_ARTIFACT_H_
 #define LUXFIT_APPS_TEXT_ARTIFACT_H_
 
@@ -21,7 +22,7 @@ struct Provenance {
 
 nlohmann::json ProvenanceJson(const std::string& format, const Provenance& provenance);
 
-// Hexadecimal hash of a file's bytes.
+// Returns the hash of a file's bytes in hexadecimal.
 std::string HashFile(const std::string& path);
 std::string HashText(const std::string& text);
 

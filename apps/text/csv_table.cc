@@ -14,7 +14,7 @@
 namespace luxfit {
 namespace {
 
-constexpr char kDecimalCommaMend[] =
+constexpr char kDecimalCommaRemedy[] =
     "it looks like a decimal comma; save the table with decimal points (1.2) and commas between columns";
 
 std::string Trimmed(const std::string& text) {
@@ -135,7 +135,7 @@ void CheckFieldCount(const CsvTable& table, const CsvRow& row) {
     throw InputError(place, "", found + "; fill in or remove the row");
   for (size_t i = 0; i + 1 < row.fields.size(); ++i)
     if (ParseNumber(row.fields[i]) && ParseNumber(row.fields[i + 1]))
-      throw InputError(place, "", found + "; " + kDecimalCommaMend);
+      throw InputError(place, "", found + "; " + kDecimalCommaRemedy);
   throw InputError(place, "", found + "; put a field that holds a comma between double quotes");
 }
 
@@ -194,7 +194,7 @@ double CsvNumber(const CsvTable& table, const CsvRow& row, const std::string& co
   const std::optional<double> value = ParseNumber(text);
   if (value && std::isfinite(*value)) return *value;
   const std::string found = "expected a finite number, got " + Quoted(text);
-  if (HasDecimalComma(text)) throw CsvError(table, row, column, found + "; " + kDecimalCommaMend);
+  if (HasDecimalComma(text)) throw CsvError(table, row, column, found + "; " + kDecimalCommaRemedy);
   throw CsvError(table, row, column, found + "; write it like 1.2 or 3e-4, without a unit");
 }
 

@@ -1,12 +1,12 @@
-// A table of comma-separated values with a fixed header, kept with its line numbers.
+// Reads a table of comma-separated values with a fixed header, and keeps its line numbers.
 //
-// The header must be the expected columns in their order; optional columns may follow, each present or not.
-// Fields may be quoted ("a, b", "" for a quote); blanks around a field, empty lines, a byte-order mark and
-// CRLF are dropped. Numbers have a decimal point; a decimal comma is recognised and reported as such, for
-// tables come from spreadsheets.
+// The header must hold the expected columns in their order. Optional columns may follow in any selection.
+// Fields may be quoted ("a, b", "" for a quote). Blanks around a field, empty lines, a byte-order mark and
+// CRLF are dropped. Numbers have a decimal point. A decimal comma, which spreadsheets may write, is
+// recognised and reported as such.
 //
-// Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; mend") for anything else, for a control
-// character in a field, and for a table without rows.
+// Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; remedy") for anything else, for a
+// control character in a field, and for a table without rows.
 //
 // Source: RFC 4180.
 #ifndef LUXFIT_APPS_TEXT_CSV_TABLE_H_
@@ -36,15 +36,15 @@ struct CsvTable {
 
 CsvTable ReadCsvTable(const std::string& path, const CsvColumns& expected);
 
-// The field of a column; throws std::invalid_argument where the table has no such column.
+// Returns the field of a column. Throws std::invalid_argument where the table has no such column.
 const std::string& CsvText(const CsvTable& table, const CsvRow& row, const std::string& column);
 
 bool HasColumn(const CsvTable& table, const std::string& column);
 
-// The field as a finite number.
+// Returns the field as a finite number.
 double CsvNumber(const CsvTable& table, const CsvRow& row, const std::string& column);
 
-// An error at a row's line: `message` is "expected ..., got ...; mend".
+// Makes an error at a row's line. `message` is "expected ..., got ...; remedy".
 std::runtime_error CsvError(const CsvTable& table, const CsvRow& row, const std::string& column,
                             const std::string& message);
 

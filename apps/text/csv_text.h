@@ -1,7 +1,6 @@
-// A table of comma-separated values as text; fields are quoted where they need it.
+// Writes a table as comma-separated text, with quotes around fields that need them.
 //
-// Numbers are written with the digits that tell doubles apart where they have a meaning: nine. What is not
-// known (null, NaN) is an empty field.
+// Numbers are written with nine significant digits. A value that is not known (null, NaN) is an empty field.
 //
 // Source: RFC 4180 (lines end with LF).
 #ifndef LUXFIT_APPS_TEXT_CSV_TEXT_H_
@@ -15,12 +14,14 @@ namespace luxfit {
 
 std::string CsvField(double value);
 std::string CsvField(const std::string& text);
-// A number, text, or list of texts ("a; b"); nothing for null and for what is missing.
+// Returns the field of a number, a text or a list of texts ("a; b"). It is empty for null and for a missing
+// value.
 std::string CsvField(const nlohmann::json& value);
 
 std::string CsvLine(const std::vector<std::string>& fields);
 
-// One line an entry of a list of objects, by JSON pointers into each; the header comes first.
+// CsvOf writes a header and one line for each object of a list. JSON pointers into the object name the
+// fields.
 struct CsvColumn {
   std::string header, pointer;
 };

@@ -1,4 +1,4 @@
-// File names from the names that a user gave: letters, digits, - . and _ stay, all else becomes _.
+// Makes file names from names that a user gave: letters, digits, - . and _ stay, everything else becomes _.
 #ifndef LUXFIT_APPS_TEXT_FILE_STEM_H_
 #define LUXFIT_APPS_TEXT_FILE_STEM_H_
 
@@ -7,12 +7,13 @@
 
 namespace luxfit {
 
-// A path's last part.
+// Returns the last part of a path.
 std::string FileName(const std::string& path);
 
 std::string FileStem(const std::string& id);
 
-// One for each, no two alike even where case does not count: the later of two gets _2, _3, ...
+// Returns one stem for each name. No two are alike, even without regard to case: the later of two gets _2,
+// _3, ...
 std::vector<std::string> DistinctFileStems(const std::vector<std::string>& ids);
 
 }  // namespace luxfit

@@ -1,7 +1,7 @@
-// Eigen's vectors and matrices as JSON arrays and back; a matrix is a list of its rows.
+// Converts Eigen's vectors and matrices to JSON arrays and back; a matrix is a list of its rows.
 //
-// NaN and infinity become null, which is NaN again. Reading throws nlohmann::json::exception where the JSON
-// is of another kind.
+// NaN and infinity become null; null is read as NaN. Reading throws nlohmann::json::exception where the JSON
+// has another form.
 #ifndef LUXFIT_APPS_TEXT_JSON_VECTORS_H_
 #define LUXFIT_APPS_TEXT_JSON_VECTORS_H_
 

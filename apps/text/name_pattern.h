@@ -1,4 +1,4 @@
-// Patterns of names, in which * stands for any text, the empty one included.
+// Matches names against patterns in which * stands for any text, the empty one included.
 #ifndef LUXFIT_APPS_TEXT_NAME_PATTERN_H_
 #define LUXFIT_APPS_TEXT_NAME_PATTERN_H_
 
@@ -6,7 +6,7 @@
 
 namespace luxfit {
 
-// Whether the whole text matches the pattern.
+// Tells whether the whole text matches the pattern.
 bool MatchesPattern(const std::string& text, const std::string& pattern);
 
 }  // namespace luxfit

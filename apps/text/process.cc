@@ -37,7 +37,7 @@ int OpenLog(const ProcessOptions& options, const std::vector<std::string>& words
   return log;
 }
 
-// Between fork and exec only what is safe there: everything was made before.
+// Between fork and exec only async-signal-safe calls are allowed, so everything is prepared before.
 [[noreturn]] void BecomeProgram(char* const* arguments, char* const* environment, int log) {
   setpgid(0, 0);
   const int none = open("/dev/null", O_RDONLY);

@@ -1,6 +1,6 @@
-// A program run as a child process: its output goes to a log, its time is limited.
+// Runs a program as a child process, with its output in a log and its time limited.
 //
-// Throws std::runtime_error where the process cannot be made or the log not be written.
+// Throws std::runtime_error where the process cannot be started or the log cannot be written.
 #ifndef LUXFIT_APPS_TEXT_PROCESS_H_
 #define LUXFIT_APPS_TEXT_PROCESS_H_
 
@@ -11,19 +11,19 @@
 
 namespace luxfit {
 
-// A program that a command needs and that is not there: exit status 3.
+// Reports that a program which a command needs is missing: exit status 3.
 class MissingProgram : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Whether an executable of that name is on the PATH.
+// Tells whether an executable of that name is on the PATH.
 bool IsInstalled(const std::string& program);
 
 struct ProcessOptions {
   std::string log;          // file that standard output and standard error are appended to
   double time_limit_s = 0;  // 0: none; past it the process and its children are killed
-  std::map<std::string, std::string> environment;  // beside what is there
+  std::map<std::string, std::string> environment;  // added to the present environment
 };
 
 struct ProcessEnd {
@@ -35,7 +35,8 @@ struct ProcessEnd {
       const;  // "ended with status 1", "was killed by signal 6", "took longer than allowed"
 };
 
-// Waits for its end. The first word is the program, looked up on the PATH. Throws MissingProgram.
+// Runs the program and waits for its end. The first word names the program, which is looked up on the PATH.
+// Throws MissingProgram where it is not found.
 ProcessEnd RunProcess(const std::vector<std::string>& words, const ProcessOptions& options);
 
 }  // namespace luxfit

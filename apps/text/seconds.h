@@ -1,4 +1,4 @@
-// Seconds of a clock that never goes back, for how long something took.
+// Returns the seconds of a monotonic clock, to measure durations.
 #ifndef LUXFIT_APPS_TEXT_SECONDS_H_
 #define LUXFIT_APPS_TEXT_SECONDS_H_
 

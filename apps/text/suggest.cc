@@ -35,7 +35,7 @@ std::optional<std::string> NearestName(const std::string& name, const std::vecto
   for (const std::string& candidate : known) {
     const int distance = EditDistance(name, candidate);
     const int near = std::max(1, static_cast<int>(std::max(name.size(), candidate.size())) / 3);
-    // One character replaces another of a one-character name: that is no likeness.
+    // Two different one-character names are one replacement apart, yet not alike.
     const bool alike = distance < static_cast<int>(std::max(name.size(), candidate.size())) || distance == 0;
     if (distance > near || !alike || (nearest && distance >= least)) continue;
     nearest = candidate;
@@ -55,6 +55,11 @@ std::string ListNames(const std::vector<std::string>& names, int max_names) {
     list += names[i];
   }
   return shown < static_cast<int>(names.size()) ? list + ", ..." : list;
+}
+
+std::string ListQuoted(std::vector<std::string> names) {
+  std::transform(names.begin(), names.end(), names.begin(), Quoted);
+  return ListNames(names);
 }
 
 std::string DidYouMean(const std::string& name, const std::vector<std::string>& known) {

@@ -1,8 +1,8 @@
-// Names for messages: quoting, listing, and the known name nearest to a misspelt one.
+// Formats names for messages: quotes them, lists them, and finds the known name nearest to a misspelt one.
 //
-// Distance is the number of inserted, deleted, replaced or swapped neighbouring characters, upper and lower
-// case alike. A name is near when it is at most a third of the longer length away (at least 1), so that
-// "expozure" suggests "exposure" and "x" suggests nothing.
+// The distance counts inserted, deleted, replaced and swapped neighbouring characters, without regard to
+// case. A name is near where its distance is at most a third of the longer length (at least 1). "expozure"
+// therefore suggests "exposure", and "x" suggests nothing.
 //
 // Source: Damerau (1964), "A technique for computer detection and correction of spelling errors" (optimal
 // string alignment form).
@@ -17,7 +17,7 @@ namespace luxfit {
 
 int EditDistance(const std::string& a, const std::string& b);
 
-// The nearest of `known`; the first of equals; nothing where none is near.
+// Returns the nearest of `known`, the first among equals; nothing where none is near.
 std::optional<std::string> NearestName(const std::string& name, const std::vector<std::string>& known);
 
 // "\"text\""
@@ -25,6 +25,9 @@ std::string Quoted(const std::string& text);
 
 // "a, b or c"; at most `max_names` of them, then "...".
 std::string ListNames(const std::vector<std::string>& names, int max_names = 20);
+
+// "\"a\", \"b\" or \"c\""
+std::string ListQuoted(std::vector<std::string> names);
 
 // "; did you mean \"x\"?", or "" where nothing is near.
 std::string DidYouMean(const std::string& name, const std::vector<std::string>& known);

@@ -20,7 +20,7 @@ constexpr char kClearLine[] = "\r\x1b[K";
 
 bool WantsColour(std::FILE* stream) { return IsTerminal(stream) && std::getenv("NO_COLOR") == nullptr; }
 
-// By how the line begins.
+// Returns the colour of a line, which its beginning decides.
 std::string ColourOf(const std::string& line) {
   static const std::vector<std::pair<std::string, std::string>> colours = {
       {"warning:", "33"}, {"note ", "33"}, {"bad ", "31"}, {"luxfit: ", "31"}, {"good ", "32"}};
@@ -66,7 +66,7 @@ std::string ProgressText(double share, double elapsed_s) {
   const double bounded = std::min(share, 1.0);
   const auto filled = static_cast<size_t>(bounded * kBarWidth);
   const std::string bar = std::string(filled, '#') + std::string(kBarWidth - filled, '-');
-  // Longer than the last time: nobody knows how much.
+  // It has already taken longer than the last time, so the rest is not known.
   if (share > 1) return fmt::format("[{}]  {:.1f} s", bar, elapsed_s);
   return fmt::format("[{}]  {:.1f} s, {:.1f} s to go", bar, elapsed_s, elapsed_s * (1 - bounded) / bounded);
 }
@@ -89,7 +89,7 @@ ProgressLine::ProgressLine(std::string text, double expected_s)
 void ProgressLine::Draw() {
   const double elapsed_s = NowS() - start_s_;
   const int total = total_, done = done_;
-  // All that was counted is done: what is left was not.
+  // All counted parts are done; what still runs was not counted.
   const bool is_counted = total > 0 && done < total;
   const double share =
       is_counted ? static_cast<double>(done) / total : (expected_s_ > 0 ? elapsed_s / expected_s_ : -1);

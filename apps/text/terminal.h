@@ -1,6 +1,7 @@
-// What differs where a person watches: colours and progress bars on a terminal, plain lines elsewhere.
+// Prints for a person who watches: colours and progress bars on a terminal, plain lines elsewhere.
 //
-// A stream is a terminal where it is one (isatty), TERM is not "dumb" and, for colours, NO_COLOR is not set.
+// A stream counts as a terminal where isatty holds and TERM is not "dumb". Colours also require that NO_COLOR
+// is not set.
 // Source: ECMA-48 (SGR, EL); no-color.org.
 #ifndef LUXFIT_APPS_TEXT_TERMINAL_H_
 #define LUXFIT_APPS_TEXT_TERMINAL_H_
@@ -14,33 +15,34 @@ namespace luxfit {
 
 bool IsTerminal(std::FILE* stream);
 
-// Text to standard output: on a terminal, lines that begin with a warning, a finding or an error get its
-// colour.
+// Prints text to standard output. On a terminal, lines that begin with a warning, a finding or an error are
+// coloured.
 void PrintText(const std::string& text);
-// "luxfit: message" to standard error.
+// Prints "luxfit: message" to standard error.
 void PrintError(const std::string& message);
 
-// Lines in colour; for tests, PrintText otherwise.
+// Returns the lines in colour. Tests use it; other callers use PrintText.
 std::string WithColours(const std::string& text);
 
-// One line on a terminal that tells how far a stage is and how long it will take still, redrawn ten times a
+// Shows on one line of a terminal how far a stage is and how long it will still take, redrawn ten times a
 // second:
 //
 //   observe   49 photos of 8 registered views  [#########-----------]  1.2 s, 1.5 s to go
 //
-// by what is done of a known number, else by the time that it took the last time. Where standard error is no
-// terminal there is the plain line alone. At its end the line stays, with the time taken.
+// The share follows from the number of finished parts where that is known, else from the time of the last
+// run. Where standard error is no terminal, only the plain line is printed. At its end the line stays, with
+// the time taken.
 class ProgressLine {
  public:
-  // `expected_s` 0: not known.
+  // `expected_s` of 0 means that the time is not known.
   ProgressLine(std::string text, double expected_s);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  // Any thread may tell; of `total` one more is done.
+  // Counts one more of `total` parts as done. Any thread may call it.
   void Advance(int total);
-  // Another line takes the terminal's place below.
+  // Ends the line, because another one follows below it.
   void HandOver();
 
  private:
@@ -53,7 +55,8 @@ class ProgressLine {
   std::thread drawer_;
 };
 
-// The bar's text, without the line's: "[#####-----]  1.2 s, 1.2 s to go". share < 0: not known.
+// Returns the text of the bar alone: "[#####-----]  1.2 s, 1.2 s to go". A share below 0 means that it is not
+// known.
 std::string ProgressText(double share, double elapsed_s);
 
 }  // namespace luxfit

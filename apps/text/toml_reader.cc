@@ -68,7 +68,7 @@ std::vector<TomlCursor::Member> TomlCursor::Members() const {
       throw InputError(place, OneLine(member_key), kControlCharacter);
     placed.push_back({position, {std::string(name.str()), TomlCursor(node, place, member_key)}});
   }
-  // The parser sorts keys by name; the user's order is that of the file.
+  // The parser sorts keys by name; the file has them in the user's order.
   std::stable_sort(placed.begin(), placed.end(),
                    [](const auto& left, const auto& right) { return left.first < right.first; });
   std::vector<Member> members;
@@ -174,7 +174,7 @@ toml::table ReadTomlFile(const std::string& path) {
   } catch (const toml::parse_error& error) {
     throw InputError({path, static_cast<int>(error.source().begin.line)}, "",
                      "expected valid TOML, got an error: " + std::string(error.description()) +
-                         "; mend this line or the one before it");
+                         "; fix this line or the one before it");
   }
 }
 

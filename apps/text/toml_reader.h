@@ -1,8 +1,9 @@
-// A cursor over a TOML document that knows where it is: file, line and full key ("luminaire[0].flux_lm").
+// Reads a TOML document through cursors that know their place: file, line and full key
+// ("luminaire[0].flux_lm").
 //
-// The accessors check type and range and throw std::runtime_error("FILE:LINE: key: expected ..., got ...;
-// mend"). A table is first asked to hold known keys only, so that a misspelt one is reported and never passed
-// over.
+// The accessors check type and range. They throw std::runtime_error("FILE:LINE: key: expected ..., got ...;
+// remedy"). Each table is first checked for known keys alone, so that a misspelt key is reported and never
+// ignored.
 //
 // Cursors point into the document and must not outlive it.
 #ifndef LUXFIT_APPS_TEXT_TOML_READER_H_
@@ -27,15 +28,15 @@ class TomlCursor {
   const std::string& key() const { return key_; }
   const SourcePlace& place() const { return place_; }
 
-  // `message` is "expected ..., got ...; mend".
+  // `message` is "expected ..., got ...; remedy".
   std::runtime_error Error(const std::string& message) const { return InputError(place_, key_, message); }
 
-  // The value as the file has it, for messages.
+  // Returns the value as the file has it, for messages.
   std::string Shown() const;
 
   // Tables. Members and elements come in the order of the file.
   struct Member;
-  void ExpectKeys(const std::vector<std::string>& known) const;  // also: expects a table
+  void ExpectKeys(const std::vector<std::string>& known) const;  // also expects a table
   std::optional<TomlCursor> Find(const std::string& key) const;
   TomlCursor Require(const std::string& key, const std::string& expected) const;
   std::vector<Member> Members() const;
@@ -46,7 +47,7 @@ class TomlCursor {
   bool IsArray() const { return node_->is_array(); }
   std::string Text(const std::string& expected) const;  // not empty, one line
   std::string OneOf(const std::vector<std::string>& names) const;
-  double Number(const std::string& expected) const;                   // finite; an integer will do
+  double Number(const std::string& expected) const;                   // finite; an integer is accepted
   double NumberAbove(double limit, const std::string& unit) const;    // > limit
   double NumberAtLeast(double limit, const std::string& unit) const;  // >= limit
   int WholeNumber(const std::string& expected) const;                 // >= 1
@@ -65,10 +66,10 @@ struct TomlCursor::Member {
   TomlCursor value;
 };
 
-// The key `id` of every table of a list; throws where it is missing or two share one.
+// Returns the key `id` of every table of a list. Throws where it is missing or two tables share one.
 std::vector<std::string> UniqueIds(const std::vector<TomlCursor>& tables);
 
-// The document of a file. Throws as above where it cannot be read or is not TOML.
+// Reads the document of a file. Throws as above where it cannot be read or is not TOML.
 toml::table ReadTomlFile(const std::string& path);
 
 }  // namespace luxfit

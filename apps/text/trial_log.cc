@@ -27,7 +27,7 @@ void TrialLog::Append(const std::string& trial, nlohmann::json result) {
   result["trial"] = trial;
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(path_).parent_path(), error);
-  // What a program that died left without its end is closed by an empty line's break.
+  // A line break closes an incomplete line that a program left when it died.
   std::fstream tail(path_, std::ios::in | std::ios::binary | std::ios::ate);
   bool is_cut = false;
   if (tail && tail.tellg() > 0) {

@@ -1,9 +1,9 @@
-// Lines of JSON that a long sweep appends as its trials end, so that a second call goes on where the first
-// was stopped.
+// Appends lines of JSON as the trials of a long sweep end, so that a second call continues where the first
+// stopped.
 //
-// Every line holds `key`, which says what it was made from (inputs, options, seed): lines of another key, and
-// a last line that was cut off, count as not there. A line is written whole or, where the program dies in the
-// middle, is such a last line.
+// Every line holds `key`, which identifies what it was made from (inputs, options, seed). Lines with another
+// key are ignored. A line is written whole, unless the program dies while it writes; such an incomplete last
+// line is ignored.
 //
 // Throws std::runtime_error naming the file where it cannot be written.
 #ifndef LUXFIT_APPS_TEXT_TRIAL_LOG_H_
@@ -19,7 +19,7 @@ class TrialLog {
  public:
   TrialLog(std::string path, std::string key);
 
-  // What an earlier call left for that trial; null where there is nothing.
+  // Returns what an earlier call left for that trial; null where there is nothing.
   const nlohmann::json* Find(const std::string& trial) const;
   void Append(const std::string& trial, nlohmann::json result);
   size_t size() const { return lines_.size(); }

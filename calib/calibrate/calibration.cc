@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "calib/calibrate/internal/calibration_covariance.h"
+#include "calib/calibrate/internal/calibration_coverage.h"
 #include "calib/calibrate/internal/calibration_seed.h"
 #include "calib/calibrate/internal/calibration_state.h"
 #include "calib/calibrate/internal/lens_choice.h"
+#include "calib/lens/lens_family.h"
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -17,21 +21,20 @@ namespace {
 constexpr int kMapColumns = 24, kMapRows = 18;
 constexpr std::size_t kLeastCornersOfImage = 6;
 constexpr int kSetsOfBend = 4;        // fewer views of a board cannot tell its bend from the lens
-constexpr double kWideFieldDeg = 90;  // from where a fisheye lens is a candidate
+constexpr double kWideFieldDeg = 90;  // beyond it a fisheye lens is a candidate
 
 double ShareAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
-  // What is not known is not known well enough.
+  // A sigma that is not known (NaN) counts as above the limit.
   return 1 - (sigma_px.array() <= limit_px).cast<double>().mean();
 }
 
-double Median(const Eigen::MatrixXd& values) {
-  std::vector<double> sorted(values.data(), values.data() + values.size());
-  for (double& value : sorted) {
-    if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
+// Returns the median of the sigmas, px. One that is not known (NaN) counts as above all others.
+double MedianSigmaPx(const Eigen::MatrixXd& sigma_px) {
+  std::vector<double> sigmas(sigma_px.data(), sigma_px.data() + sigma_px.size());
+  for (double& sigma : sigmas) {
+    if (std::isnan(sigma)) sigma = std::numeric_limits<double>::infinity();
   }
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  return sorted[sorted.size() / 2];
+  return Quantile(std::move(sigmas), 0.5);
 }
 
 std::string PlacesAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
@@ -52,7 +55,7 @@ void CheckOptions(const CalibrateCamerasOptions& options) {
         "calibration: expected at least 2 folds, outlier_sigmas > 0 and focal_start_px >= 0");
 }
 
-// Across the widest camera, by its seed.
+// Returns the field of view across the widest camera, by its seed.
 double FieldOfViewDeg(const CalibrationInput& input, const CalibrationSeed& seed) {
   double widest_deg = 0;
   constexpr double kDegPerRad = 180 / M_PI;
@@ -68,18 +71,24 @@ double FieldOfViewDeg(const CalibrationInput& input, const CalibrationSeed& seed
 std::vector<LensKind> CandidatesOf(const CalibrationInput& input, const CalibrationSeed& seed,
                                    const CalibrateCamerasOptions& options) {
   if (!options.lenses.empty()) return options.lenses;
+  const bool is_wide = FieldOfViewDeg(input, seed) > kWideFieldDeg;
   std::vector<LensKind> kinds;
-  for (const int coefficients : {4, 5, 8, 12}) kinds.push_back({LensModel::kOpenCv, coefficients, 0});
-  if (FieldOfViewDeg(input, seed) > kWideFieldDeg)
-    kinds.insert(kinds.begin() + 1, {LensModel::kFisheye, 4, 0});
-  if (options.back_end == CalibrationBackEnd::kOpenCv) return kinds;
-  for (const int knots : {8, 14}) kinds.push_back({LensModel::kSplined, 0, knots});
+  for (const LensOps& ops : Lenses()) {
+    if (ops.is_tried_on_wide_fields_only && !is_wide) continue;
+    if (options.back_end == CalibrationBackEnd::kOpenCv && !ops.is_in_opencv) continue;
+    for (const int size : ops.tried_sizes) kinds.push_back(KindOfSize(ops.lens, size));
+  }
+  const CalibrationCamera& camera = input.cameras.front();
+  const double aspect = static_cast<double>(camera.height_px) / camera.width_px;
+  std::stable_sort(kinds.begin(), kinds.end(), [aspect](const LensKind& a, const LensKind& b) {
+    return ParameterCount(a, aspect) < ParameterCount(b, aspect);
+  });
   return kinds;
 }
 
 std::string ShortName(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
-// The input without the images of which the seed could make nothing.
+// Returns the input without the images that the seed could not place, and notes each of them.
 CalibrationInput WithoutLost(CalibrationInput input, const CalibrationSeed& seed,
                              std::vector<CalibrationNote>& notes) {
   for (std::size_t i = 0; i < input.images.size(); ++i) {
@@ -164,7 +173,7 @@ class ResultWriter {
     const Eigen::MatrixXd sigma_px = ProjectionSigmaMap(camera.camera, camera.uncertainty, kMapColumns,
                                                         kMapRows, std::numeric_limits<double>::infinity());
     camera.uncertain_share = ShareAbove(sigma_px, options_.gates.max_sigma_px);
-    camera.median_sigma_px = Median(sigma_px);
+    camera.median_sigma_px = MedianSigmaPx(sigma_px);
     camera.uncertain_places = PlacesAbove(sigma_px, options_.gates.max_sigma_px);
     out.cameras.push_back(std::move(camera));
   }
@@ -187,7 +196,7 @@ class ResultWriter {
   bool warp_;
 };
 
-// Whether the bend that was fitted is more than its own uncertainty explains (three sigma).
+// Returns whether the fitted bend is more than its own uncertainty explains (three sigma).
 bool IsBent(const Calibration& result) {
   return (result.board_bend_m.array().abs() > 3 * result.board_bend_sigma_m.array()).any();
 }
@@ -216,7 +225,7 @@ std::vector<LensScore> ScoresOf(const LensChoice& choice) {
   return scores;
 }
 
-// With a flat board where the bend that was fitted means nothing.
+// Writes the chosen fit into the result, refitted with a flat board where the bend is not significant.
 void WriteResult(const CalibrationProblem& problem, const LensCandidate& chosen, LensFitOptions fit_options,
                  const CalibrateCamerasOptions& options, Calibration& out) {
   Calibration bent = out;

@@ -1,24 +1,24 @@
-// Calibration: lenses of cameras, and how the cameras of a rig stand to each other, from images of a board or
-// of surveyed tags.
+// Calibrates the lenses of cameras, and the poses of a rig's cameras, from images of a board or surveyed
+// tags.
 //
 //   min over lens_c, cam_from_rig_c, rig_from_target_s, bend of
-//     sum_corners w^2 |f(lens_c, cam_from_rig_c rig_from_target_s p) - q|^2
-// by libmrcal (its weak regularisation of distortion included), or OpenCV; w is the median corner's sigma
-// over the corner's own. Nothing has to be known beforehand: focal lengths are scanned, wrong corners left
-// out (more than `outlier_sigmas` off) and named.
+//     sum_corners w^2 |f(lens_c, cam_from_rig_c rig_from_target_s p) - q|^2,   px^2
+// w is the median corner's sigma divided by the corner's own. libmrcal minimises it, with its weak
+// regularisation of distortion, or OpenCV. No prior is needed: focal lengths are scanned. Wrong corners (more
+// than `outlier_sigmas` off) are left out and named.
 //
-// The lens is the simplest candidate that images held out support: k folds over sets; each left-out set is
-// placed by its own corners (6 of its residuals' freedom) with the lens of the others, and
-//   held-out^2 = sum |r|^2 / sum (2 n - 6)   per axis, over sets
-// A simpler lens will do if its held-out^2 exceeds the best one's by no more than the larger of one standard
-// error of that difference over sets and the square of the best lens' own projection uncertainty at the
-// corners.
+// The lens is the simplest candidate that images held out support. The sets are divided into k folds. The
+// lens of the other folds places each left-out set by the set's own corners, which takes 6 degrees of
+// freedom:
+//   held-out^2 = sum |r|^2 / sum (2 n - 6)   per axis, over sets; |r| weighted as above
+// The error is therefore that of the median corner: compare it with the noise, not with the plain rms.
+// A simpler lens is chosen if its held-out^2 exceeds the best one's by no more than the larger of two values.
+// One is the standard error of that difference over sets. The other is the square of the best lens' own
+// projection uncertainty at the corners.
 //
-// (weighted as above, so of the median corner; it compares with the noise, not with the plain rms.)
-//
-// A small residual alone proves nothing (boards in the middle of the image fit any lens): held-out error,
-// uncertainty of projections and coverage have gates, and what fails them is a note that says so, with the
-// remedy; the cameras are then not usable, though returned.
+// A small residual alone proves nothing: boards in the middle of the image fit any lens. Held-out error,
+// uncertainty of projections and coverage therefore have gates. A camera that fails a gate is returned but
+// not usable, with a note that says why and names the remedy.
 //
 // Residuals: predicted - seen, px. "per axis": sqrt(sum |r|^2 / 2 n); "2-D": sqrt(sum |r|^2 / n).
 // Source: Zhang (2000), "A flexible new technique for camera calibration"; mrcal 2.2; Hastie, Tibshirani and
@@ -32,10 +32,9 @@
 #include <string>
 #include <vector>
 
-#include "calib/calibrate/calibration_coverage.h"
 #include "calib/calibrate/calibration_input.h"
 #include "calib/lens/camera.h"
-#include "calib/lens/lens_kind.h"
+#include "calib/lens/lens_family.h"
 #include "calib/lens/projection_uncertainty.h"
 
 namespace luxfit {
@@ -43,22 +42,22 @@ namespace luxfit {
 enum class CalibrationBackEnd { kMrcal, kOpenCv };
 
 struct CalibrationGates {
-  double max_held_out_px = 1.0;       // per axis: sharp corners and a fitting lens stay well below
-  double max_held_out_ratio = 1.5;    // to the noise of the fit: more is a lens with too many parameters
-  double max_sigma_px = 1.0;          // of a direction's projection ...
+  double max_held_out_px = 1.0;       // per axis: sharp corners and a good lens stay well below
+  double max_held_out_ratio = 1.5;    // to the fit's noise: more means too many parameters
+  double max_sigma_px = 1.0;          // for the projection of a direction ...
   double max_uncertain_share = 0.2;   // ... over more than this part of the image
-  double min_covered_share = 0.5;     // of the cells of the image (calib/calibrate/calibration_coverage.h)
-  double min_tilt_deg = 10;           // of a flat board, once at least: the focal length needs it
+  double min_covered_share = 0.5;     // cells of the image (CalibrationCoverage)
+  double min_tilt_deg = 10;           // tilt of a flat board, at least once: the focal length needs it
   double questioned_outliers = 0.03;  // share of corners; more is a warning
   double max_outliers = 0.2;          // and more than this a failure
 };
 
 struct CalibrateCamerasOptions {
-  // Candidates in order of complexity; empty: OPENCV4, 5, 8, 12 and two splined lenses (FISHEYE too where the
-  // field of view is wide). A single one is taken as it is.
+  // Candidates in order of complexity. Empty: OPENCV4, 5, 8, 12 and two splined lenses, and FISHEYE where the
+  // field of view is wide. A single candidate is taken without a choice.
   std::vector<LensKind> lenses;
   CalibrationBackEnd back_end = CalibrationBackEnd::kMrcal;
-  int folds = 5;  // of sets held out; fewer where there are fewer sets
+  int folds = 5;  // parts into which the sets are divided; fewer where there are fewer sets
   double outlier_sigmas = 4;
   double focal_start_px = 0;  // 0: scanned; else only focal lengths within a factor of 2 are tried
   bool board_may_bend = true;
@@ -67,32 +66,45 @@ struct CalibrateCamerasOptions {
 
 struct CalibrationNote {
   std::string code;    // held_out_error, uncertain_projection, few_images, outliers, image_rejected, ...
-  bool fails = false;  // a gate: the cameras are not usable
+  bool fails = false;  // a gate failed: the cameras are not usable
   std::string message, remedy;
+};
+
+// Reports where a camera's images hold corners. Lens parameters are determined only there.
+struct CalibrationCoverage {
+  Eigen::MatrixXi corner_counts;  // 6 x 6 cells, rows from the top
+  double covered_share = 0;       // share of the cells with a corner
+  int images = 0;
+  // Angle between a flat target's normal and the optical axis; 0 for a room's tags, which do not lie in a
+  // plane.
+  double max_tilt_deg = 0;
+  bool is_flat = true;
+  double nearest_m = 0, farthest_m = 0;  // distance to the middle of the seen corners
+  std::vector<std::string> lacks;        // one phrase for each gap that more photos should fill
 };
 
 struct CalibratedCamera {
   std::string id;
   Camera camera;
   Eigen::Isometry3d cam_from_rig = Eigen::Isometry3d::Identity();  // the first camera is the rig's frame
-  // Rotation vector (rad) and translation (m) in the camera's axes; zero of the first camera.
+  // Rotation vector (rad) and translation (m) in the camera's axes; zero for the first camera.
   Eigen::Matrix<double, 6, 1> cam_from_rig_sigma = Eigen::Matrix<double, 6, 1>::Zero();
   ProjectionCovariance uncertainty;
   CalibrationCoverage coverage;
-  double uncertain_share = 1;    // of the image, with sigma of a direction above the gate
-  double median_sigma_px = 0;    // of a direction, over the image
-  std::string uncertain_places;  // ninths of the image with such a place, in words
+  double uncertain_share = 1;    // share of the image where the sigma of a direction exceeds the gate
+  double median_sigma_px = 0;    // median over the image, for directions
+  std::string uncertain_places;  // names in words the ninths of the image with such places
 };
 
 struct ImageCalibration {
-  int image = 0;  // of the input
+  int image = 0;  // index into the input's images
   int corners = 0, outliers = 0;
-  double rms_px = 0;  // per axis, of the corners in use
+  double rms_px = 0;  // per axis, over the corners in use
   Eigen::Isometry3d cam_from_target = Eigen::Isometry3d::Identity();
 };
 
 struct CornerResidual {
-  int image = 0, index = 0;  // of the input; of the target
+  int image = 0, index = 0;  // index into the input's images; into the target's points
   Eigen::Vector2d residual_px;
   bool is_outlier = false;
 };
@@ -100,7 +112,7 @@ struct CornerResidual {
 struct LensScore {
   LensKind kind;
   bool is_fitted = false;
-  // Per axis; held out: NaN where there were too few sets, infinity where the lens has no image of a corner.
+  // Per axis. Held out: NaN where there were too few sets, infinity where the lens has no image of a corner.
   double rms_px = 0, held_out_px = 0;
   int outliers = 0;
   std::string verdict;
@@ -111,22 +123,25 @@ struct Calibration {
   LensKind lens;
   std::vector<LensScore> lenses;  // every candidate tried, in order
   std::string lens_because;
-  std::vector<ImageCalibration> images;            // those in use
-  std::vector<CornerResidual> corners;             // of those images, outliers too
-  double rms_px = 0, rms_2d_px = 0, noise_px = 0;  // of corners in use; noise: per axis, freedom taken off
+  std::vector<ImageCalibration> images;  // those in use
+  std::vector<CornerResidual> corners;   // in those images, outliers included
+  // Over the corners in use; noise: per axis, over the degrees of freedom.
+  double rms_px = 0, rms_2d_px = 0, noise_px = 0;
   double held_out_px = std::numeric_limits<double>::quiet_NaN();  // per axis
   double outlier_share = 0;
-  // In the middle of a grid, along x and y; 0: flat, as no more than three sigma of bend was found.
+  // Bend in the middle of a grid, along x and y. 0: taken as flat, since the bend found is within three
+  // sigma.
   Eigen::Vector2d board_bend_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d board_bend_sigma_m = Eigen::Vector2d::Zero();
   std::vector<CalibrationNote> notes;
   bool converged = false;
   std::string message;
-  // Every gate passed.
+  // Returns whether every gate passed.
   bool IsUsable() const;
 };
 
-// Throws std::invalid_argument as CheckCalibrationInput does, and for options out of range.
+// Calibrates the cameras of the input. Throws std::invalid_argument as CheckCalibrationInput does, and for
+// options out of range.
 Calibration CalibrateCameras(const CalibrationInput& input, const CalibrateCamerasOptions& options = {});
 
 }  // namespace luxfit

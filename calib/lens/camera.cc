@@ -3,36 +3,8 @@
 #include "calib/lens/internal/lens.h"
 
 namespace luxfit {
-namespace {
-
-LensImage ImageOf(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
-  switch (camera.lens) {
-    case LensModel::kFisheye:
-      return FisheyeLensImage(camera, p_in_cam);
-    case LensModel::kSplined:
-      return SplinedLensImage(camera, p_in_cam);
-    case LensModel::kOpenCv:
-      break;
-  }
-  return OpenCvLensImage(camera, p_in_cam);
-}
-
-Eigen::Vector3d DirectionOf(const Camera& camera, const Eigen::Vector2d& xy) {
-  switch (camera.lens) {
-    case LensModel::kFisheye:
-      return FisheyeLensDirection(camera, xy);
-    case LensModel::kSplined:
-      return SplinedLensDirection(camera, xy);
-    case LensModel::kOpenCv:
-      break;
-  }
-  return OpenCvLensDirection(camera, xy);
-}
-
-}  // namespace
-
 Projection ProjectWithJacobian(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
-  const LensImage image = ImageOf(camera, p_in_cam);
+  const LensImage image = OpsOf(camera.lens).image(camera, p_in_cam);
   const Eigen::Vector2d focal_px(camera.fx_px, camera.fy_px);
   return {focal_px.cwiseProduct(image.xy) + Eigen::Vector2d(camera.cx_px, camera.cy_px),
           focal_px.asDiagonal() * image.d_point};
@@ -52,7 +24,7 @@ Eigen::Vector3d Unproject(const Camera& camera, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d xy((pixel.x() - camera.cx_px) / camera.fx_px,
                            (pixel.y() - camera.cy_px) / camera.fy_px);
   if (!xy.allFinite()) return Eigen::Vector3d::Constant(kNoImage);
-  return DirectionOf(camera, xy).normalized();
+  return OpsOf(camera.lens).direction(camera, xy).normalized();
 }
 
 }  // namespace luxfit

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "calib/lens/colmap_cameras.h"
 #include "calib/lens/internal/camera_formats.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -43,6 +43,13 @@ std::string Names(const std::vector<FiledCamera>& cameras) {
 }
 
 }  // namespace
+
+LensModel LensOfDistortion(const std::string& distortion_model) {
+  for (const LensOps& ops : Lenses()) {
+    if (ops.distortion_model != nullptr && distortion_model == ops.distortion_model) return ops.lens;
+  }
+  return LensModel::kOpenCv;
+}
 
 int ImagePixels(double value, const std::string& place) {
   constexpr double kMost = 1e6;

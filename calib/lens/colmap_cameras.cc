@@ -1,4 +1,4 @@
-#include "calib/lens/colmap_cameras.h"
+#include "calib/lens/camera_file.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@
 namespace luxfit {
 namespace {
 
-const Eigen::Vector2d kFirstPixelCentre(0.5, 0.5);  // COLMAP's pixel coordinates of the house's (0, 0)
+const Eigen::Vector2d kFirstPixelCentre(0.5, 0.5);  // pixel (0, 0) in COLMAP's coordinates
 
-// COLMAP's models in the order of their ids. `focals`: f or fx, fy; `coefficients` of Camera::distortion in
-// COLMAP's order.
+// Lists COLMAP's models in the order of their ids. `focals`: 1 for f, 2 for fx, fy; `coefficients`: how many
+// of Camera::distortion the model has, in COLMAP's order.
 struct Model {
   const char* name;
   LensModel lens;
@@ -62,7 +62,7 @@ Camera ToCamera(const Model& model, int width_px, int height_px, const std::vect
   return camera;
 }
 
-// One line of cameras.txt.
+// Reads one line of cameras.txt.
 class CameraLine {
  public:
   CameraLine(std::string place, const std::string& line) : place_(std::move(place)), words_(line) {}
@@ -142,31 +142,22 @@ std::map<int, Camera> ReadColmapCameras(const std::string& path) {
 }
 
 ColmapCameraModel ToColmapModel(const Camera& camera) {
-  const auto is_zero_from = [&camera](std::ptrdiff_t first) {
-    return std::all_of(camera.distortion.begin() + first, camera.distortion.end(),
-                       [](double k) { return k == 0; });
-  };
-  if (camera.lens == LensModel::kSplined || !is_zero_from(8))
-    throw std::invalid_argument("COLMAP has no splined lens and no thin prism terms");
-  ColmapCameraModel model;
-  std::size_t coefficients = 8;
-  if (camera.lens == LensModel::kFisheye) {
-    model.name = "OPENCV_FISHEYE";
-    coefficients = 4;
-  } else if (is_zero_from(0)) {
-    model.name = "PINHOLE";
-    coefficients = 0;
-  } else if (is_zero_from(4)) {
-    model.name = "OPENCV";
-    coefficients = 4;
-  } else {
-    model.name = "FULL_OPENCV";
+  std::size_t used = camera.distortion.size();
+  while (used > 0 && camera.distortion[used - 1] == 0) --used;
+  const Model* shortest = nullptr;
+  for (const Model& m : kModels) {
+    if (m.lens == camera.lens && m.is_served && m.focals == 2 && m.coefficients >= used &&
+        (shortest == nullptr || m.coefficients < shortest->coefficients))
+      shortest = &m;
   }
+  if (shortest == nullptr) throw std::invalid_argument("COLMAP has no splined lens and no thin prism terms");
+  ColmapCameraModel model;
+  model.name = shortest->name;
   const Eigen::Vector2d centre = ToColmapPixel({camera.cx_px, camera.cy_px});
   std::ostringstream text;
   text << std::setprecision(17) << camera.fx_px << "," << camera.fy_px << "," << centre.x() << ","
        << centre.y();
-  for (std::size_t i = 0; i < coefficients; ++i) text << "," << camera.distortion[i];
+  for (std::size_t i = 0; i < shortest->coefficients; ++i) text << "," << camera.distortion[i];
   model.parameters = text.str();
   return model;
 }

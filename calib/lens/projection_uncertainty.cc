@@ -5,6 +5,7 @@
 
 #include "calib/lens/internal/cross_matrix.h"
 #include "calib/lens/internal/lens_function.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -14,8 +15,7 @@ constexpr double kUnknownSigma = std::numeric_limits<double>::quiet_NaN();
 LensFunction FunctionOf(const Camera& camera, const LensKind& kind) {
   LensFunction lens;
   lens.kind = kind;
-  if (kind.lens != LensModel::kFisheye)
-    lens.model = ToMrcal(camera, kind.lens == LensModel::kOpenCv ? kind.coefficients : 0).model;
+  if (OpsOf(kind.lens).is_in_mrcal) lens.model = ToMrcal(camera, kind.coefficients).model;
   return lens;
 }
 
@@ -32,7 +32,8 @@ Eigen::Matrix2d ProjectionCovarianceAt(const Camera& camera, const ProjectionCov
   if (!image.pixel.allFinite()) return Eigen::Matrix2d::Constant(kUnknownSigma);
   Eigen::Matrix<double, 2, Eigen::Dynamic> jacobian(2, free + 6);
   jacobian.leftCols(free) = image.d_parameters.rightCols(free);
-  // A projection does not depend on the range, so its derivative falls with it: that of the unit direction.
+  // Projection does not depend on the range: its derivative is that at the unit direction, divided by the
+  // range.
   jacobian.middleCols<3>(free) = -image.d_point * CrossMatrix(direction);
   jacobian.rightCols<3>() = image.d_point / range_m;
   return jacobian * uncertainty.covariance * jacobian.transpose();

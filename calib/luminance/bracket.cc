@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-// Variance of the exposure of every count, as a share of full scale.
+// Returns the variance of the exposure of every count, as a share of full scale.
 std::vector<float> VarianceOfCounts(const LuminanceOptions& options, size_t channel,
                                     double full_scale_counts) {
   std::vector<float> variance(static_cast<size_t>(full_scale_counts) + 1);
@@ -41,7 +41,7 @@ void BracketMerger::AddChannel(size_t channel, const Photo& photo, const ImagePl
     const float value = relative.data()[i];
     if (weight_sum.data()[i] == 0) weighted_sum.data()[i] = 0;
     if (!used.data()[i]) {
-      // Shown where no exposure counts: the shortest exposure, the least saturated.
+      // Where no exposure counts, the pixel shows the shortest one, which is the least saturated.
       if (weight_sum.data()[i] == 0) weighted_sum.data()[i] = value;
       continue;
     }
@@ -79,7 +79,7 @@ void BracketMerger::Add(const Photo& photo, double exposure_s) {
   const PixelMask used = options_.response ? image.valid : PixelMask(!image.saturated);
   for (size_t c = 0; c < 3; ++c) AddChannel(c, photo, image.relative_rgb[c], used, exposure_s);
   const double dark = photo.bits_per_channel == 32 || options_.response ? 0 : options_.dark_fraction;
-  // The first unsaturated exposure is the longest; a limit of 0 must not look like none.
+  // The first unsaturated exposure is the longest. A limit of 0 would read as "none yet".
   const float limit = std::max(1e-30f, static_cast<float>(dark / exposure_s));
   dark_limit_ = (dark_limit_ == 0.0f && !image.saturated).select(limit, dark_limit_);
   saturated_ = saturated_ && image.saturated;

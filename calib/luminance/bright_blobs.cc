@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-// Luminance above which a valid pixel is bright; 0: no pixel is valid.
+// Returns the luminance above which a valid pixel is bright; 0 where no pixel is valid.
 float BrightLimit(const LuminanceImage& image, double times_surfaces) {
   // Every fourth pixel: a quantile needs no more.
   constexpr Eigen::Index kStep = 4;
@@ -23,7 +23,7 @@ float BrightLimit(const LuminanceImage& image, double times_surfaces) {
   return static_cast<float>(times_surfaces) * *at;
 }
 
-// Saturated pixels that show at least half of the most; NaN and infinity are more than anything.
+// Marks saturated pixels that show at least half of the most. NaN and infinity count as more than anything.
 PixelMask FullySaturated(const LuminanceImage& image) {
   float most = 0;
   for (Eigen::Index i = 0; i < image.saturated.size(); ++i) {
@@ -42,7 +42,7 @@ cv::Mat ToMat(const PixelMask& mask) {
   return mat;
 }
 
-// Sums over a blob's pixels.
+// Holds sums over a blob's pixels.
 struct Moments {
   double count = 0, saturated = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -83,7 +83,7 @@ std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const Brigh
     if (m.count < options.min_area_px2) continue;
     BrightBlob blob;
     blob.center_px = m.sum / m.count;
-    // A pixel is a square of its own, of 1 / 12 px2.
+    // Each pixel is a unit square, whose own variance is 1 / 12 px2.
     blob.spread_px2 =
         m.square / m.count - blob.center_px * blob.center_px.transpose() + Eigen::Matrix2d::Identity() / 12;
     const int left = stats.at<int>(label, cv::CC_STAT_LEFT), top = stats.at<int>(label, cv::CC_STAT_TOP);

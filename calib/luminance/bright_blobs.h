@@ -1,12 +1,15 @@
-// Luminaires in a photo: connected pixels far brighter than what surfaces reflect.
+// Finds luminaires in a photo: connected pixels far brighter than surfaces that reflect.
 //
-// A pixel is bright where its every exposure saturated and it shows at least half of the most that a
-// saturated pixel does (masks of saturation have a margin, calib/luminance/luminance.h), or where its luminance is more
-// than `times_surfaces` that of all but the brightest twentieth of the valid pixels: in exposures short
-// enough a luminaire does not saturate. Highlights, windows and surfaces that are washed out are blobs too:
-// only several views together and the light itself tell which are luminaires.
+// A pixel is bright by either of two rules. Every exposure of it saturated, and it shows at least half of the
+// most that a saturated pixel does (masks of saturation have a margin, calib/luminance/luminance.h). Or its
+// luminance exceeds `times_surfaces` times that of all but the brightest twentieth of the valid pixels: in
+// short exposures a luminaire does not saturate.
 //
-// Pixels, (0, 0) the centre of the top-left one. Bright pixels touching by a side or a corner are one blob.
+// Highlights, windows and overexposed surfaces are blobs too. Only several views together, and the light
+// itself, tell which blobs are luminaires.
+//
+// Pixels; (0, 0) is the centre of the top-left one. Bright pixels touching by a side or a corner are one
+// blob.
 // Source: connected components after Bolelli et al. (2020), "Spaghetti labeling", in OpenCV.
 #ifndef LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
 #define LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
@@ -25,16 +28,16 @@ struct BrightBlob {
   Eigen::AlignedBox2d extent_px;                         // outer edges of its outermost pixels
   double area_px2 = 0;
   double saturated_share = 0;
-  bool touches_edge = false;  // of the photo: its centre is not the luminaire's
+  bool touches_edge = false;  // the photo's edge: the blob's centre is not the luminaire's
 };
 
 struct BrightBlobOptions {
   double times_surfaces = 4;
-  double min_area_px2 = 4;  // less is a tag's corner or a hot pixel
-  int max_blobs = 24;       // the largest: of a photo with more, most are texture
+  double min_area_px2 = 4;  // a smaller blob is a tag's corner or a hot pixel
+  int max_blobs = 24;       // the largest are kept: in a photo with more, most are texture
 };
 
-// Largest first. Throws std::invalid_argument for an image whose planes differ in size.
+// Returns the blobs, largest first. Throws std::invalid_argument for an image whose planes differ in size.
 std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const BrightBlobOptions& options = {});
 
 }  // namespace luxfit

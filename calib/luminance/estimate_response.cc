@@ -1,4 +1,4 @@
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace luxfit {
 namespace {
 
-// One curve for all channels: shares of full scale -> shares of full exposure.
+// Returns one curve for all channels, from shares of full scale to shares of full exposure.
 CameraResponse FixedResponse(const ResponseOptions& options, double (*decoded)(double)) {
   const Eigen::VectorXd share = Eigen::VectorXd::LinSpaced(kResponseLevels, 0, 1);
   const Eigen::VectorXd curve = share.unaryExpr(decoded);
@@ -22,12 +22,12 @@ CameraResponse FixedResponse(const ResponseOptions& options, double (*decoded)(d
 
 double LinearDecoded(double share) { return share; }
 
-// IEC 61966-2-1.
+// Decodes sRGB; IEC 61966-2-1.
 double SrgbDecoded(double share) {
   return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
-// From what assumes most to what assumes least.
+// Returns the candidates, from the one that assumes most to the one that assumes least.
 std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOptions& options) {
   std::vector<std::pair<std::string, ResponseSolver>> candidates{
       {"linear", [&options](const auto&) { return FixedResponse(options, LinearDecoded); }},
@@ -45,7 +45,7 @@ std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOpt
   return candidates;
 }
 
-// Why these samples determine no response; empty where they do.
+// Says why these samples determine no response; empty where they do.
 std::string Lack(const std::vector<BracketSamples>& brackets, const ResponseOptions& options) {
   Eigen::Index exposures = 0;
   double ratio = 1;

@@ -1,10 +1,13 @@
-#include "calib/luminance/estimate_vignetting.h"
+#include "calib/luminance/vignetting.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
+
+#include "calib/luminance/luminance.h"
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -15,7 +18,7 @@ constexpr double kHuber = 2.5;
 constexpr size_t kMinSamples = 30;
 constexpr int kGrid = 32;
 
-// A sample with r^2 and ln value at hand; kept in the order of surfaces.
+// Holds a sample with its r^2 and ln value; rows are kept in the order of surfaces.
 struct Row {
   int photo, surface, fold;
   double r2, log_value, sigma;
@@ -34,7 +37,7 @@ std::vector<Row> RowsOf(const std::vector<VignettingSample>& samples, int photos
     const double r2 = (sample.pixel - none.center_px).squaredNorm() / (none.radius_px * none.radius_px);
     rows.push_back({sample.photo, surface, 0, r2, std::log(sample.value), sample.relative_sigma});
   }
-  // Whole surfaces are held out, unless there are too few of them (a flat field is one).
+  // Whole surfaces are held out, unless there are too few of them: a flat field is only one.
   const bool by_surface = static_cast<int>(surfaces.size()) >= 2 * kFolds;
   for (size_t i = 0; i < rows.size(); ++i)
     rows[i].fold = (by_surface ? rows[i].surface : static_cast<int>(i)) % kFolds;
@@ -46,7 +49,7 @@ std::vector<Row> RowsOf(const std::vector<VignettingSample>& samples, int photos
 struct Solution {
   Eigen::VectorXd x;  // coefficients, then gains
   Eigen::MatrixXd normal;
-  Eigen::VectorXd weight;  // robust, one a row
+  Eigen::VectorXd weight;  // robust, one for each row
 };
 
 class Problem {
@@ -58,7 +61,7 @@ class Problem {
 
   int surfaces() const { return surfaces_; }
 
-  // Rows of `left_out` (-1: none) are not used.
+  // Solves without the rows of fold `left_out` (-1: with all rows).
   Solution Solve(int left_out) const {
     Solution solution;
     solution.weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows_.size()));
@@ -72,7 +75,8 @@ class Problem {
     return solution;
   }
 
-  // In sigmas, about the weighted mean of each surface over the rows of the fold (or of all but it).
+  // Returns residuals in sigmas, about the weighted mean of each surface over the rows of the fold (or of all
+  // others).
   Eigen::VectorXd Residuals(const Solution& solution, int fold, bool inside) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(surfaces_), weights = sum;
     Eigen::VectorXd residual(static_cast<Eigen::Index>(rows_.size()));
@@ -92,7 +96,7 @@ class Problem {
     return residual;
   }
 
-  // Mean Huber loss of the rows held out.
+  // Returns the mean Huber loss of the rows held out.
   double HeldOutLoss(int fold) const {
     const Solution solution = Solve(fold);
     const Eigen::VectorXd residual = Residuals(solution, fold, true);
@@ -113,7 +117,7 @@ class Problem {
     return sum;
   }
 
-  // Unknowns that a row touches: every coefficient, and its photo's gain.
+  // Returns the unknowns that a row involves: every coefficient, and its photo's gain.
   std::vector<Eigen::Index> UnknownsOf(const Row& row) const {
     std::vector<Eigen::Index> unknowns;
     unknowns.reserve(static_cast<size_t>(order_) + 1);
@@ -122,7 +126,7 @@ class Problem {
     return unknowns;
   }
 
-  // d model / d unknown, in the order of UnknownsOf.
+  // Returns d model / d unknown, in the order of UnknownsOf.
   std::vector<double> DerivativesOf(const Row& row) const {
     std::vector<double> derivatives;
     derivatives.reserve(static_cast<size_t>(order_) + 1);
@@ -143,12 +147,12 @@ class Problem {
       first = last;
     }
     for (Eigen::Index g = order_; g < unknowns; ++g) solution.normal(g, g) += 1 / (gain_prior_ * gain_prior_);
-    // A direction without any information stays where it is.
+    // The small diagonal keeps a direction without any information where it is.
     solution.normal.diagonal().array() += 1e-6;
     if (unknowns > 0) solution.x = solution.normal.ldlt().solve(right);
   }
 
-  // Rows [first, last) of one surface, its luminance eliminated.
+  // Adds the rows [first, last) of one surface, with its luminance eliminated.
   void AddSurface(size_t first, size_t last, int left_out, Solution& solution, Eigen::VectorXd& right) const {
     std::map<Eigen::Index, double> mean;
     double mean_value = 0, weights = 0;
@@ -184,7 +188,8 @@ Eigen::VectorXd HeldOutLosses(const Problem& problem) {
   return loss;
 }
 
-// The first that is worse than the best by no more than the standard error of that difference over the folds.
+// Returns the first order that is worse than the best by no more than that difference's standard error over
+// the folds.
 int SimplestWithinOneStandardError(const std::vector<Eigen::VectorXd>& losses) {
   const auto best = std::min_element(
       losses.begin(), losses.end(),
@@ -197,10 +202,8 @@ int SimplestWithinOneStandardError(const std::vector<Eigen::VectorXd>& losses) {
   return static_cast<int>(best - losses.begin());
 }
 
-double RobustRms(Eigen::VectorXd absolute) {
-  const auto middle = absolute.data() + absolute.size() / 2;
-  std::nth_element(absolute.data(), middle, absolute.data() + absolute.size());
-  return 1.4826 * *middle;
+double RobustRms(const Eigen::VectorXd& absolute) {
+  return kSigmaPerMad * Quantile({absolute.begin(), absolute.end()}, 0.5);
 }
 
 }  // namespace
@@ -232,7 +235,7 @@ VignettingEstimate EstimateVignetting(const std::vector<VignettingSample>& sampl
   estimate.residual_rms = RobustRms(residual.cwiseAbs()) * std::sqrt(count / std::max(1.0, count - fitted));
   estimate.vignetting.coefficients = solution.x.head(order);
   if (options.gain_prior > 0) estimate.log_gain = solution.x.tail(photos);
-  // Whether V could be told at all is asked of the richest model's first term where none was found.
+  // Where the order is 0, the first term of order 1 tells whether the samples could determine V at all.
   const Solution asked = order > 0 ? solution : Problem(rows, photos, 1, options.gain_prior).Solve(-1);
   Eigen::VectorXd corner = Eigen::VectorXd::Zero(asked.x.size());
   corner.head(std::max(1, order)).setOnes();

@@ -1,4 +1,4 @@
-#include "calib/luminance/exposure_gains.h"
+#include "calib/luminance/exposure.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -37,7 +37,7 @@ std::optional<ExposureRatio> MeasureRatio(const LuminanceImage& first, double fi
   ratio.pixels = static_cast<int>(ratios.size());
   ratio.log_ratio = Median(ratios);
   for (double& r : ratios) r = std::abs(r - ratio.log_ratio);
-  // The median's own spread is 1.25 times the mean's.
+  // The standard error of a median is 1.25 times that of a mean.
   const double spread = 1.25 * kSigmaPerMad * Median(ratios) / std::sqrt(static_cast<double>(ratio.pixels));
   ratio.sigma = std::max(kLeastGainSigma, spread);
   return ratio;

@@ -1,4 +1,4 @@
-#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/exposure.h"
 
 #include <cmath>
 #include <exception>
@@ -14,7 +14,7 @@ std::optional<double> Positive(double value) {
   return std::nullopt;
 }
 
-// The value of a tag, empty where the file has none.
+// Returns the value of a tag; empty where the file has none.
 std::optional<double> ValueOf(const Exiv2::ExifData& exif, const char* key) {
   const auto at = exif.findKey(Exiv2::ExifKey(key));
   if (at == exif.end() || at->count() == 0) return std::nullopt;
@@ -22,7 +22,7 @@ std::optional<double> ValueOf(const Exiv2::ExifData& exif, const char* key) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-// toFloat() of a rational is single precision: 1/60 is wanted exactly.
+// Divides a rational in double precision: toFloat() is single precision, and 1/60 is needed exactly.
 std::optional<double> RationalOf(const Exiv2::ExifData& exif, const char* key) {
   const auto at = exif.findKey(Exiv2::ExifKey(key));
   if (at == exif.end() || at->count() == 0) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<double> RationalOf(const Exiv2::ExifData& exif, const char* key) {
   return Positive(static_cast<double>(rational.first) / rational.second);
 }
 
-// The first tag that gives a value: cameras put it in the EXIF part, RAW writers in the main one.
+// Returns the value of the first tag that gives one: cameras write the EXIF part, RAW writers the main one.
 std::optional<double> FirstRational(const Exiv2::ExifData& exif, std::initializer_list<const char*> keys) {
   for (const char* key : keys) {
     if (const auto value = RationalOf(exif, key)) return value;
@@ -52,7 +52,7 @@ std::optional<double> FNumber(const Exiv2::ExifData& exif) {
   return apex ? Positive(std::exp2(*apex / 2)) : std::nullopt;
 }
 
-// Makers' own tags hold it where the standard's 16 bits are too few; Exiv2 knows them.
+// Makers' own tags hold the ISO value where the standard's 16 bits are too few; Exiv2 knows these tags.
 std::optional<double> Iso(const Exiv2::ExifData& exif) {
   const auto at = Exiv2::isoSpeed(exif);
   return at == exif.end() || at->count() == 0 ? std::nullopt : Positive(static_cast<double>(at->toFloat()));
@@ -65,7 +65,7 @@ ExposureMetadata ReadExposureMetadata(const std::string& path) {
   try {
     return {ExposureTime(exif), FNumber(exif), Iso(exif)};
   } catch (const std::exception&) {
-    return {};  // a value of another type than the standard's
+    return {};  // the value has another type than the standard's
   }
 }
 

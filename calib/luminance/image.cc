@@ -32,7 +32,7 @@ cv::Mat ReadFile(const std::string& path) {
   return image;
 }
 
-// OpenCV keeps blue, green, red[, alpha]; the house red, green, blue.
+// Splits OpenCV's planes (blue, green, red[, alpha]) into red, green, blue.
 template <typename T>
 void Deinterleave(const cv::Mat& image, Photo& photo) {
   const int channels = image.channels();

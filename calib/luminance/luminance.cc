@@ -47,7 +47,7 @@ void CheckInput(const Photo& photo, double exposure_s, const LuminanceOptions& o
     throw std::invalid_argument("ToRelativeLuminance: response: expected a photo of counts, got floats");
 }
 
-// Exposure of every count of one channel, and its slope.
+// Holds the exposure and the slope of every count of one channel.
 struct ChannelTable {
   std::vector<float> exposure, slope;
 };
@@ -64,7 +64,7 @@ ChannelTable TableOf(const CameraResponse& response, size_t channel, double full
   return table;
 }
 
-// One channel through the camera's response; its variance is added to `variance` where that is not empty.
+// Returns one channel through the camera's response; adds its variance to `variance` unless that is empty.
 ImagePlane ThroughResponse(const ImagePlane& counts, const ChannelTable& table, float per_exposure,
                            float weight, const LuminanceOptions& options, double full_scale_counts,
                            ImagePlane& variance) {
@@ -109,14 +109,14 @@ void FillLinear(const Photo& photo, double exposure_s, const LuminanceOptions& o
   }
 }
 
-// Where the darkest count that counts lies, by channel.
+// Marks the pixels below the dark limit; with a response, where any channel is.
 PixelMask TooDark(const Photo& photo, double exposure_s, const LuminanceOptions& options,
                   const ImagePlane& relative_luminance) {
   if (options.response) {
     const float dark = static_cast<float>(options.dark_response_fraction * photo.full_scale_counts);
     return photo.rgb_counts[0] < dark || photo.rgb_counts[1] < dark || photo.rgb_counts[2] < dark;
   }
-  // Floating-point files are not quantised: only what is not positive is dark in them.
+  // Float files are not quantised: a value is dark only where it is not positive.
   const float dark_fraction = photo.bits_per_channel == 32 ? 0.0f : static_cast<float>(options.dark_fraction);
   return !(relative_luminance > static_cast<float>(dark_fraction / exposure_s));
 }
@@ -136,7 +136,7 @@ LuminanceImage ToRelativeLuminance(const Photo& photo, double exposure_s, const 
   const Eigen::Vector3f weights = options.weights.cast<float>();
   image.relative_luminance = weights[0] * image.relative_rgb[0] + weights[1] * image.relative_rgb[1] +
                              weights[2] * image.relative_rgb[2];
-  // Written so that NaN counts as saturated.
+  // The comparison is negated so that NaN counts as saturated.
   const float limit = static_cast<float>(options.saturation_fraction * photo.saturation_counts);
   PixelMask saturated =
       !(photo.rgb_counts[0] < limit && photo.rgb_counts[1] < limit && photo.rgb_counts[2] < limit);
@@ -155,6 +155,32 @@ LuminanceImage WithoutVignetting(LuminanceImage image, const Vignetting& vignett
   return image;
 }
 
+double PhotoCorrection::LogFactor(double log_share, double radius2) const {
+  double factor = exponent * log_share - log_gain, power = 1;
+  for (const double a : vignetting) factor -= a * (power *= radius2);
+  return factor;
+}
+
+LuminanceImage WithCorrection(LuminanceImage image, const PhotoCorrection& correction, double exposure_s) {
+  if (correction.log_gain == 0 && correction.exponent == 0 && correction.vignetting.empty()) return image;
+  ImagePlane& plane = image.relative_luminance;
+  const Vignetting frame = NoVignetting(static_cast<int>(plane.cols()), static_cast<int>(plane.rows()));
+  for (Eigen::Index v = 0; v < plane.rows(); ++v) {
+    for (Eigen::Index u = 0; u < plane.cols(); ++u) {
+      const double y = plane(v, u);
+      if (!(y > 0)) continue;
+      const Eigen::Vector2d pixel(static_cast<double>(u), static_cast<double>(v));
+      const double radius2 = (pixel - frame.center_px).squaredNorm() / (frame.radius_px * frame.radius_px);
+      const auto factor =
+          static_cast<float>(std::exp(correction.LogFactor(std::log(y * exposure_s), radius2)));
+      plane(v, u) *= factor;
+      for (ImagePlane& channel : image.relative_rgb) channel(v, u) *= factor;
+      if (image.variance.size() > 0) image.variance(v, u) *= factor * factor;
+    }
+  }
+  return image;
+}
+
 LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambient) {
   if (image.valid.rows() != ambient.valid.rows() || image.valid.cols() != ambient.valid.cols())
     throw std::invalid_argument("WithoutAmbient: expected images of one size");
@@ -162,7 +188,8 @@ LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambien
   image.relative_luminance -= ambient.relative_luminance;
   if (image.variance.size() > 0 && ambient.variance.size() > 0) image.variance += ambient.variance;
   image.saturated = image.saturated || ambient.saturated;
-  // Where ambient light is too dark to be measured, less than the image's own dark limit is subtracted.
+  // Ambient pixels that are too dark stay valid: the light subtracted there is below the image's own dark
+  // limit.
   image.valid = image.valid && !ambient.saturated;
   return image;
 }

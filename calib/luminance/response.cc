@@ -16,7 +16,7 @@ void ExpectIncreasing(const Eigen::VectorXd& values, const std::string& name) {
   }
 }
 
-// The interval of ascending knots that holds x, or the nearest one.
+// Returns the interval of ascending knots that holds x, or the nearest one.
 Eigen::Index IntervalOf(const Eigen::VectorXd& knots, double x) {
   const double* const at = std::upper_bound(knots.data(), knots.data() + knots.size(), x);
   return std::clamp<Eigen::Index>(at - knots.data() - 1, 0, knots.size() - 2);

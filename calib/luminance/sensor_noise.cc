@@ -12,15 +12,14 @@ namespace luxfit {
 namespace {
 
 constexpr size_t kMinPairs = 2000;
-constexpr size_t kBins = 20;
-// Of a normal distribution: standard deviation over median absolute deviation.
+constexpr size_t kPairBins = 20;
 
 struct Bin {
-  double variance = 0;                      // of the difference
+  double variance = 0;                      // variance of the difference
   double read_factor = 0, shot_factor = 0;  // variance = read^2 * read_factor + shot * shot_factor
 };
 
-// Pairs of similar luminance, [first, last).
+// Returns the bin of the pairs [first, last), which have similar luminance.
 Bin BinOf(const std::vector<NoisePair>& pairs, size_t first, size_t last, double t1, double t2) {
   std::vector<double> difference;
   difference.reserve(last - first);
@@ -54,19 +53,19 @@ std::optional<SensorNoise> EstimateNoise(const std::vector<NoisePair>& pairs, do
     throw std::invalid_argument("EstimateNoise: expected exposures > 0");
   if (pairs.size() < kMinPairs) return std::nullopt;
   std::vector<NoisePair> sorted = pairs;
-  // An order that follows the difference would cut its noise: this one is uncorrelated with it in the dark,
-  // where bins are narrow against the noise.
+  // Sorting by a quantity that correlates with the difference would cut its noise. This one is uncorrelated
+  // with it in the dark, where bins are narrow against the noise.
   std::sort(sorted.begin(), sorted.end(), [&](const NoisePair& p, const NoisePair& q) {
     return first_exposure * p.first + second_exposure * p.second <
            first_exposure * q.first + second_exposure * q.second;
   });
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (size_t b = 0; b < kBins; ++b) {
-    const Bin bin = BinOf(sorted, b * sorted.size() / kBins, (b + 1) * sorted.size() / kBins, first_exposure,
-                          second_exposure);
+  for (size_t b = 0; b < kPairBins; ++b) {
+    const Bin bin = BinOf(sorted, b * sorted.size() / kPairBins, (b + 1) * sorted.size() / kPairBins,
+                          first_exposure, second_exposure);
     if (!(bin.variance > 0)) continue;
-    // A variance is known to a share of itself.
+    // The standard error of a variance is proportional to the variance: weight each row by its inverse.
     const Eigen::Vector2d row(bin.read_factor / bin.variance, bin.shot_factor / bin.variance);
     normal += row * row.transpose();
     right += row;

@@ -1,4 +1,4 @@
-#include "calib/register/colmap_database.h"
+#include "calib/register/colmap_files.h"
 
 #include <sqlite3.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "calib/lens/colmap_cameras.h"
+#include "calib/lens/camera_file.h"
 
 namespace luxfit {
 namespace {
@@ -91,7 +91,7 @@ std::map<std::int64_t, std::string> ImageNames(const Database& database) {
   return names;
 }
 
-// Rows of COLMAP's keypoints: x, y, then either scale and orientation or a 2 x 2 shape.
+// Returns a row of COLMAP's keypoints: x, y, then either scale and orientation or a 2 x 2 shape.
 std::vector<float> KeypointRow(const Eigen::Vector2d& pixel, std::int64_t columns) {
   const Eigen::Vector2d colmap_px = ToColmapPixel(pixel);
   std::vector<float> row(static_cast<std::size_t>(columns), 0.F);
@@ -112,7 +112,7 @@ std::vector<TagDetection> SeenOnce(const std::vector<TagDetection>& tags) {
   return once;
 }
 
-// Index of the first corner of each tag among the image's keypoints, which it appends them to.
+// Appends the corners to the image's keypoints; returns the index of the first corner of each tag among them.
 std::map<int, std::uint32_t> AppendCorners(const Database& database, std::int64_t image,
                                            const std::vector<TagDetection>& tags) {
   std::int64_t rows = 0, columns = 6;
@@ -207,7 +207,7 @@ void NumberColmapImagesByName(const std::string& path) {
   database.Run(
       "CREATE TEMP TABLE numbers AS SELECT image_id AS old, ROW_NUMBER() OVER (ORDER BY name) AS number FROM "
       "images");
-  // By way of numbers that no image has, since each must be unique at every moment.
+  // Numbers must be unique at every moment, so images first take numbers that no image has.
   for (const std::string table : {"images", "keypoints", "descriptors"}) {
     const std::string update = "UPDATE " + table + " SET image_id = ";
     database.Run(update + "1000000000 + (SELECT number FROM numbers WHERE old = image_id)");

@@ -1,4 +1,4 @@
-#include "calib/register/colmap_model.h"
+#include "calib/register/colmap_files.h"
 
 #include <algorithm>
 #include <cctype>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "calib/lens/colmap_cameras.h"
+#include "calib/lens/camera_file.h"
 #include "calib/lens/internal/colmap_binary.h"
 
 namespace luxfit {
@@ -22,12 +22,12 @@ std::string FileOf(const std::string& folder, const std::string& name) {
     const fs::path path = fs::path(folder) / (name + ending);
     if (fs::is_regular_file(path)) return path.string();
   }
-  std::string mend = "name the folder that COLMAP's mapper wrote, such as sparse/0";
+  std::string remedy = "name the folder that COLMAP's mapper wrote, such as sparse/0";
   if (fs::is_directory(fs::path(folder) / "0"))
-    mend = "did you mean " + (fs::path(folder) / "0").string() + "?";
+    remedy = "did you mean " + (fs::path(folder) / "0").string() + "?";
   throw std::runtime_error(
       folder + ": expected a COLMAP model (cameras, images and points3D as .bin or .txt), got no " + name +
-      " file; " + mend);
+      " file; " + remedy);
 }
 
 bool IsBinary(const std::string& path) { return fs::path(path).extension() == ".bin"; }
@@ -49,7 +49,7 @@ Eigen::Isometry3d ToIsometry(const Quaternion& q, const Eigen::Vector3d& transla
   return pose;
 }
 
-// Lines of a text file with their numbers.
+// Reads the lines of a text file with their numbers.
 struct TextFile {
   explicit TextFile(const std::string& text_path) : path(text_path), file(text_path) {
     if (!file) throw std::runtime_error(path + ": expected a readable file, got none");
@@ -81,7 +81,7 @@ void AddImage(std::map<int, ColmapImage>& images, int id, ColmapImage image, con
     throw std::runtime_error(place + ": expected every image once, got " + std::to_string(id) + " again");
 }
 
-// Which point a keypoint belongs to is read from the tracks alone: the two must agree.
+// Reads the images without their keypoints' points: the tracks state these too, and the two must agree.
 std::map<int, ColmapImage> ReadImagesText(const std::string& path) {
   TextFile text(path);
   std::map<int, ColmapImage> images;

@@ -1,10 +1,14 @@
-// A reconstruction from image features: views and points in a frame and scale of its own, and which view saw
-// which point where.
+// Holds a reconstruction from image features: views and points, and where each view saw which point. Fits and
+// applies similarities, which map its own frame and scale to the world.
 //
-//   pixel = Project(camera of the view, cam_from_model * p_in_model)
+//   pixel  = Project(camera of the view, cam_from_model * p_in_model)
+//   p_in_b = scale * rotation * p_in_a + translation
 //
-// Views are those of the session by name; pixels are the house's. Once a point is known to lie on a surface
-// of the scene, `surface` says so (see calib/register/mesh_alignment.h).
+// The frame and its scale are the reconstruction's own. Views are those of the session by name; pixels are
+// the project's. `surface` is set once a point is known to lie on a surface of the scene
+// (calib/register/mesh_alignment.h).
+//
+// Source: Umeyama (1991), "Least-squares estimation of transformation parameters between two point patterns".
 #ifndef LUXFIT_CALIB_REGISTER_FEATURE_MODEL_H_
 #define LUXFIT_CALIB_REGISTER_FEATURE_MODEL_H_
 
@@ -15,12 +19,31 @@
 #include <string>
 #include <vector>
 
-#include "calib/register/colmap_model.h"
-#include "calib/register/similarity.h"
+#include "calib/register/colmap_files.h"
 
 namespace luxfit {
 
-// The plane of unit normal n through a point; whatever lies on it does within sigma_m.
+struct Similarity {
+  double scale = 1;  // > 0
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return scale * (rotation * p) + translation; }
+  Similarity Inverse() const;
+};
+
+// Returns the similarity with the least sum of |b_from_a * a_i - b_i|^2; with `scale` given, the best of that
+// scale. Returns nothing where the points (3 x n) do not determine it: fewer than three, or all near one
+// line.
+std::optional<Similarity> FitSimilarity(const Eigen::Matrix3Xd& points_in_a,
+                                        const Eigen::Matrix3Xd& points_in_b,
+                                        std::optional<double> scale = std::nullopt);
+
+// Returns the pose of a camera in b that takes the same picture as `cam_from_a` in a. Its camera frame has
+// b's unit.
+Eigen::Isometry3d PoseUnder(const Similarity& b_from_a, const Eigen::Isometry3d& cam_from_a);
+
+// Holds the plane of unit normal n through a point; points on it lie within sigma_m.
 struct SurfacePlane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d on_surface = Eigen::Vector3d::Zero();
@@ -45,15 +68,15 @@ struct FeatureTrack {
 
 struct FeatureModel {
   std::vector<FeatureView> views;
-  std::vector<FeatureTrack> tracks;  // of two views and more
+  std::vector<FeatureTrack> tracks;  // each seen by at least two views
 };
 
-// The images of a COLMAP model that show a view of the session; where several do (exposures of one pose), the
-// one with most points. `view_of_image` takes the image's name as COLMAP has it.
+// Returns the images of a COLMAP model that show a view of the session. Where several do (exposures of one
+// pose), the one with most points is taken. `view_of_image` is keyed by the image's name in COLMAP.
 FeatureModel FeaturesOf(const ColmapModel& model, const std::map<std::string, std::string>& view_of_image);
 
-// The same reconstruction moved into another frame. Throws std::invalid_argument where a track has a surface
-// already: surfaces do not move.
+// Returns the reconstruction moved into another frame. Throws std::invalid_argument where a track already has
+// a surface: surfaces do not move.
 FeatureModel Moved(const FeatureModel& features, const Similarity& b_from_model);
 
 }  // namespace luxfit

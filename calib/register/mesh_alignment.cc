@@ -26,7 +26,7 @@ void CheckSurface(const TriangleSurface& surface) {
     throw std::invalid_argument("AlignPointsToSurface: expected triangles of the surface's vertices");
 }
 
-// The points where they are now, with their nearest places on the surface.
+// Holds the points at their present places, with their nearest places on the surface.
 struct Laid {
   Eigen::Matrix3Xd in_world;
   std::vector<SurfacePlane> planes;
@@ -51,7 +51,7 @@ Laid LayDown(const Eigen::Matrix3Xd& points, const TriangleTree& tree, const Sim
     laid.counts.push_back(nearest.squared_distance < gate_m * gate_m && normal.squaredNorm() > 0);
     if (laid.counts.back()) near_m.push_back(std::abs(laid.distances_m.back()));
   }
-  constexpr double kSigmaOfMedian = 1.4826;  // of normal errors
+  constexpr double kSigmaOfMedian = 1.4826;  // for errors of a normal distribution
   if (!near_m.empty()) laid.scatter_m = kSigmaOfMedian * Median(near_m);
   laid.share =
       points.cols() == 0 ? 0 : static_cast<double>(near_m.size()) / static_cast<double>(points.cols());
@@ -63,7 +63,7 @@ struct Normal {
   Vector7 right = Vector7::Zero();
 };
 
-// For (rotation vector, shift, log scale) about `middle`.
+// Returns the normal equations of (rotation vector, shift, log scale) about `middle`.
 Normal NormalEquations(const Laid& laid, const Eigen::Vector3d& middle, bool scale_is_free) {
   Normal normal;
   for (std::size_t i = 0; i < laid.planes.size(); ++i) {
@@ -78,7 +78,7 @@ Normal NormalEquations(const Laid& laid, const Eigen::Vector3d& middle, bool sca
   return normal;
 }
 
-// Steps are damped by this many points' worth at a metre: directions that nothing holds stay where they are.
+// Damping of steps, as this many points at one metre: directions that nothing determines stay where they are.
 constexpr double kDamping = 1e-3;
 
 Similarity Step(const Similarity& now, const Normal& normal, const Eigen::Vector3d& middle) {
@@ -93,8 +93,8 @@ Similarity Step(const Similarity& now, const Normal& normal, const Eigen::Vector
   return next;
 }
 
-// Of one point's distance, such that all of them together know the place no better than the mesh itself is
-// known: its error counts as if each of its six sides (walls, floor, ceiling) had one.
+// Returns the variance of one point's distance such that all points together determine the place no better
+// than the mesh is known. Its error counts as if each of its six sides (walls, floor, ceiling) had one.
 double VarianceOfPoints(const Laid& laid, const SurfaceAlignmentOptions& options) {
   constexpr double kSides = 6;
   const auto n = static_cast<double>(std::count(laid.counts.begin(), laid.counts.end(), true));
@@ -117,7 +117,7 @@ Matrix7 CovarianceOf(const Normal& normal, const Laid& laid, const SurfaceAlignm
   return covariance;
 }
 
-// Sigma of the worst direction of a point at the points' typical distance from their middle.
+// Returns sigma in the worst direction of a point, at the points' typical distance from their middle.
 double WorstSigma(const Matrix7& covariance, const Laid& laid, const Eigen::Vector3d& middle) {
   double squared = 0, count = 0;
   for (std::size_t i = 0; i < laid.counts.size(); ++i) {
@@ -224,7 +224,7 @@ Registration MovedToSurface(const Registration& registration, const SurfaceAlign
     view.cam_from_world = PoseUnder(motion, view.cam_from_world);
     Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
     turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = motion.rotation;
-    // A turn about the points' middle carries the camera along.
+    // A turn about the points' middle moves the camera with them.
     const Eigen::Vector3d arm = view.cam_from_world.inverse().translation() - alignment.middle_in_world;
     Eigen::Matrix<double, 6, 7> by_motion = Eigen::Matrix<double, 6, 7>::Zero();
     by_motion.topLeftCorner<3, 3>().setIdentity();

@@ -33,7 +33,7 @@ void CheckOptions(const RegisterViewsOptions& options) {
   }
 }
 
-// What the tags say of each camera's focal length; nothing: as given.
+// Holds the focal length of each camera as the tags show it; nothing: as given.
 using FocalScales = std::vector<std::optional<FocalScale>>;
 
 void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, const FocalScales& focal,
@@ -106,7 +106,7 @@ RegisteredView ViewOf(const BundleContext& context, const BundleAdjustment& adju
   return out;
 }
 
-// Sizes that are off by more than printers are.
+// Notes sizes that are off by more than printers are.
 void NameSizeError(const RegisterViewsOptions& options, Registration& registration) {
   constexpr double kSigmas = 4;
   if (options.tag_size_sigma == 0 || std::abs(registration.tag_size_error) < kSigmas * options.tag_size_sigma)
@@ -151,7 +151,7 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, const
   if (measured > 0) registration.reprojection_rms_px = std::sqrt(total / measured);
 }
 
-// From views that have been started.
+// Adjusts all views, from views that have been started.
 void Adjust(const BundleContext& context, const FeatureModel& features, BundleAdjustment& adjustment,
             std::vector<RegistrationNote>& notes) {
   if (!features.views.empty()) JoinFeatures(context, features, adjustment, notes);
@@ -159,7 +159,7 @@ void Adjust(const BundleContext& context, const FeatureModel& features, BundleAd
   if (adjustment.fixed_tag >= 0) SettleFrame(adjustment);
 }
 
-// Places of the tags after the adjustment, for those that a registered view uses.
+// Returns the places of the tags after the adjustment, for those that a registered view uses.
 std::vector<SurveyedTag> PlacedTags(const BundleAdjustment& adjustment) {
   std::map<int, SurveyedTag> placed;
   for (const BundleView& view : adjustment.views) {
@@ -175,7 +175,7 @@ std::vector<SurveyedTag> PlacedTags(const BundleAdjustment& adjustment) {
   return tags;
 }
 
-// Views that made the map keep the poses they have there; the others are started as with a survey.
+// Starts the views: those that made the map keep their poses there, the others start as with a survey.
 void StartFromMap(const BundleContext& context, const TagMap& map, std::vector<BundleView>& views,
                   std::vector<RegistrationNote>& notes) {
   StartViews(context, views, notes);
@@ -191,7 +191,7 @@ void StartFromMap(const BundleContext& context, const TagMap& map, std::vector<B
 
 Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterViewsOptions options,
                                 const std::vector<ViewDetections>& detections, const FeatureModel& features) {
-  options.survey_sigma_m = 0.02;  // what the first map is off; tags are free from there
+  options.survey_sigma_m = 0.02;  // error of the first map; tags are free from there
   const BundleContext context{cameras, options};
   Registration registration;
   const TagMap map = MapTags(context, detections, features);
@@ -211,7 +211,7 @@ Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterView
   return registration;
 }
 
-// One registration with the cameras as they are at the time.
+// Holds one registration with the cameras as they are at the time.
 struct Attempt {
   BundleAdjustment adjustment;
   std::vector<RegistrationNote> notes;
@@ -233,8 +233,8 @@ Attempt RegisterBySurvey(const BundleContext& context, const std::map<int, Surve
   return attempt;
 }
 
-// Multiplies the focal lengths that the attempt's tags contradict, or already did; false where that changes
-// none. `focal` is against the cameras as given.
+// Corrects the focal lengths that the attempt's tags contradict, or that earlier ones did. Returns whether
+// any changed. `focal` is relative to the cameras as given.
 bool Refocus(const BundleContext& context, const BundleAdjustment& solved, std::vector<Camera>& cameras,
              FocalScales& focal) {
   bool is_changed = false;
@@ -250,7 +250,7 @@ bool Refocus(const BundleContext& context, const BundleAdjustment& solved, std::
   return is_changed;
 }
 
-// The survey's views with the focal lengths that make its tags agree at all.
+// Corrects focal lengths so far off that the survey's tags do not agree at all.
 void RefocusRoughly(const std::map<int, SurveyedTag>& survey, const std::vector<ViewDetections>& detections,
                     const RegisterViewsOptions& options, std::vector<Camera>& cameras, FocalScales& focal) {
   const BundleContext context{cameras, options};

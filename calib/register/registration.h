@@ -1,29 +1,31 @@
-// Registration: a camera pose for every view, in the frame of the tag survey.
+// Registers views: estimates a camera pose for every view, in the frame of the tag survey.
 //
-// For each view a pose by PnP from the surveyed tags it sees, then one bundle adjustment over all views:
+// Each view gets a pose by PnP from the surveyed tags that it sees. One bundle adjustment over all views
+// follows:
 //   min over { cam_from_world_v, tag displacements d_t, size error e, points p_i } of
 //     sum rho( |Project(cam_from_world_v * p_corner(d_t, e)) - corner_px|^2 / corner_sigma^2 )
 //       + sum |d_t|^2 / survey_sigma^2 + e^2 / size_sigma^2
 //       + sum rho( |Project(cam_from_world_v * p_i) - pixel|^2 / point_sigma^2 )
 // rho is Huber's loss at 2.5 sigma. All tags are (1 + e) times their surveyed size: they come from one
-// printer, whose scaling nobody asks about, and a view of one tag has no other measure of its distance. Poses
-// are se(3): rotation on its manifold, translation in metres.
+// printer of unknown scaling, and a view of one tag has no other measure of its distance. Poses are se(3):
+// rotation on its manifold, translation in metres.
 //
-// The last sum is there where features (of COLMAP, say) are given beside the tags: a similarity puts them
-// into the survey's frame, views without tags come in through the points they share with others, point_sigma
-// is estimated from the residuals. Corners are then weighted by what their own residuals say, too.
+// The last sum is there where features (of COLMAP, say) are given beside the tags. A similarity puts them
+// into the survey's frame. Views without tags are placed by the points that they share with others.
+// point_sigma is estimated from the residuals; corners are then weighted by their own residuals, too.
 //
-// Without a survey (`tag_size_m` given) the tags' places are estimated with the poses; the frame is that of
-// one tag and the scale comes from its size. Features whose points lie on surfaces of the scene
+// Without a survey (`tag_size_m` given) the tags' places are estimated with the poses. The frame is that of
+// one tag, and the scale comes from its size. Features whose points lie on surfaces of the scene
 // (calib/register/mesh_alignment.h) need no tags at all.
 //
-// Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by what the tags ask
-// for: `focal_scale`, calib/register/internal/focal_check.h; the poses' covariance then holds its uncertainty.
+// Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by those that the tags
+// show: `focal_scale`, calib/register/internal/focal_check.h. The poses' covariance then holds their
+// uncertainty.
 //
-// A view without a usable tag or features, or whose pose is ambiguous, too uncertain or disagrees with the
-// rest, is left out and named in `notes`.
-// Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis"; Collins
-// and Bartoli (2014), "Infinitesimal plane-based pose estimation" (IPPE) for the start.
+// A view without a usable tag or features is left out and named in `notes`. So is a view whose pose is
+// ambiguous, too uncertain or disagrees with the rest.
+// Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis"; Collins and Bartoli (2014),
+// "Infinitesimal plane-based pose estimation" (IPPE) for the start.
 #ifndef LUXFIT_CALIB_REGISTER_REGISTRATION_H_
 #define LUXFIT_CALIB_REGISTER_REGISTRATION_H_
 
@@ -48,7 +50,7 @@ struct RegisteredView {
   std::string view;
   int camera = 0;
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d position_sigma_m = Eigen::Vector3d::Zero();  // of the camera centre, world axes, 1 sigma
+  Eigen::Vector3d position_sigma_m = Eigen::Vector3d::Zero();  // camera centre, world axes, 1 sigma
   Eigen::Matrix<double, 6, 6> covariance;  // (rotation vector in world axes rad, camera centre in world m)
   double reprojection_rms_px = 0;          // sqrt(mean squared 2-D corner error)
   int tags_used = 0;
@@ -72,40 +74,42 @@ struct Registration {
   double reprojection_rms_px = 0;   // over every corner of every view
   double tag_size_error = 0;        // e: tags are (1 + e) times as large as surveyed
   double tag_size_error_sigma = 0;  // 0 if it was held
-  double point_sigma_px = 0;        // of features, per axis; 0: there were none
-  int points = 0;                   // features that two registered views and more use
-  // Of each camera: what fx and fy were multiplied with because the tags contradicted them; sigma 0: as
-  // given.
+  double point_sigma_px = 0;        // sigma of features, per axis; 0: there were none
+  int points = 0;                   // features that at least two registered views use
+  // Factor on fx and fy of each camera whose focal length the tags contradicted, else 1; sigma 0: as given.
   std::vector<double> focal_scale, focal_scale_sigma;
-  std::string frame = "survey";          // survey | tag N | surface: what the poses are given in
-  std::vector<SurveyedTag> placed_tags;  // where there was no survey: where the tags hang in that frame
+  std::string frame = "survey";          // survey | tag N | surface: frame of the poses
+  std::vector<SurveyedTag> placed_tags;  // without a survey: places of the tags in that frame
   bool converged = false;
   std::string message;
   bool IsUsable() const { return converged && !views.empty(); }
 };
 
 struct RegisterViewsOptions {
-  // Side of every tag's black square where there is no survey: places are estimated. 0: there is one.
+  // Side of every tag's black square where there is no survey, so that places are estimated. 0: there is a
+  // survey.
   double tag_size_m = 0;
   // Sigma of each surveyed tag's place per axis: a careful laser measure, the thickness of a sticker. 0:
   // exact.
   double survey_sigma_m = 0.001;
   double tag_size_sigma =
-      0.005;                  // relative, common to all tags: printers scale by that much; 0: sizes are exact
+      0.005;                  // relative, common to all tags: printers scale by as much; 0: sizes are exact
   double huber_sigmas = 2.5;  // loss switches from squared to linear here
   double max_view_rms_sigmas =
-      6;  // a view whose corners disagree by more than this is left out; sigma there is the
-          // corner's own times what the residuals of all views say, if that is more than 1
+      6;  // a view whose corners disagree by more is left out; sigma is the corner's own,
+          // times the ratio that the residuals of all views show where that exceeds 1
   double max_rotation_sigma_rad =
-      0.005;  // a view turned by more lands every patch pixels away: it is left out
+      0.005;  // a view turned by more would move every patch by pixels: it is left out
 };
 
+// Registers views by tags alone. Throws std::invalid_argument for options out of range, ids that the survey
+// has twice and sizes that are not positive.
 Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
                            const std::vector<ViewDetections>& detections,
                            const RegisterViewsOptions& options = {});
 
-// The same with features beside the tags. Views of `features` are among `detections` by name (without tags
-// where they show none); others do not count.
+// Registers views by tags and features. Views of `features` are among `detections` by name (without tags
+// where they show none); others do not count. Throws as the function above.
 Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
                            const std::vector<ViewDetections>& detections, const FeatureModel& features,
                            const RegisterViewsOptions& options = {});

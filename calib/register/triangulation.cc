@@ -17,7 +17,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Angle between a sight and a point in its sigmas; infinite for a point behind it.
+// Returns the angle between a sight and a point, in its sigmas; infinite for a point behind it.
 double SigmasOff(const Sight& sight, const Vector3d& p) {
   const Vector3d to = p - sight.origin;
   const double along = to.dot(sight.direction);
@@ -25,7 +25,7 @@ double SigmasOff(const Sight& sight, const Vector3d& p) {
   return (to - along * sight.direction).norm() / (to.norm() * sight.sigma_rad);
 }
 
-// The point nearest to two rays; none where they are nearly parallel.
+// Returns the point nearest to two rays; nothing where they are nearly parallel.
 std::optional<Vector3d> Meeting(const Sight& a, const Sight& b, double min_parallax_rad) {
   const double cosine = a.direction.dot(b.direction), sine2 = 1 - cosine * cosine;
   if (sine2 < std::pow(std::sin(min_parallax_rad), 2)) return std::nullopt;
@@ -56,7 +56,7 @@ class Triangulation {
       std::optional<TriangulatedPoint> point = proposal;
       const auto is_taken = [&](int i) { return is_taken_[static_cast<size_t>(i)]; };
       if (std::any_of(proposal.sights.begin(), proposal.sights.end(), is_taken))
-        point = PointNear(proposal.position);  // of what is left
+        point = PointNear(proposal.position);  // from the sights that are left
       if (!point) continue;
       for (const int i : point->sights) is_taken_[static_cast<size_t>(i)] = true;
       points.push_back(*point);
@@ -72,7 +72,7 @@ class Triangulation {
     return near ? p : std::nullopt;
   }
 
-  // Solved with the sights about it, and again with those about the solution.
+  // Returns the point solved with the sights about p, and again with those about the solution.
   std::optional<TriangulatedPoint> PointNear(const Vector3d& p) const {
     TriangulatedPoint point;
     point.position = p;
@@ -84,7 +84,7 @@ class Triangulation {
     return point.parallax_rad >= options_.min_parallax_rad ? std::optional(point) : std::nullopt;
   }
 
-  // Of every view the nearest sight, if near enough.
+  // Returns the nearest sight of every view, if it is near enough.
   std::vector<int> Gathered(const Vector3d& p) const {
     std::map<int, std::pair<double, int>> nearest;  // by view: sigmas, sight
     for (size_t i = 0; i < sights_.size(); ++i) {
@@ -101,7 +101,7 @@ class Triangulation {
     return gathered;
   }
 
-  // Gauss-Newton with the distances held in each step: the angles are small.
+  // Solves by Gauss-Newton with the distances held in each step, which small angles allow.
   TriangulatedPoint Solved(Vector3d p, const std::vector<int>& of) const {
     constexpr int kSteps = 5;
     Matrix3d normal;

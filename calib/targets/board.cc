@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr int kLeastCorners = 3;  // a row and column of fewer give no homography worth the name
+constexpr int kLeastCorners = 3;  // a row and column of fewer give no usable homography
 constexpr int kMostTags = 10000;
 
 std::invalid_argument BadMember(const std::string& member, const std::string& expected, double got) {
@@ -59,7 +59,7 @@ void CheckCharuco(const Board& board) {
   if (board.tag_size_m >= board.square_size_m)
     throw BadMember("tag_size_m", "a marker smaller than its square", board.tag_size_m);
   const cv::Ptr<cv::aruco::Dictionary> dictionary = ArucoDictionary(board.dictionary);
-  // Markers stand in every second square; which half it is differs with OpenCV's version by one marker.
+  // Every second square holds a marker. Which half does depends on OpenCV's version, by one marker.
   ExpectIds(board, (board.columns * board.rows + 1) / 2, dictionary->bytesList.rows, board.dictionary);
 }
 
@@ -75,7 +75,7 @@ void CheckBoard(const Board& board) {
   throw std::invalid_argument("type: expected a type of board");
 }
 
-// Along a row or a column: the distance of a corner from the first.
+// Returns the distance of a corner from the first one, along a row or a column.
 double CornerOffset(const Board& board, int corner) {
   if (board.type != BoardType::kAprilGrid) return corner * board.square_size_m;
   const int tag = corner / 2;

@@ -1,8 +1,8 @@
-// Calibration boards: where their corners lie, and where a photo shows them.
+// Defines calibration boards: where their corners lie, where a photo shows them, and what is black on print.
 //
-// Board frame: origin at the first corner, x along a row of the board, y along a column, z away from the
-// viewer (the printed face looks along -z), metres: a camera straight in front of the upright board has the
-// board's axes along its own. Corners are numbered row by row; what a corner is depends on the board:
+// Board frame, metres: origin at the first corner, x along a row of the board, y along a column, z away from
+// the viewer. The printed face looks along -z: a camera straight in front of the upright board has the
+// board's axes along its own. Corners are numbered row by row; the board tells which points its corners are:
 //
 //   aprilgrid    the 4 corners of each of columns x rows tags' black squares, the grid of 2 columns x 2 rows
 //                corners numbered row by row; tag ids from first_id, row by row from the *bottom-left* tag as
@@ -10,6 +10,9 @@
 //                top-left one of the top-left tag
 //   chessboard   columns x rows *inner* corners (OpenCV's and mrcal's count), square_size_m apart
 //   charuco      columns x rows *squares* (OpenCV's count), (columns - 1) x (rows - 1) inner corners
+//
+// A drawing's places are x right, y down, metres, from the board's own origin. Its rectangles touch but do
+// not overlap: drawn as one path they leave no seams.
 //
 // Source: Kalibr's wiki, "Calibration targets"; OpenCV 4.6, calib3d and aruco.
 #ifndef LUXFIT_CALIB_TARGETS_BOARD_H_
@@ -36,11 +39,11 @@ struct Board {
   std::string dictionary = "DICT_4X4_50";  // charuco: OpenCV's name
 };
 
-// Every corner in the board frame, by its number. Throws std::invalid_argument naming the member that is
-// missing or out of range.
+// Returns every corner in the board frame, by its number. Throws std::invalid_argument naming the member that
+// is missing or out of range.
 std::vector<Eigen::Vector3d> BoardCorners(const Board& board);
 
-// How many corners lie along a row and a column.
+// Returns how many corners lie along a row and along a column. Throws as BoardCorners does.
 Eigen::Array2i BoardCornerCounts(const Board& board);
 
 struct BoardCorner {
@@ -51,12 +54,37 @@ struct BoardCorner {
 
 struct BoardDetection {
   std::vector<BoardCorner> corners;  // by index; empty: the board was not found
-  std::string message;               // what was not found and why, for the user; empty if all was
+  std::string message;               // says for the user what was not found and why; empty if all was
 };
 
 // Finds the board in a grey plane (height x width, any monotonic scale). Boards may be seen in part
 // (aprilgrid, charuco). Throws std::invalid_argument as BoardCorners does.
 BoardDetection DetectBoard(const ImagePlane& grey, const Board& board);
+
+struct BlackRectangle {
+  Eigen::Vector2d min_m, max_m;
+};
+
+struct BoardDrawing {
+  std::vector<BlackRectangle> black;
+  Eigen::Vector2d min_m, max_m;  // extent of all that is black
+  double margin_m = 0;           // white that detection needs around it
+};
+
+struct BoardStyle {     // aprilgrid only
+  int border_bits = 1;  // 2: as Kalibr prints, which libapriltag does not detect
+  bool has_corner_squares =
+      false;  // black squares between the tags' corners: libapriltag finds few tags then
+};
+
+// Draws a board: tags upright, ids from the bottom left; the top-left square of a chessboard and of a charuco
+// is black. Throws std::invalid_argument as BoardCorners does, and for gaps between tags that are too narrow
+// to be seen.
+BoardDrawing DrawBoard(const Board& board, const BoardStyle& style = {});
+
+// Draws one tag with its black square's top-left corner at the origin. Throws std::invalid_argument for an
+// unknown family or id and a size that is not > 0.
+BoardDrawing DrawSingleTag(const std::string& family, int id, double size_m);
 
 }  // namespace luxfit
 

@@ -1,4 +1,4 @@
-#include "calib/targets/board_drawing.h"
+#include "calib/targets/board.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -11,7 +11,8 @@ namespace {
 
 using Cells = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;  // true: black; row down, column right
 
-// Black cells of side `cell_m`, runs along rows joined. The top-left corner of cell (0, 0) is at `origin_m`.
+// Adds black cells of side `cell_m`, with runs along rows joined. The top-left corner of cell (0, 0) is at
+// `origin_m`.
 void AddCells(const Cells& black, const Eigen::Vector2d& origin_m, double cell_m, BoardDrawing& drawing) {
   for (Eigen::Index row = 0; row < black.rows(); ++row) {
     for (Eigen::Index first = 0; first < black.cols(); ++first) {
@@ -32,7 +33,7 @@ void AddSquare(const Eigen::Vector2d& min_m, double size_m, BoardDrawing& drawin
   AddCells(Cells::Constant(1, 1, true), min_m, size_m, drawing);
 }
 
-// A tag whose black square is `size_m` wide and begins at `corner_m`.
+// Adds a tag whose black square is `size_m` wide and begins at `corner_m`.
 void AddTag(const apriltag_family_t& family, int id, int border_bits, const Eigen::Vector2d& corner_m,
             double size_m, BoardDrawing& drawing) {
   const TagPicture picture = DrawTag(family, id, border_bits);
@@ -52,7 +53,7 @@ BoardDrawing Bounded(BoardDrawing drawing, double margin_m) {
   return drawing;
 }
 
-// Cells of a tag's picture beyond its black square, on one side, and their width in tag sizes.
+// Returns the width, in tag sizes, of a tag's picture beyond its black square on one side.
 double RimInTagSizes(const TagPicture& picture) {
   return static_cast<double>(picture.border_begin) / (picture.border_end - picture.border_begin);
 }
@@ -65,7 +66,7 @@ BoardDrawing DrawAprilGrid(const Board& board, const BoardStyle& style) {
   if (family->reversed_border && style.has_corner_squares)
     throw std::invalid_argument("has_corner_squares: expected a family with a black border, got " +
                                 board.family);
-  // Tags share a white rim one cell wide; bits outside of the square are not shared.
+  // Tags share a white rim one cell wide; bits outside the square are not shared.
   const double least = family->reversed_border ? 2 * rim : rim;
   if (board.spacing < least)
     throw std::invalid_argument("spacing: expected at least " + std::to_string(least) + " tag sizes for " +

@@ -13,7 +13,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kSigmaOfLevel0Px = 0.3;  // mrcal's own expectation of its corners
+constexpr double kSigmaOfLevel0Px = 0.3;  // the sigma that mrcal expects of its corners
 constexpr int kMostLevels = 10;
 
 std::vector<std::string> Words(const std::string& line) {
@@ -99,14 +99,14 @@ class Reader {
     if (sigma_px > 0) images_.back().corners.push_back({index, {Number(x), Number(y)}, sigma_px});
   }
 
-  // 0: not to be used.
+  // Returns the sigma of a level or weight; 0: not to be used.
   double SigmaPx(double value) const {
     if (!is_weight_)
       return value < 0 ? 0 : kSigmaOfLevel0Px * std::exp2(std::min<double>(value, kMostLevels));
     return value > 0 ? kSigmaOfLevel0Px / value : 0;
   }
 
-  // A single row of "-" is an image where nothing was found.
+  // A single row of "-" stands for an image where nothing was found.
   void Finish() {
     const bool is_nothing = rows_ == 1 && images_.back().corners.empty();
     if (!images_.empty() && rows_ != count_ && !is_nothing)

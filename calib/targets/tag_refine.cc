@@ -1,4 +1,4 @@
-#include "calib/targets/tag_refine.h"
+#include "calib/targets/tags.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "calib/luminance/median.h"
 #include "calib/targets/internal/homography.h"
 #include "calib/targets/internal/solve_symmetric.h"
 #include "calib/targets/internal/tag_family.h"
@@ -23,13 +25,13 @@ constexpr int kHomography = 8, kShading = 6, kUnknowns = kHomography + kShading 
 constexpr int kBlur = kHomography + kShading;
 constexpr int kFullSteps = 5;
 constexpr double kConvergedPx = 3e-3;
-constexpr double kLeastContrast = 0.1;  // of white: less is a wall, not ink on paper
-constexpr double kMaxBlurPx2 = 4;       // variance; 2 px of blur leaves nothing of a small tag
+constexpr double kLeastContrast = 0.1;  // relative to white: less is a wall, not ink on paper
+constexpr double kMaxBlurPx2 = 4;       // variance: 2 px of blur erases a small tag
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-// Undistorted image coordinates about one tag, shifted and scaled to about [-1, 1] over it for the equations'
-// sake.
+// Holds the frame of undistorted image coordinates about one tag, shifted and scaled to about [-1, 1] over it
+// so that the equations are well conditioned.
 struct LocalFrame {
   Eigen::Vector2d origin;
   double unit = 1;
@@ -38,7 +40,7 @@ struct LocalFrame {
   Eigen::Vector3d ToRay(const Eigen::Vector2d& xy) const { return (origin + unit * xy).homogeneous(); }
 };
 
-// H with H(2, 2) = 1 from four correspondences xy -> st.
+// Returns H with H(2, 2) = 1 from four correspondences xy -> st.
 std::optional<Eigen::Matrix3d> HomographyFrom(const std::array<Eigen::Vector2d, 4>& xy,
                                               const std::array<Eigen::Vector2d, 4>& st) {
   const auto homography = FitHomography({xy.begin(), xy.end()}, {st.begin(), st.end()});
@@ -63,7 +65,7 @@ MappedPoint Map(const Eigen::Matrix3d& h, const Eigen::Vector2d& xy) {
 
 struct TagPixel {
   double grey = 0;
-  Eigen::Vector2d xy;       // of its middle, in the local frame
+  Eigen::Vector2d xy;       // middle of the pixel, in the local frame
   Eigen::Matrix2d d_pixel;  // d xy / d (u, v)
 };
 
@@ -76,15 +78,15 @@ struct Fit {
   Normal scatter = Normal::Zero();  // sum of (w r)^2 J^T J
 };
 
-// A pixel's area blurred by a Gaussian, as three boxes each way: side `step_px`, that far apart, weights
-// w, 1 - 2 w, w. With V = 1/12 + blur (variances, px^2), x = step^2 and w = (V - x / 12) / (2 x) the variance
-// is that of pixel and blur together, and so is the fourth cumulant (the pixel's -1/120, for the Gaussian has
-// none) where
+// Holds a pixel's area blurred by a Gaussian, as three boxes each way: side `step_px`, that far apart,
+// weights w, 1 - 2 w, w. With V = 1/12 + blur (variances, px^2), x = step^2 and w = (V - x / 12) / (2 x) the
+// variance is that of pixel and blur together. So is the fourth cumulant (the pixel's -1/120, since the
+// Gaussian has none) where
 //   27/240 x^2 - 3/2 V x + 3 V^2 - 1/120 = 0
 // Without blur these are the pixel's thirds, exactly. One box of the same variance would let corners shrink
 // inwards by 0.05 px at a blur of 1.2 px.
 struct PixelTaps {
-  double step_px = 0, d_step = 0;  // d: by the blur's variance
+  double step_px = 0, d_step = 0;  // d_step: by the blur's variance
   std::array<double, 3> weights{}, d_weights{};
 };
 
@@ -107,7 +109,7 @@ class TagFitter {
 
   std::size_t pixel_count() const { return pixels_.size(); }
 
-  // Grey of one pixel and its derivatives with respect to the unknowns.
+  // Returns the grey of one pixel, and its derivatives with respect to the unknowns.
   double Predict(const Fit& fit, const TagPixel& pixel, Unknowns& jacobian) const {
     const PixelTaps taps = TapsFor(fit.blur_px2);
     double mean = 0, d_blur = 0;
@@ -145,7 +147,7 @@ class TagFitter {
     return black + contrast * mean;
   }
 
-  // Shading alone, linear; the homography and the blur stay.
+  // Fits the shading alone, which is linear; the homography and the blur stay.
   bool FitShading(Fit& fit) const {
     Eigen::Matrix<double, kShading, kShading> a = Eigen::Matrix<double, kShading, kShading>::Zero();
     Eigen::Matrix<double, kShading, 1> b = Eigen::Matrix<double, kShading, 1>::Zero();
@@ -160,8 +162,8 @@ class TagFitter {
     return fit.shading.allFinite() && fit.shading[3] > 0;
   }
 
-  // One robust Gauss-Newton step, or a fraction of it; returns the largest change of a tag corner in cells,
-  // or NaN.
+  // Takes one robust Gauss-Newton step, or a fraction of it. Returns the largest change of a tag corner, in
+  // cells, or NaN.
   double Step(Fit& fit, double fraction) const {
     std::vector<double> residuals;
     std::vector<Unknowns> jacobians(pixels_.size());
@@ -184,7 +186,8 @@ class TagFitter {
     }
     fit.normal = Normal(fit.normal.selfadjointView<Eigen::Lower>());
     fit.scatter = Normal(fit.scatter.selfadjointView<Eigen::Lower>());
-    // Levenberg's damping only against an exactly flat direction; blur held where it would leave its range.
+    // Levenberg's damping only guards against an exactly flat direction. Blur is held where it would leave
+    // its range.
     Normal damped = fit.normal;
     damped.diagonal() *= 1 + 1e-6;
     Unknowns step = SolveSymmetric(damped, right);
@@ -216,11 +219,11 @@ class TagFitter {
  private:
   static constexpr double kMinBlurPx2 = 0.002;
 
-  // Median of |residual| over the pixels that edges cross: inside cells anything fits, and would call every
-  // edge of an aliased photo an outlier.
+  // Returns the robust sigma of the residuals over the pixels that edges cross. Residuals inside cells are
+  // small in any fit: with them every edge of an aliased photo would count as an outlier.
   static double EdgeResidual(const std::vector<double>& residuals, const std::vector<Unknowns>& jacobians) {
     constexpr int kAlongS = 2, kAlongT = 5;  // the translations of the homography
-    constexpr double kEdge = 0.25;           // of the steepest pixel
+    constexpr double kEdge = 0.25;           // relative to the steepest pixel
     double steepest = 0;
     for (const Unknowns& j : jacobians) steepest = std::max(steepest, std::hypot(j[kAlongS], j[kAlongT]));
     std::vector<double> at_edges;
@@ -228,10 +231,8 @@ class TagFitter {
       const Unknowns& j = jacobians[i];
       if (std::hypot(j[kAlongS], j[kAlongT]) >= kEdge * steepest) at_edges.push_back(std::abs(residuals[i]));
     }
-    const auto middle = at_edges.begin() + static_cast<std::ptrdiff_t>(at_edges.size() / 2);
-    std::nth_element(at_edges.begin(), middle, at_edges.end());
     constexpr double kMedianOfNormal = 0.6745;
-    return std::max(*middle / kMedianOfNormal, std::numeric_limits<double>::min());
+    return std::max(Quantile(std::move(at_edges), 0.5) / kMedianOfNormal, std::numeric_limits<double>::min());
   }
 
   TagImageModel model_;
@@ -249,7 +250,7 @@ Eigen::Vector2d CornerPixel(const Camera& camera, const LocalFrame& frame, const
   return Project(camera, frame.ToRay(Map(homography.inverse(), st).st));
 }
 
-// Of the chosen pixels those that lie, with their whole footprint, on the tag's picture.
+// Returns those of the chosen pixels whose whole footprint lies on the tag's picture.
 std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera, const LocalFrame& frame,
                                     const Eigen::Matrix3d& homography, int total_cells,
                                     const std::vector<Eigen::Array2i>& chosen) {
@@ -266,7 +267,7 @@ std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera
             .inverse();
     const MappedPoint mapped = Map(homography, pixel.xy);
     if (!(mapped.inverse_w > 0)) continue;
-    // Half a pixel of footprint and a fifth of a cell for what the detector's corners may be off.
+    // Half a pixel for the footprint, and a fifth of a cell for the error of the detector's corners.
     const Eigen::Vector2d reach =
         0.5 * (mapped.d_xy * pixel.d_pixel).cwiseAbs().rowwise().sum().array() + 0.2;
     if ((mapped.st - reach).minCoeff() < 0 || (mapped.st + reach).maxCoeff() > total_cells) continue;
@@ -276,9 +277,8 @@ std::vector<TagPixel> CollectPixels(const ImagePlane& grey, const Camera& camera
   return pixels;
 }
 
-// rms over the 8 corner coordinates of their standard deviations. The covariance is N^-1 S N^-1 (White,
-// 1980): where edges are aliased their pixels err far more than those inside cells, and the plain N^-1 would
-// not know.
+// Returns the rms of the 8 corner coordinates' standard deviations. The covariance is N^-1 S N^-1 (White,
+// 1980): pixels at aliased edges err far more than those inside cells, and the plain N^-1 ignores that.
 double CornerSigmaPx(const Camera& camera, const LocalFrame& frame, const TagPicture& picture,
                      const Fit& fit) {
   const Normal inverse = SolveSymmetric(fit.normal, Normal::Identity());
@@ -334,8 +334,8 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
   if (!fitter.FitShading(fit)) return std::nullopt;
   bool converged = false;
   for (int i = 0; i < options.max_iterations && !converged; ++i) {
-    // The sharp picture's derivative jumps as edges pass pixel borders: full steps then swing to and fro by a
-    // few thousandths of a pixel, half steps settle.
+    // The sharp picture's derivative jumps as edges pass pixel borders. Full steps then oscillate by a few
+    // thousandths of a pixel; half steps settle.
     const double change_px = fitter.Step(fit, i < kFullSteps ? 1.0 : 0.5) / cells_per_px;
     if (!std::isfinite(change_px)) return std::nullopt;
     converged = change_px < kConvergedPx;
@@ -356,7 +356,7 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
     side_px += (refined.corners_px[(i + 1) % 4] - refined.corners_px[i]).norm() / 4;
   refined.side_px = side_px;
   const double sigma_px = CornerSigmaPx(camera, frame, picture, fit);
-  // Too few edges were left to be worth more than the detector's corners.
+  // Too few edges were left for corners better than the detector's.
   if (!(sigma_px < detection.corner_sigma_px)) return std::nullopt;
   refined.corner_sigma_px = std::max(options.min_corner_sigma_px, sigma_px);
   return refined;

@@ -25,7 +25,8 @@ double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
   return sum_px / 4;
 }
 
-// Small tags are looked for where time allows: decimation by 2 misses a third of those below 40 px.
+// Returns the reduction to use. Decimation by 2 misses a third of the tags below 40 px: small tags are
+// searched for where time allows.
 double DecimationOf(const ImagePlane& grey, double asked) {
   constexpr Eigen::Index kLargePhotoPixels = 8'000'000;
   if (asked > 0) return asked;
@@ -36,7 +37,8 @@ TagDetection ToHouse(const apriltag_detection_t& found) {
   TagDetection tag;
   tag.id = found.id;
   tag.decision_margin = found.decision_margin;
-  // libapriltag: bottom-left, bottom-right, top-right, top-left; centre of the first pixel at (0.5, 0.5).
+  // libapriltag's order is bottom-left, bottom-right, top-right, top-left; its first pixel's centre is (0.5,
+  // 0.5).
   constexpr std::array<std::size_t, 4> kTheirCorner = {3, 2, 1, 0};
   for (std::size_t i = 0; i < 4; ++i) {
     const double* p = found.p[kTheirCorner[i]];
@@ -69,7 +71,7 @@ std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_dete
   };
   ImagePlane large(enlarged(grey.rows()), enlarged(grey.cols()));
   const cv::Mat from(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
-                     const_cast<float*>(grey.data()));  // read only: cv::Mat knows no const
+                     const_cast<float*>(grey.data()));  // read only: cv::Mat has no const data
   cv::Mat to(static_cast<int>(large.rows()), static_cast<int>(large.cols()), CV_32F, large.data());
   cv::resize(from, to, to.size(), 0, 0, cv::INTER_CUBIC);
   const Eigen::Array2d scale(static_cast<double>(large.cols()) / static_cast<double>(grey.cols()),
@@ -83,14 +85,14 @@ std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_dete
   return tags;
 }
 
-// Detections of one tag (or of one of several copies of it) in several photos.
+// Holds the detections of one tag (or of one of several copies of it) in several photos.
 using Cluster = std::vector<TagDetection>;
 
 Eigen::Vector2d Center(const TagDetection& tag) {
   return (tag.corners_px[0] + tag.corners_px[1] + tag.corners_px[2] + tag.corners_px[3]) / 4;
 }
 
-// `tags` and those of `others` that are at another place or of another id.
+// Returns `tags` and those of `others` that are at another place or have another id.
 std::vector<TagDetection> WithOthers(std::vector<TagDetection> tags,
                                      const std::vector<TagDetection>& others) {
   for (const TagDetection& other : others) {
@@ -121,11 +123,11 @@ std::array<Eigen::Vector2d, 4> MedianCorners(const Cluster& cluster) {
   return median_px;
 }
 
-// The detections that the mean is taken of.
+// Returns the detections over which the mean is taken.
 Cluster WithoutOutliers(const Cluster& cluster) {
   double least_sigma_px = cluster.front().corner_sigma_px;
   for (const TagDetection& tag : cluster) least_sigma_px = std::min(least_sigma_px, tag.corner_sigma_px);
-  // Where some photos could be refined and others not (clipped whites, a shadow), the others add bias only.
+  // Photos that could not be refined (clipped whites, a shadow) only add bias to photos that could.
   constexpr double kMuchWorse = 3;
   Cluster precise;
   for (const TagDetection& tag : cluster) {
@@ -157,7 +159,7 @@ TagDetection CombineCluster(const Cluster& cluster, double systematic_fraction) 
   const double count = static_cast<double>(kept.size());
   const double single_variance = count / weight_sum;
   const double common = systematic_fraction * systematic_fraction;
-  double chi2 = 0;  // of the photos about the mean
+  double chi2 = 0;  // chi2 of the photos about the mean
   for (const TagDetection& tag : kept) {
     const double sigma_px = tag.corner_sigma_px;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -186,9 +188,9 @@ double DetectorCornerSigmaPx(double side_px) {
   // Measured on area-integrated renders with lens blur 0.7 px; below 16 px extrapolated as 1 / side.
   constexpr std::array<std::pair<double, double>, 5> kTable = {
       {{16, 0.22}, {24, 0.14}, {40, 0.055}, {80, 0.045}, {160, 0.04}}};
-  // The detector sees the photo with a display gamma, which moves edges towards the black by 0.36 px at a
-  // lens blur of 0.7 px (docs/calib.md, "Boards and tags"), whatever the size; photos sharper than the pixel
-  // grid are aliased.
+  // The detector sees the photo with a display gamma. Whatever the tag's size, that moves edges towards the
+  // black by 0.36 px at a lens blur of 0.7 px (docs/calib.md, "Boards and tags"). Photos sharper than the
+  // pixel grid are aliased.
   constexpr double kDisplayPx = 0.35;
   double blurred_px = kTable.back().second;
   if (side_px <= kTable.front().first) {
@@ -215,7 +217,7 @@ struct FamilyDetector {
   DetectorPtr detector{apriltag_detector_create(), apriltag_detector_destroy};
 };
 
-// To list a family's codes with all their errors takes longer than to search a photo: each thread does it
+// Listing a family's codes with all their errors takes longer than searching a photo: each thread does it
 // once.
 apriltag_detector_t& DetectorOf(const std::string& family) {
   thread_local std::map<std::string, FamilyDetector> detectors;

@@ -9,11 +9,12 @@
 #include "forward/direct/internal/surface_rule.h"
 #include "forward/factors/internal/disc_factor.h"
 #include "forward/factors/internal/polygon_factor.h"
+#include "forward/luminaire/distribution_ops.h"
 
 namespace luxfit {
 namespace {
 
-// E = pi L F, L = Phi / (pi A), with F in closed form.
+// Returns E = pi L F, L = Phi / (pi A), with F in closed form.
 DirectIlluminance LambertianRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
                                       const Eigen::Vector3d& normal) {
   const Eigen::Vector2d& sides = surface.sides();
@@ -24,7 +25,7 @@ DirectIlluminance LambertianRectangle(const LuminousSurface& surface, const Eige
   DirectIlluminance sum;
   sum.lx_per_lm = factor.factor / area;
   const Eigen::Vector2d corners[4] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
-  // A Lambertian lobe adds nothing of its own to a turn: it is the surface's cosine.
+  // A Lambertian lobe adds nothing of its own to a turn: it is the cosine of the surface.
   for (size_t k = 0; k < 4; ++k) surface.AddMotion(corners[k], factor.d_vertex[k] / area, sum);
   sum.d_size -= sum.lx_per_lm * sides.cwiseInverse();
   return sum;
@@ -38,7 +39,7 @@ DirectIlluminance LambertianDisc(const LuminousSurface& surface, const Eigen::Ve
   DirectIlluminance sum;
   sum.lx_per_lm = disc.factor / area;
   sum.d_position = disc.d_center / area;
-  // Turning the lamp is turning centre and receiver's normal about the receiver the other way.
+  // To turn the luminaire is to turn centre and receiver's normal about the receiver the other way.
   const Eigen::Vector3d turn =
       -((luminaire.position - p).cross(disc.d_center) + normal.cross(disc.d_normal)) / area;
   sum.d_tilt = {turn.dot(surface.axes().across), -turn.dot(surface.axes().along)};
@@ -46,9 +47,9 @@ DirectIlluminance LambertianDisc(const LuminousSurface& surface, const Eigen::Ve
   return sum;
 }
 
-// In closed form areas are differences of angles: rounding, 1e-16, is to stay small beside them.
+// Areas of the closed form are differences of angles: rounding, 1e-16, must stay small beside them.
 bool HasClosedForm(const LuminousSurface& surface, const Eigen::Vector3d& p) {
-  return surface.has_extent() && surface.luminaire().distribution == Distribution::kLambertian &&
+  return surface.has_extent() && OpsOf(surface.luminaire().distribution).is_diffuse &&
          surface.area_m2() > 1e-8 * (surface.luminaire().position - p).squaredNorm();
 }
 
@@ -65,7 +66,7 @@ DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Ve
     if (height <= 0 || r2 < 1e-12) continue;
     const double r = std::sqrt(r2);
     const Eigen::Vector3d direction = -to_lamp / r;
-    const DirectedIntensity intensity = IntensityPerLumen(luminaire, axes, direction);
+    const DirectedIntensity intensity = surface.IntensityTowards(direction);
     if (intensity.cd_per_lm == 0) continue;
     // E = I(d) h / r^3 with h = n . t, d = -t / r, t = to_lamp.
     const double geometry = sample.weight * height / (r2 * r);
@@ -76,8 +77,8 @@ DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Ve
                                      3 * illuminance / r2 * to_lamp;
     sum.lx_per_lm += illuminance;
     surface.AddMotion(place, gradient, sum);
-    // Turning the lamp about w turns its lobe as if the receiver had been turned by -w: dI = (d_direction x
-    // d) . w. Tilts are about across and -along, the heading is about aim.
+    // To turn the luminaire about w turns its lobe as if the receiver had been turned by -w: dI =
+    // (d_direction x d) . w. Tilts are about across and -along, the heading is about aim.
     const Eigen::Vector3d turn = geometry * lobe.cross(direction);
     sum.d_tilt += Eigen::Vector2d(turn.dot(axes.across), -turn.dot(axes.along));
     sum.d_heading += turn.dot(luminaire.aim);

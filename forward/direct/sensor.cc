@@ -15,7 +15,7 @@
 namespace luxfit {
 namespace {
 
-// w and dw/dtheta of a table.
+// Holds w and dw/dtheta of a table.
 struct PolarWeight {
   double value = 0, d_theta = 0;
 };
@@ -41,7 +41,7 @@ bool SeesHemisphere(const SensorResponse& response) {
   return response.kind == ResponseKind::kCosine || response.kind == ResponseKind::kTable;
 }
 
-// Columns: facing (or any tangent), the tangent across it, the normal.
+// Returns a frame whose columns are facing (or any tangent), the tangent across it, the normal.
 Eigen::Matrix3d FrameOf(const Sensor& sensor) {
   Eigen::Vector3d along = sensor.response.facing - sensor.response.facing.dot(sensor.normal) * sensor.normal;
   if (sensor.response.kind != ResponseKind::kSemicylindrical || along.norm() < 1e-9)
@@ -53,7 +53,8 @@ Eigen::Matrix3d FrameOf(const Sensor& sensor) {
   return frame;
 }
 
-// Points that share the unit square evenly: the additive recurrence of the plastic number (x^3 = x + 1).
+// Returns points that share the unit square evenly: the additive recurrence of the plastic number (x^3 = x +
+// 1).
 std::vector<Eigen::Vector2d> Recurrence(int count) {
   constexpr double kStepX = 0.75487766624669276, kStepY = 0.56984029099805327;
   std::vector<Eigen::Vector2d> points;
@@ -64,7 +65,7 @@ std::vector<Eigen::Vector2d> Recurrence(int count) {
   return points;
 }
 
-// Weight over the polar angle alone, for the sampling.
+// Returns the weight over the polar angle alone, for the sampling.
 double PolarDensity(const SensorResponse& response, double theta) {
   const double sine = std::sin(theta);
   if (response.kind == ResponseKind::kTable) return 2 * TableWeight(response, theta).value * sine;
@@ -152,7 +153,7 @@ DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Se
     if (r < 1e-6) continue;
     const Eigen::Vector3d direction = to_lamp / r;
     const DirectionWeight weight = WeightOf(sensor, direction);
-    // I / r^2 is the illuminance of a receiver that faces the point; a turn of its normal changes it in
+    // I / r^2 is the illuminance of a receiver that faces the point. A turn of its normal changes it in
     // second order only, so that the gradient is that of I / r^2 too.
     const DirectIlluminance beam = DirectIlluminancePerLumen(point, sensor.position, direction);
     const double share = sample.weight * weight.value;

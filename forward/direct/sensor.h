@@ -1,4 +1,4 @@
-// Light meters: where they stand and how they weigh light by its direction.
+// Describes light meters by place and response to direction, and returns their illuminance.
 //
 //   E = int L(d) w(d) dOmega                                d: unit vector towards the light
 //     = Phi sum_q w_q I(gamma_q) w(d_q) / r_q^2             direct, lx
@@ -7,17 +7,19 @@
 //   cosine           w = max(0, cos theta)                        theta from the normal
 //   table            w = s(theta), the meter's measured response to a beam, 1 at normal incidence
 //   cylindrical      w = sin(epsilon) / pi                        epsilon from the axis (the normal)
-//   semicylindrical  w = sin(epsilon) (1 + cos(alpha)) / pi       alpha: azimuth from `facing`, about the
-//   axis spherical        w = 1 / 4                                    mean spherical (scalar) illuminance
+//   semicylindrical  w = sin(epsilon) (1 + cos(alpha)) / pi       alpha: azimuth about it, from `facing`
+//   spherical        w = 1 / 4                                    mean spherical (scalar) illuminance
 //
 // A uniform luminance L gives E = pi L for all of them (for a table: pi L times its own integral over the
-// cosine's). Of a table the deviation from the cosine is interpolated, so that a cosine sampled coarsely
-// stays a cosine. Past its last angle, if that is below 90 degrees, the last ratio to the cosine is held;
-// else w = 0.
+// cosine's). A table's deviation from the cosine is interpolated, so that a cosine sampled coarsely stays a
+// cosine. Past the table's last angle, if that is below 90 degrees, the last ratio to the cosine holds; else
+// w = 0.
 //
-// Angles rad, positions m, world frame. All kinds but cosine and table see the full sphere and must stand in
-// free air. Source: cylindrical: EN 12464-1:2021, sec. 3 and CIE S 017; semicylindrical: EN 13201-3:2015, eq.
-// for E_sc with (1 + cos alpha_sc) sin epsilon / pi; spherical: Lynes et al. (1966), "The flow of light into
+// Angles are in rad, positions in m, in the world frame. All kinds but cosine and table see the full sphere
+// and must stand in free air.
+//
+// Source: cylindrical: EN 12464-1:2021, sec. 3 and CIE S 017; semicylindrical: EN 13201-3:2015, eq. for E_sc
+// with (1 + cos alpha_sc) sin epsilon / pi; spherical: Lynes et al. (1966), "The flow of light into
 // buildings" (scalar illuminance); response curves: CIE S 023 (f2). Weighted isocell: Masset, Bruls, Kerschen
 // (2011), "Partition of the circle in cells of equal area and shape"; the disc's radius is mapped by the
 // response's cumulative distribution.
@@ -38,14 +40,14 @@ enum class ResponseKind { kCosine, kTable, kCylindrical, kSemicylindrical, kSphe
 
 struct SensorResponse {
   ResponseKind kind = ResponseKind::kCosine;
-  std::vector<double> angle_rad = {};  // of a table: from 0, ascending, up to pi
+  std::vector<double> angle_rad = {};  // table only: from 0, ascending, up to pi
   std::vector<double> relative = {};   // the first is 1
-  Eigen::Vector3d facing = {1, 0, 0};  // of a semicylinder; made perpendicular to the normal
+  Eigen::Vector3d facing = {1, 0, 0};  // semicylinder only; made perpendicular to the normal
 };
 bool operator==(const SensorResponse& a, const SensorResponse& b);
 
-// A table made relative to its first value. Throws std::invalid_argument unless the angles ascend from 0 to
-// at most pi, there are two or more, and the values are >= 0, the first > 0.
+// Returns a table made relative to its first value. Throws std::invalid_argument unless there are two or more
+// angles, they ascend from 0 to at most pi, and the values are >= 0, the first > 0.
 SensorResponse TableResponse(std::vector<double> angle_rad, std::vector<double> relative);
 
 struct Sensor {
@@ -55,36 +57,39 @@ struct Sensor {
 };
 bool operator==(const Sensor& a, const Sensor& b);
 
-// w(d) and its derivative with respect to d, perpendicular to d.
+// Holds w(d) and its derivative with respect to d, perpendicular to d.
 struct DirectionWeight {
   double value = 0;
   Eigen::Vector3d d_direction = Eigen::Vector3d::Zero();
 };
 DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction);
 
-// Unoccluded, with derivatives: DirectIlluminancePerLumen for any response.
+// Returns the unoccluded illuminance with derivatives: DirectIlluminancePerLumen for any response.
 DirectIlluminance SensorIlluminancePerLumen(const Luminaire& luminaire, const Sensor& sensor);
 
-// Share of the luminaire's surface points (`order` a side), weighed by the response, that the sensor sees.
+// Returns the share of the luminaire's surface points (`order` a side), weighed by the response, that the
+// sensor sees.
 double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, const Sensor& sensor,
                              int order);
 
 constexpr int kSensorRays = 16384;
 
-// One weight an element: illuminance of the sensor per exitance of the element. Sums to 1 in a closed room
-// (not for a table, see above). About `ray_count` rays, importance-sampled by the response. A ray that meets
-// the back of a facet brings nothing. Throws std::invalid_argument if ray_count < 1.
+// Returns one weight per element: illuminance of the sensor per exitance of the element. The weights sum to 1
+// in a closed room (not for a table, see above). About `ray_count` rays are importance-sampled by the
+// response. A ray that meets the back of a facet brings nothing. Throws std::invalid_argument if ray_count <
+// 1.
 Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, const Sensor& sensor,
                                   int ray_count = kSensorRays);
 
-// The rays of SensorFormFactors: each unit direction stands for the same part of `total`.
+// Holds the rays of SensorFormFactors: each unit direction stands for the same part of `total`.
 struct SensorRays {
   Eigen::Matrix3Xd directions;
   double total = 1;  // illuminance over pi L for a uniform luminance L
 };
 SensorRays SampleResponse(const Sensor& sensor, int ray_count);
 
-// Where the rays of a sensor start: just off the surface it lies on, for those that see a hemisphere.
+// Returns where the rays of a sensor start: just off the surface it lies on, for sensors that see a
+// hemisphere.
 Eigen::Vector3d RayOrigin(const Sensor& sensor);
 
 }  // namespace luxfit

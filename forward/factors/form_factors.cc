@@ -4,53 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/factors/internal/disc_rows.h"
-#include "forward/factors/internal/pair_rows.h"
 #include "forward/factors/internal/ray_rows.h"
 
 namespace luxfit {
-namespace {
 
-// Shaft culling compares pairs of facets with each other facet: beyond this many, rays cost less.
-constexpr size_t kMaxFacetsForHybrid = 400;
-
-}  // namespace
-
-std::string ToString(FormFactorMethod method) {
-  switch (method) {
-    case FormFactorMethod::kHybrid:
-      return "hybrid";
-    case FormFactorMethod::kAnalytic:
-      return "analytic";
-    case FormFactorMethod::kMalley:
-      return "malley";
-    case FormFactorMethod::kMalleyStratified:
-      return "malley_stratified";
-    case FormFactorMethod::kIsocell:
-      return "isocell";
-    case FormFactorMethod::kMonteCarlo:
-      return "montecarlo";
-    case FormFactorMethod::kHemicube:
-      return "hemicube";
-    case FormFactorMethod::kSinglePlane:
-      return "single_plane";
-    case FormFactorMethod::kWallace:
-      return "wallace";
-  }
-  return "";
-}
-
-const std::vector<FormFactorMethod>& AllFormFactorMethods() {
-  static const std::vector<FormFactorMethod> all = {
-      FormFactorMethod::kHybrid,           FormFactorMethod::kAnalytic,    FormFactorMethod::kMalley,
-      FormFactorMethod::kMalleyStratified, FormFactorMethod::kIsocell,     FormFactorMethod::kMonteCarlo,
-      FormFactorMethod::kHemicube,         FormFactorMethod::kSinglePlane, FormFactorMethod::kWallace};
-  return all;
-}
+std::string ToString(FormFactorMethod method) { return OpsOf(method).name; }
 
 std::optional<FormFactorMethod> FormFactorMethodFrom(const std::string& name) {
-  for (const FormFactorMethod method : AllFormFactorMethods()) {
-    if (ToString(method) == name) return method;
+  for (const FormFactorOps& ops : FormFactorMethods()) {
+    if (ops.name == name) return ops.method;
   }
   return std::nullopt;
 }
@@ -59,23 +21,9 @@ FormFactors ComputeFormFactors(const RayScene& rays, const Patches& patches,
                                const FormFactorOptions& options) {
   if (options.rays_per_element < 1)
     throw std::invalid_argument("ComputeFormFactors: expected rays_per_element >= 1");
-  switch (options.method) {
-    case FormFactorMethod::kHybrid:
-      if (patches.facets.size() > kMaxFacetsForHybrid) {
-        FormFactors result =
-            RayFormFactors(rays, patches, FormFactorMethod::kMalley, options.rays_per_element);
-        result.because = "hybrid compares facets pair by pair, and there are more than " +
-                         std::to_string(kMaxFacetsForHybrid);
-        return result;
-      }
-      return PairFormFactors(rays, patches, options.method, options.rays_per_element);
-    case FormFactorMethod::kAnalytic:
-      return PairFormFactors(rays, patches, options.method, options.rays_per_element);
-    case FormFactorMethod::kWallace:
-      return DiscFormFactors(rays, patches, options.rays_per_element);
-    default:
-      return RayFormFactors(rays, patches, options.method, options.rays_per_element);
-  }
+  const FormFactorOps& ops = OpsOf(options.method);
+  return ops.by_pairs ? ops.by_pairs(rays, patches, options.rays_per_element)
+                      : RayFormFactors(rays, patches, options.method, options.rays_per_element);
 }
 
 RayShares RaySharesOf(const FormFactors& form_factors) {

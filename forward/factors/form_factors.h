@@ -1,4 +1,4 @@
-// Form factors from receivers to patches, by the method of one's choice.
+// Computes form factors from receivers to patches by a method of choice, and lists the methods.
 //
 //   F_ej = (1 / A_e) int_e int_j cos(theta) cos(theta') / (pi r^2) V dA' dA
 //
@@ -6,7 +6,7 @@
 // either side (closure and reciprocity). Both are measured before they are enforced: closure here where the
 // room is closed and the method weighs pairs one by one, reciprocity in MakeTransportGeometry.
 //
-// The methods:
+// The methods, each a row of FormFactorMethods():
 //   hybrid             closed form or Gauss quadrature where nothing stands between (proved by shaft
 //                      culling), rays between the pairs where something does; more of them where these
 //                      disagree. The default.
@@ -46,7 +46,7 @@
 
 namespace luxfit {
 
-// receivers x patches
+// Holds receivers x patches.
 using FormFactorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 enum class FormFactorMethod {
@@ -61,8 +61,8 @@ enum class FormFactorMethod {
   kWallace,
 };
 std::string ToString(FormFactorMethod method);
+// Returns the method of that name; nothing where the name is none of these.
 std::optional<FormFactorMethod> FormFactorMethodFrom(const std::string& name);
-const std::vector<FormFactorMethod>& AllFormFactorMethods();
 
 struct FormFactorOptions {
   // Rays over the whole hemisphere of an element. Those with a grid take the nearest number that theirs
@@ -85,12 +85,51 @@ struct FormFactors {
 FormFactors ComputeFormFactors(const RayScene& rays, const Patches& patches,
                                const FormFactorOptions& options = {});
 
-// What rays lost, as CheckMesh's findings are judged by it. Elements that see nothing of the room do not count.
+// Returns what rays lost, by which WithRayShares judges findings. Elements that see nothing of the room do
+// not count.
 RayShares RaySharesOf(const FormFactors& form_factors);
 
-// Reciprocity: root mean square of A_i F_ij - A_j F_ji over that of A_i F_ij, patches as the area means of
-// their elements.
+// Returns the error of reciprocity: root mean square of A_i F_ij - A_j F_ji over that of A_i F_ij, patches as
+// the area means of their elements.
 double ReciprocityError(const Patches& patches, const FormFactors& form_factors);
+
+// Returns the product of a form-factor matrix with columns of light: C = A B, float, on all cores.
+Eigen::MatrixXf Product(const FormFactorMatrix& a, const Eigen::MatrixXf& b);
+
+// Holds directions over a hemisphere with the form factor that each stands for. They are in the receiver's
+// frame: z along its normal. Weights add up to the share of the hemisphere that a set covers: 1, but for the
+// single plane, which leaves out the horizon, and the hemicube's small quadrature error. Equal arguments give
+// equal sets.
+struct Directions {
+  Eigen::Matrix3Xf unit;
+  Eigen::VectorXf weight;
+};
+
+// Describes one method by its functions and properties: a row of FormFactorMethods(). Other files name a
+// method only where they choose it; they tell methods apart by these properties.
+//   by rays over the hemisphere   F_ej = sum of w_k over the rays k from e that meet j
+//   pair by pair                  F_ej from e and j themselves, with rays where something may stand between
+// A new method is a value of FormFactorMethod, one file that makes its row (such as internal/isocell.cc) and
+// the row's line in form_factor_ops.cc.
+struct FormFactorOps {
+  FormFactorMethod method = FormFactorMethod::kHybrid;
+  const char* name = "";        // in options, artifacts and legends
+  bool is_from_center = false;  // sees from the receiver's centre alone, not from points spread over it
+
+  // A method has one of these two functions. `directions` makes about `count` of them; `variant` seeds the
+  // random ones. `by_pairs` makes all rows; its time grows with the pairs more than with their rays.
+  Directions (*directions)(int count, uint64_t variant) = nullptr;
+  FormFactors (*by_pairs)(const RayScene& rays, const Patches& patches, int rays_per_element) = nullptr;
+
+  // So many sets of directions are made; every receiver picks one. 0: it has a set made for itself.
+  int direction_sets = 1;
+};
+
+// Returns all methods, in the order in which programs list them.
+const std::vector<FormFactorOps>& FormFactorMethods();
+
+// Returns the row of a method. Throws std::invalid_argument for a value that has no row.
+const FormFactorOps& OpsOf(FormFactorMethod method);
 
 }  // namespace luxfit
 

@@ -12,11 +12,11 @@
 namespace luxfit {
 namespace {
 
-// Shares of the error: together, as a root of squares and a twentieth, they stay below it.
+// These shares of the error, as a root of squares plus a twentieth, stay below it together.
 constexpr double kPatchesShare = 0.85, kRaysShare = 0.3, kSensorsShare = 0.2, kBouncesShare = 0.05;
 constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64, kFewestSensorRays = 1024;
-constexpr double kFirstBoundPercent = 1;  // of AdaptivePatches, at the first halving
-constexpr double kOneDraw = 2;            // of a sampled error over its sigma, at 95 %
+constexpr double kFirstBoundPercent = 1;  // error_percent of AdaptivePatches at the first halving
+constexpr double kOneDraw = 2;            // a sampled error over its sigma, at 95 %
 
 std::string Percent(double percent) {
   char text[32];
@@ -35,7 +35,7 @@ class Chooser {
   Chooser(const LitScene& lit, const AccuracyOptions& options) : lit_(lit), options_(options) {
     double area_m2 = 0;
     for (const Facet& facet : lit.scene.facets) area_m2 += facet.AreaM2();
-    // Two halvings are always to be had.
+    // Two halvings are always possible.
     coarsest_m_ = std::max(options.coarsest_patch_m, std::sqrt(16 * area_m2 / options.max_patches));
     choice_.options.solver.tolerance_percent = kBouncesShare * options.error_percent;
   }
@@ -69,7 +69,7 @@ class Chooser {
     return RelativeRmsPercent(before.total.cast<double>(), now.total.cast<double>());
   }
 
-  // By choice_.options as they stand.
+  // Computes the light by choice_.options as they stand.
   SceneLight Try(const ColourIlluminance* before) {
     SceneLight now = ComputeSceneLight(lit_, choice_.options);
     Record(now, before ? ChangePercent(*before, now.light) : 0);
@@ -136,7 +136,8 @@ class Chooser {
     return last;
   }
 
-  // The number of bounces that a bound asks for hardly depends on the patches: found on the coarse ones.
+  // Chooses the bounces on the coarse patches: the number that a bound asks for hardly depends on the
+  // patches.
   void ChooseBounces(const SceneLight& coarse) {
     RadiositySolverOptions iterated = choice_.options.solver;
     iterated.solver = RadiositySolver::kConjugateGradient;
@@ -157,10 +158,10 @@ class Chooser {
                               "bounces that would leave out " + Percent(series.tolerance_percent);
   }
 
-  // Whether elements of half the size do.
+  // Tells whether matrices for elements of half the size fit the memory.
   bool FinerFit(const Room& room) const {
     constexpr double kPatchesGrow = 2;       // most patches are split no further
-    constexpr double kBytesPerRay = 2 * 24;  // of pairs both ways, while they are made
+    constexpr double kBytesPerRay = 2 * 24;  // pairs both ways, while they are made
     const double patches = kPatchesGrow * static_cast<double>(room.patches.patches.size());
     const double size_m = choice_.options.room.patches.element_size_m;
     double elements = 0;  // those of small facets stay as they are
@@ -171,7 +172,7 @@ class Chooser {
     return patches <= options_.max_patches && patches * elements * sizeof(float) <= options_.max_matrix_bytes;
   }
 
-  // The coarsest of which a halving shows that they do.
+  // Chooses the coarsest patches that a halving shows to suffice.
   SceneLight ChoosePatches(SceneLight last) {
     const double allowed = kPatchesShare * options_.error_percent;
     PatchesOptions sizes = PatchesOfSize(coarsest_m_);
@@ -208,7 +209,7 @@ class Chooser {
     return last;
   }
 
-  // Of all luminaires.
+  // Returns the indirect light of all luminaires.
   Eigen::VectorXf IndirectLx(const ColourIlluminance& light) const {
     Eigen::VectorXf flux_lm(static_cast<Eigen::Index>(lit_.luminaires.size()));
     for (Eigen::Index k = 0; k < flux_lm.size(); ++k)
@@ -216,7 +217,7 @@ class Chooser {
     return light.element_indirect * flux_lm;
   }
 
-  // Of the finest patches, from the last two changes; `before` 0: there was only one.
+  // Returns the error of the finest patches from the last two changes; `before` 0: there was only one.
   static double ErrorFrom(double before, double change) {
     constexpr double kSlowest = 1.5;
     if (before == 0) return change;

@@ -1,10 +1,11 @@
-#include "forward/light/colour_illuminance.h"
+#include "forward/light/illuminance.h"
 
 #include <algorithm>
 #include <stdexcept>
 
 #include "forward/light/internal/direct_columns.h"
 #include "forward/light/internal/gather.h"
+#include "forward/radiosity/internal/sparse_transport.h"
 
 namespace luxfit {
 namespace {

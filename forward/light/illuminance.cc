@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "forward/factors/dense_product.h"
+#include "forward/factors/form_factors.h"
 #include "forward/light/internal/direct_columns.h"
 #include "forward/light/internal/gather.h"
+#include "forward/radiosity/internal/sparse_transport.h"
 
 namespace luxfit {
 namespace {
 
-// Columns of light: luminaires, their parameters, then reflectances luminaire-major.
+// Counts the columns of light: luminaires, their parameters, then reflectances luminaire-major.
 struct Columns {
   Eigen::Index lamps = 0, parameters = 0;
   const std::vector<int>& materials;
@@ -20,7 +21,7 @@ struct Columns {
   }
 };
 
-// Receivers x columns; the indirect light of every element on the way.
+// Returns receivers x columns, by way of the indirect light of every element.
 Eigen::MatrixXf GatherThroughElements(const Room& room, const Receivers& receivers,
                                       const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
                                       const Columns& columns, const Eigen::MatrixXf& exitance) {
@@ -39,7 +40,7 @@ Eigen::MatrixXf GatherThroughElements(const Room& room, const Receivers& receive
   return GatherAtReceivers(receivers, indirect, reflected);
 }
 
-// The same from what PrepareGather multiplied out:
+// Returns the same from the products of PrepareGather:
 //   sensor:  sum_m rho_m (G_m D + (G F)_m M),   by rho_m: G_m D + (G F)_m M and what M changes
 Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
                                const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,

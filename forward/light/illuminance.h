@@ -1,17 +1,19 @@
-// Illuminance of any receiver from any luminaire, direct and interreflected, with derivatives.
+// Returns the illuminance of any receiver from any luminaire, direct and interreflected, with derivatives.
 //
 //   E_ek = V_ek D_ek + sum_j F_ej M_jk,     M_k = Exitance(patch mean of V D_k)        element e
 //   E_sk = V_sk D_sk + sum_e G_se rho_e E_ek                                           sensor s
+//   E = E_direct + sum_c w_c E_indirect(rho_c) / sum_c w_c                             channels c: R, G, B
 //
-// lx per lm of luminaire k. D: direct illuminance, V: visible share, F and G: form factors, M: exitance.
-// Derivatives with respect to a
-// luminaire's parameter take the same path with dD in place of D (light is linear in what the luminaires put
-// in), one more column each and no further factorisation; those with respect to a material's reflectance are
-// Transport::ExitanceDerivatives. All are exact for frozen visibility; the motion of shadow edges is added
-// where asked for.
+// E is in lx per lm of luminaire k. D: direct illuminance, V: visible share, F and G: form factors, M:
+// exitance. Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k *
+// materials + m. Reflected light takes on the surfaces' colours, so each channel has its own interreflection.
 //
-// Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k * materials +
-// m.
+// Light is linear in the direct light of the luminaires. Derivatives with respect to a luminaire's parameter
+// take the same path with dD in place of D: one more column each and no further factorisation. Derivatives
+// with respect to a material's reflectance are Transport::ExitanceDerivatives. All are exact for frozen
+// visibility; the motion of shadow edges is added where `moving_shadows` asks for it.
+//
+// Throws std::invalid_argument for luminaires that are not valid and reflectances outside [0, 1).
 #ifndef LUXFIT_FORWARD_LIGHT_ILLUMINANCE_H_
 #define LUXFIT_FORWARD_LIGHT_ILLUMINANCE_H_
 
@@ -20,6 +22,7 @@
 
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire.h"
+#include "forward/radiosity/solvers.h"
 
 namespace luxfit {
 
@@ -40,7 +43,7 @@ enum class LuminaireQuantity {
 struct LuminaireParameter {
   int luminaire = 0;
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
-  int part = 0;  // of kGammaNode and kCell
+  int part = 0;  // for kGammaNode and kCell
 };
 
 struct Illuminance {
@@ -53,36 +56,56 @@ struct Illuminance {
 struct DerivativeRequest {
   std::vector<LuminaireParameter> parameters;
   std::vector<int> materials;
-  // Follow the edges of shadows too, where places see a part of a disc or rectangle
-  // (forward/direct/internal/shadowed_light.h). Costs some hundred rays a place; fits that update visibility between their
-  // steps do without.
+  // Follows the edges of shadows too, where places see a part of a disc or rectangle
+  // (forward/direct/internal/shadowed_light.h). It costs some hundred rays per place. Fits that update
+  // visibility between their steps do without.
   bool moving_shadows = false;
 };
 
-// `albedo` by material of the scene.
+// Computes the illuminance; `albedo` by material of the scene.
 Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const LuminaireVisibility& visibility,
                                const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
                                const DerivativeRequest& derivatives = {});
 
-// The same with the room's transport already factored for its reflectances, which costs more than all else
-// where a few luminaires move and no surface changes.
+// Computes the same with the room's transport already factored for its reflectances. The factorisation costs
+// more than all else where a few luminaires move and no surface changes.
 Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const LuminaireVisibility& visibility,
                                const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives = {});
 
-// The direct part alone, of the receivers and in both `total` and `direct`, with its derivatives but those by
-// reflectances; for those who know the indirect light from elsewhere. Of `visibility` only the receivers'
-// part is needed (ComputeReceiverVisibility).
+// Computes the direct part alone at the receivers, in both `total` and `direct`, with its derivatives except
+// those by reflectances. It serves callers that know the indirect light already. `visibility` needs only the
+// receivers' part (ComputeReceiverVisibility).
 Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,
                                      const LuminaireVisibility& visibility,
                                      const std::vector<Luminaire>& luminaires,
                                      const DerivativeRequest& derivatives = {});
 
-// F M: illuminance of every element by the exitance of the patches (patches x columns to elements x columns).
-// Of a sparse room the same all over a patch.
+// Returns F M, the illuminance of every element by the exitance of the patches (patches x columns to elements
+// x columns). In a sparse room it is the same all over a patch.
 Eigen::MatrixXf IndirectAtElements(const Room& room, const Eigen::MatrixXf& patch_exitance);
+
+// Holds the illuminance in a room whose surfaces have colours.
+struct ColourIlluminance {
+  Eigen::MatrixXf total;             // receivers x luminaires, lx per lm
+  Eigen::MatrixXf direct;            // its direct part
+  Eigen::MatrixXf element_indirect;  // elements of the room x luminaires, lx per lm
+  int solved_channels = 0;
+  RadiositySolver solver = RadiositySolver::kAuto;  // the one used
+  int iterations = 0;                               // those of the slowest channel
+  double error_percent = 0;  // bound of forward/radiosity/solvers.h; the worst channel's
+};
+
+// Computes the illuminance by luminaires of neutral light in a room whose surfaces have colours. Channels of
+// equal reflectances are solved once. Throws std::invalid_argument for reflectances outside [0, 1), a number
+// of columns that is not the number of materials, or weights that are negative or all zero. `albedo_rgb` is
+// 3 x materials of the scene; `weights` are those of R, G, B in luminance.
+ColourIlluminance ComputeColourIlluminance(
+    const Room& room, const Receivers& receivers, const LuminaireVisibility& visibility,
+    const std::vector<Luminaire>& luminaires, const Eigen::Matrix3Xd& albedo_rgb,
+    const Eigen::Vector3d& weights, const RadiositySolverOptions& solver = {RadiositySolver::kCholesky});
 
 }  // namespace luxfit
 

@@ -19,8 +19,8 @@ using Generator = std::mt19937_64;
 
 double Uniform(Generator& rng) { return UnitFrom(rng()); }
 
-// The additive recurrence of the plastic number (x^3 = x + 1), which fills the unit square evenly, from a
-// random start.
+// Generates the additive recurrence of the plastic number (x^3 = x + 1) from a random start; it fills the
+// unit square evenly.
 class ShiftedSequence {
  public:
   explicit ShiftedSequence(Generator& rng) : shift_(Uniform(rng), Uniform(rng)) {}
@@ -36,7 +36,7 @@ class ShiftedSequence {
 struct Source {
   LuminousSurface surface;
 
-  // From one point of the luminaire's surface, that of all its flux.
+  // Returns the direct light from one point of the luminaire's surface, taken for all its flux.
   double DirectLx(const RayScene& rays, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                   const Eigen::Vector2d& unit) const {
     const Eigen::Vector3d point = surface.PointAt(unit), to_lamp = point - p;
@@ -55,7 +55,7 @@ struct Tracer {
   const Eigen::VectorXd& albedo;
   std::vector<Source> sources;
 
-  // Adds what one path brings, by luminaire.
+  // Adds the light of one path, by luminaire.
   void AddPath(const Sensor& sensor, const Eigen::Vector2d& first, Generator& rng,
                Eigen::Ref<Eigen::VectorXd> sum_lx) const {
     Eigen::Vector3d p = sensor.position, normal = sensor.normal;
@@ -78,7 +78,7 @@ struct Tracer {
   }
 };
 
-// Mean and its standard error over columns (replicates), by row.
+// Holds the mean and its standard error over columns (replicates), by row.
 struct MeanAndSigma {
   Eigen::RowVectorXd mean, sigma;
 };
@@ -108,7 +108,7 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const size_t replicates = static_cast<size_t>(options.replicates);
   const int paths = options.paths_per_sensor / options.replicates;
-  // Sensor by sensor: luminaires x replicates.
+  // For each sensor: luminaires x replicates.
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(lamps, options.replicates);
   std::vector<Eigen::MatrixXd> direct(sensors.size(), none), indirect(sensors.size(), none);
   tbb::parallel_for(size_t{0}, sensors.size() * replicates, [&](size_t task) {

@@ -1,24 +1,24 @@
-// Illuminance at sensors by unbiased Monte Carlo: a check of the radiosity solution that shares no patch with
-// it.
+// Traces illuminance at sensors by unbiased Monte Carlo: a check of radiosity that shares no patch with it.
 //
 //   E = E_direct + E_indirect,  E_indirect = mean over paths of  sum_k rho_k E_direct(x_k)
 //
-// Paths are the adjoint of light's: they leave the sensor with the cosine's density, at every diffuse surface
-// point x_k ask each luminaire for its direct light (one shadow ray to a random point of its surface), and go
-// on with probability rho_k. So the weight of a path is 1 throughout, no bounce is left out, and one path
-// serves all luminaires. For few sensors this converges far faster than particles from the luminaires, whose
-// hits must reach every sensor. Any luminaire that IntensityPerLumen knows can be traced: nothing samples its
-// directions.
+// Paths are the adjoint of light's. They leave the sensor with the cosine's density. At every diffuse surface
+// point x_k they take the direct light of each luminaire (one shadow ray to a random point of its surface),
+// and go on with probability rho_k. So the weight of a path is 1 throughout, no bounce is left out, and one
+// path serves all luminaires. For few sensors this converges far faster than particles from the luminaires,
+// whose hits must reach every sensor. Any luminaire that IntensityPerLumen knows can be traced, because
+// nothing samples its directions.
 //
 // First directions and luminaire points are a two-dimensional additive sequence, shifted at random in each of
-// `replicates` independent runs (randomised quasi-Monte Carlo); the spread of the runs gives the standard
+// `replicates` independent runs (randomised quasi-Monte Carlo). The spread of the runs gives the standard
 // errors. The same seed gives the same numbers on any number of cores.
 //
-// lx (flux_lm of the luminaires included), metres, world. Both sides of facets block; a path ends on a back
-// and where it leaves the scene. Luminaires cast no shadow and reflect nothing. Throws std::invalid_argument
-// for reflectances outside [0, 1), fewer than 2 replicates or fewer paths than those. Sources: Kajiya (1986),
-// "The rendering equation"; Arvo and Kirk (1990), "Particle transport and image synthesis" (Russian
-// roulette); Veach (1997), thesis, ch. 3 and 8 (adjoint, next-event estimation).
+// Results are in lx (flux_lm of the luminaires included); metres, world frame. Both sides of facets block; a
+// path ends on a back and where it leaves the scene. Luminaires cast no shadow and reflect nothing.
+//
+// Throws std::invalid_argument for reflectances outside [0, 1), fewer than 2 replicates or fewer paths than
+// those. Sources: Kajiya (1986), "The rendering equation"; Arvo and Kirk (1990), "Particle transport and
+// image synthesis" (Russian roulette); Veach (1997), thesis, ch. 3 and 8 (adjoint, next-event estimation).
 #ifndef LUXFIT_FORWARD_LIGHT_LIGHT_TRACER_H_
 #define LUXFIT_FORWARD_LIGHT_LIGHT_TRACER_H_
 
@@ -39,14 +39,14 @@ struct LightTracerOptions {
   uint64_t seed = 1;
 };
 
-// sensors x luminaires, lx; sigmas are standard errors of the means, those of direct and indirect
+// Holds sensors x luminaires, lx. Sigmas are standard errors of the means; those of direct and indirect are
 // independent.
 struct TracedIlluminance {
   Eigen::MatrixXd direct, direct_sigma;
   Eigen::MatrixXd indirect, indirect_sigma;
 };
 
-// `albedo` by material of the scene, whose rays `rays` are.
+// Traces the scene, whose rays `rays` are; `albedo` by material.
 TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
                                    const std::vector<Luminaire>& luminaires, const Eigen::VectorXd& albedo,
                                    const std::vector<Sensor>& sensors,

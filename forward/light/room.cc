@@ -8,8 +8,9 @@
 #include "forward/direct/internal/expect_sensor.h"
 #include "forward/direct/internal/luminaire_sight.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
+#include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/room/internal/expect_valid.h"
-#include "forward/room/overlaps.h"
+#include "forward/room/mesh_check.h"
 
 namespace luxfit {
 namespace {
@@ -27,7 +28,7 @@ void FillSensorRows(const Room& room, const Receivers& receivers, const std::vec
   });
 }
 
-// Elements x patches of form factors, patches x patches of coupling.
+// Returns the bytes of form factors (elements x patches) and coupling (patches x patches).
 double MatrixBytes(const Patches& patches) {
   const double n = static_cast<double>(patches.patches.size());
   return n * (n + static_cast<double>(patches.elements.size())) * sizeof(float);

@@ -1,7 +1,6 @@
-// Illuminance at sensors from scene, luminaires and reflectances, with every choice of the forward model
-// open.
+// Returns illuminance at sensors from scene, luminaires and reflectances, with every model choice open.
 //
-// What simulate asks once, choose_accuracy a few times and the chart some hundred times. Arrays as in
+// `simulate` calls it once, choose_accuracy a few times and the chart some hundred times. Arrays are as in
 // forward/light/illuminance.h: sensors x luminaires, lx per lm of luminaire.
 //
 // Throws as its parts do (MakeRoom, ComputeColourIlluminance).
@@ -13,7 +12,7 @@
 #include <vector>
 
 #include "forward/direct/sensor.h"
-#include "forward/light/colour_illuminance.h"
+#include "forward/light/illuminance.h"
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire.h"
 #include "forward/radiosity/solvers.h"
@@ -21,13 +20,13 @@
 
 namespace luxfit {
 
-// All that light depends on. Luminaires that are bodies must be in the scene already
-// (forward/luminaire/luminaire_body.h).
+// Holds all that light depends on. Luminaires that are bodies must be in the scene already
+// (forward/direct/luminaire_body.h).
 struct LitScene {
   Scene scene;
   std::vector<Luminaire> luminaires;
   Eigen::Matrix3Xd albedo_rgb;                           // 3 x materials
-  Eigen::Vector3d channel_weights{0.265, 0.670, 0.065};  // of R, G, B in luminance
+  Eigen::Vector3d channel_weights{0.265, 0.670, 0.065};  // weights of R, G, B in luminance
   std::vector<Sensor> sensors;
 };
 
@@ -37,7 +36,8 @@ struct SceneLightOptions {
   RadiositySolverOptions solver;
 };
 
-// Patches no larger than that, of elements a quarter as large, whose direct light sensors gather.
+// Returns options for patches no larger than that, of elements a quarter as large, whose direct light sensors
+// gather.
 PatchesOptions PatchesOfSize(double patch_size_m);
 
 struct SceneLight {
@@ -48,15 +48,15 @@ struct SceneLight {
 };
 SceneLight ComputeSceneLight(const LitScene& lit, const SceneLightOptions& options = {});
 
-// The light alone, once more with other rays of the sensors.
+// Recomputes the light alone, with other rays of the sensors.
 SceneLight Regather(const LitScene& lit, SceneLight prediction, const SceneLightOptions& options);
 
-// The light alone, once more with another solver.
+// Recomputes the light alone, with another solver.
 ColourIlluminance Relight(const LitScene& lit, const SceneLight& prediction,
                           const RadiositySolverOptions& solver);
 
-// Root mean square of value / reference - 1 over all entries, percent. Where the reference is below 1 % of
-// its column's mean (a sensor in the dark of a luminaire), that takes its place.
+// Returns the root mean square of value / reference - 1 over all entries, percent. Where the reference is
+// below 1 % of its column's mean (a sensor in the dark of a luminaire), that 1 % takes its place.
 double RelativeRmsPercent(const Eigen::MatrixXd& value, const Eigen::MatrixXd& reference);
 
 }  // namespace luxfit

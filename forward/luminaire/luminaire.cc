@@ -4,25 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/luminaire/photometry.h"
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/room/internal/quadrature.h"
 
 namespace luxfit {
-namespace {}  // namespace
 
-std::string ToString(Distribution distribution) {
-  switch (distribution) {
-    case Distribution::kIsotropic:
-      return "isotropic";
-    case Distribution::kLambertian:
-      return "lambertian";
-    case Distribution::kCosinePower:
-      return "cosine_power";
-    case Distribution::kMeasured:
-      return "measured";
-  }
-  return "";
-}
+std::string ToString(Distribution distribution) { return OpsOf(distribution).name; }
 
 std::string ToString(LuminaireShape shape) {
   switch (shape) {
@@ -39,15 +26,10 @@ std::string ToString(LuminaireShape shape) {
 }
 
 Intensity IntensityPerLumen(const Luminaire& luminaire, double cosine_gamma) {
-  if (luminaire.distribution == Distribution::kIsotropic) return {1 / (4 * M_PI), 0, 0};
-  if (luminaire.distribution == Distribution::kMeasured)
+  const DistributionOps& ops = OpsOf(luminaire.distribution);
+  if (ops.about_aim == nullptr)
     throw std::invalid_argument("IntensityPerLumen: expected the direction for a measured distribution");
-  if (cosine_gamma <= 0) return {};
-  if (luminaire.distribution == Distribution::kLambertian) return {cosine_gamma / M_PI, 1 / M_PI, 0};
-  const double m = luminaire.cosine_exponent;
-  const double log_cosine = std::log(cosine_gamma);
-  const double lobe = std::exp(m * log_cosine) / (2 * M_PI);
-  return {(m + 1) * lobe, (m + 1) * m * lobe / cosine_gamma, lobe * (1 + (m + 1) * log_cosine)};
+  return ops.about_aim(luminaire, cosine_gamma);
 }
 
 std::vector<SurfaceSample> SampleSurface(LuminaireShape shape, int order) {
@@ -82,21 +64,14 @@ LuminaireAxes AxesOf(const Luminaire& luminaire) {
   return {along, luminaire.aim.cross(along)};
 }
 
+bool DependsOnHeading(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle ||
+         !OpsOf(luminaire.distribution).is_symmetric_about_aim(luminaire);
+}
+
 DirectedIntensity IntensityPerLumen(const Luminaire& luminaire, const LuminaireAxes& axes,
                                     const Eigen::Vector3d& direction) {
-  const double cosine_gamma = luminaire.aim.dot(direction);
-  if (luminaire.distribution != Distribution::kMeasured) {
-    const Intensity intensity = IntensityPerLumen(luminaire, cosine_gamma);
-    return {intensity.cd_per_lm, intensity.d_cosine * luminaire.aim, intensity.d_exponent};
-  }
-  if (!luminaire.table) throw std::invalid_argument("IntensityPerLumen: expected a table, got none");
-  // C runs from the heading away from `across`: x along, y = -across, z = -aim.
-  const TableIntensity at = IntensityTowards(
-      *luminaire.table, {axes.along.dot(direction), -axes.across.dot(direction), -cosine_gamma});
-  return {
-      at.cd_per_lm,
-      at.d_direction.x() * axes.along - at.d_direction.y() * axes.across - at.d_direction.z() * luminaire.aim,
-      0};
+  return OpsOf(luminaire.distribution).towards(luminaire, axes, direction);
 }
 
 }  // namespace luxfit

@@ -45,7 +45,8 @@ struct Luminaire {
 };
 
 // Luminous intensity per lumen (cd/lm) of an analytic distribution at angle gamma from the aim, and its
-// derivatives. Throws std::invalid_argument for a measured one, which needs the direction.
+// derivatives. Throws std::invalid_argument for a measured one, which needs the direction. A loop over many
+// directions looks the function up once: forward/luminaire/distribution_ops.h.
 struct Intensity {
   double cd_per_lm = 0;
   double d_cosine = 0;    // with respect to cos(gamma)
@@ -67,6 +68,9 @@ struct LuminaireAxes {
   Eigen::Vector3d along, across;
 };
 LuminaireAxes AxesOf(const Luminaire& luminaire);
+
+// Whether shape or light tells the heading: of a rectangle, or of a table that is not the same all round.
+bool DependsOnHeading(const Luminaire& luminaire);
 
 // Luminous intensity per lumen of any distribution towards a unit vector in world. A change d of the
 // direction that keeps its length changes it by d_direction . d.

@@ -4,11 +4,13 @@
 #include <memory>
 #include <stdexcept>
 
+#include "forward/luminaire/distribution_ops.h"
+
 namespace luxfit {
 namespace {
 
 bool IsRotational(const Luminaire& luminaire) {
-  return luminaire.distribution == Distribution::kMeasured && luminaire.table != nullptr &&
+  return OpsOf(luminaire.distribution).has_table && luminaire.table != nullptr &&
          luminaire.table->c_rad.size() == 2;
 }
 

@@ -1,8 +1,26 @@
-// A photometric file (.ies, .ldt) as light needs it: distribution, flux, luminous opening.
+// Reads and writes photometric files (.ies, .ldt) as light needs them: distribution, flux, luminous opening.
 //
-// Errors in a file are std::runtime_error("FILE:LINE: field: expected X, got Y; mend"). What could be read
-// but was guessed, rounded to a supported shape or ignored stands in `notes`, one sentence each. Sources:
-// forward/luminaire/internal/ies_file.h, forward/luminaire/internal/ldt_file.h.
+// Errors in a file are std::runtime_error("FILE:LINE: field: expected X, got Y; remedy"). What could be read
+// but was guessed, rounded to a supported shape or ignored stands in `notes`, one sentence each.
+//
+// A luminaire is written as .ies (LM-63-2002) and .ldt (EULUMDAT). Both hold the same table, so scaled that
+// its integral is the luminaire's flux: absolute photometry, with no statement of lamps. Analytic
+// distributions are tabulated: linear interpolation in gamma is then within 0.5 % of the peak of the
+// distribution and its integral, before it is scaled, within 0.1 % of the flux. gamma has an even step (2.5,
+// 1 or 0.5 deg) where one does, else smaller ones where the curve bends, down to 0.01 deg. That is enough up
+// to cos^1e4; below cos^1 the fall to 0 in the last 0.02 deg above the horizontal is steeper than any step.
+// Measured tables keep their angles, gamma completed to what LM-63 asks for (from 0 to 90 or 180). Those
+// about another axis, or that leave planes out, are resampled (5 deg of C, 1 deg of gamma).
+//
+// C0 is the luminaire's heading in both; the opening's length is along C0 in .ies and along C90 in .ldt, as
+// each format defines it. EULUMDAT has no spheres: a sphere is a disc there.
+//
+// ASCII, CRLF, lines of at most 80 characters of label and 132 of numbers; numbers in plain decimals: seven
+// digits of the largest intensity in .ies, five in .ldt. Flux in lm, lengths in m (.ies, to 0.1 mm) and mm
+// (.ldt, whole ones).
+//
+// Sources: forward/luminaire/internal/ies_file.h, forward/luminaire/internal/ldt_file.h; ANSI/IESNA
+// LM-63-2002; Stockmar (1990, 1998), "EULUMDAT".
 #ifndef LUXFIT_FORWARD_LUMINAIRE_PHOTOMETRY_FILE_H_
 #define LUXFIT_FORWARD_LUMINAIRE_PHOTOMETRY_FILE_H_
 
@@ -15,8 +33,8 @@
 
 namespace luxfit {
 
-// One line of description, in the order of the file. A line without a name (1986) has an empty one. Bytes as
-// in the file: usually Latin-1.
+// Holds one line of description, in the order of the file. A line without a name (1986) has an empty one.
+// Bytes are those of the file: usually Latin-1.
 struct PhotometryKeyword {
   std::string name, text;
 };
@@ -33,11 +51,32 @@ struct PhotometryFile {
   std::vector<std::string> notes;
 };
 
-// By the extension, .ies or .ldt. A TILT file of an .ies is looked for beside it.
+// Reads a file by its extension, .ies or .ldt. A TILT file of an .ies is looked for beside it.
 PhotometryFile ReadPhotometry(const std::string& path);
 
-// The same from text; `name` gives the extension and stands in errors.
+// Reads the same from text; `name` gives the extension and stands in errors.
 PhotometryFile ParsePhotometry(const std::string& text, const std::string& name);
+
+// Holds what written files say of themselves. Characters beyond ASCII are replaced, and what is too long for
+// the formats is cut.
+struct PhotometryLabels {
+  std::string test;        // what the data come from
+  std::string laboratory;  // who made them of it
+  std::string manufacturer, catalogue_number, luminaire;
+  std::string issue_date;
+  std::vector<std::string> remarks;  // .ies only
+};
+
+struct PhotometryTexts {
+  std::string ies, ldt;
+};
+
+// Returns the luminaire's distribution, flux and opening as a file has them. Throws std::invalid_argument for
+// a flux that is not above 0, an exponent that is not, or a measured distribution without a table.
+PhotometryFile TabulatedPhotometry(const Luminaire& luminaire);
+
+// Returns both files as text; throws the same.
+PhotometryTexts WritePhotometry(const Luminaire& luminaire, const PhotometryLabels& labels);
 
 }  // namespace luxfit
 

@@ -1,9 +1,10 @@
-#include "forward/luminaire/photometry_writer.h"
+#include "forward/luminaire/photometry_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/internal/ies_file.h"
 #include "forward/luminaire/internal/ldt_file.h"
 #include "forward/luminaire/internal/photometry_planes.h"
@@ -76,7 +77,7 @@ std::vector<double> RefinedAngles(const Luminaire& luminaire, double last_deg) {
 }
 
 std::vector<double> GammaAngles(const Luminaire& luminaire) {
-  const double last_deg = luminaire.distribution == Distribution::kIsotropic ? 180 : 90;
+  const double last_deg = OpsOf(luminaire.distribution).last_gamma_deg;
   for (const double step_deg : {2.5, 1.0, 0.5}) {
     std::vector<double> angles = EvenAngles(step_deg, last_deg);
     if (IsFineEnough(luminaire, angles)) return angles;
@@ -169,16 +170,15 @@ std::string LdtOf(const PhotometryFile& photometry, const PhotometryLabels& labe
 PhotometryFile TabulatedPhotometry(const Luminaire& luminaire) {
   if (!(luminaire.flux_lm > 0) || !std::isfinite(luminaire.flux_lm))
     throw std::invalid_argument("TabulatedPhotometry: expected a flux above 0 lm");
-  if (luminaire.distribution == Distribution::kCosinePower &&
-      (!(luminaire.cosine_exponent > 0) || !std::isfinite(luminaire.cosine_exponent)))
+  const DistributionOps& ops = OpsOf(luminaire.distribution);
+  if (ops.has_exponent && ops.missing(luminaire) != nullptr)
     throw std::invalid_argument("TabulatedPhotometry: expected an exponent above 0");
-  const bool is_measured = luminaire.distribution == Distribution::kMeasured;
-  if (is_measured && !luminaire.table)
+  if (ops.has_table && !luminaire.table)
     throw std::invalid_argument("TabulatedPhotometry: expected a table, got none");
   PhotometryFile photometry;
   photometry.format = "IESNA:LM-63-2002";
-  photometry.table = Normalized(is_measured ? WithWholeGamma(InLuminaireFrame(*luminaire.table))
-                                            : TableAt(luminaire, GammaAngles(luminaire)));
+  photometry.table = Normalized(ops.has_table ? WithWholeGamma(InLuminaireFrame(*luminaire.table))
+                                              : TableAt(luminaire, GammaAngles(luminaire)));
   photometry.luminaire_flux_lm = luminaire.flux_lm;
   photometry.shape = luminaire.shape;
   const bool has_two = luminaire.shape == LuminaireShape::kRectangle;

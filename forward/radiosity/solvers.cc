@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "forward/radiosity/internal/dense.h"
+#include "forward/radiosity/internal/linear_transport.h"
 #include "forward/radiosity/internal/radiosity_system.h"
 
 namespace luxfit {
@@ -68,7 +69,7 @@ RadiositySystem MakeSystem(const LinearTransport& transport, const Eigen::Vector
                                      : kPasses;
   }
   if (rho.size() == 0) return system;
-  // (F 1) and (F rho) by one product.
+  // One product gives (F 1) and (F rho).
   Eigen::MatrixXf probes(rho.size(), 2);
   probes << system.root_area, rho.cwiseProduct(system.root_area);
   const Eigen::MatrixXf sums = system.root_area.cwiseInverse().asDiagonal() * transport.Times(probes);
@@ -111,7 +112,8 @@ RadiosityIterate SolveLu(const RadiositySystem& system, const FormFactorMatrix& 
   return iterate;
 }
 
-// One gathering step: measures the residual and, but for the truncated series, improves the solution.
+// Makes one gathering step: it measures the residual and, but for the truncated series, improves the
+// solution.
 RadiositySolution Finish(const RadiositySystem& system, const RadiosityIterate& iterate,
                          const RadiositySolverOptions& options, RadiositySolver solver) {
   RadiositySolution solution;

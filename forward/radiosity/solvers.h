@@ -1,4 +1,4 @@
-// Radiosity by any of the field's solvers, behind one function.
+// Solves radiosity by any of the field's solvers, behind one function.
 //
 //   (I - rho F) M = rho D,     E = D + F M
 //   M: exitance, lm/m2; D, E: direct and total illuminance, lx
@@ -16,28 +16,27 @@
 //   bicgstab             on I - rho F, for couplings that are not quite symmetric
 //   auto                 cholesky or conjugate_gradient by the number of patches and columns
 //
-// All but neumann end with one gathering step M = rho (D + F M~), which also measures the residual
-// r = rho (D + F M~) - M~. A row sum q = max_i (F rho)_i < 1 bounds the error of the illuminance at every
-// patch:
+// All but neumann end with one gathering step M = rho (D + F M~). It also measures the residual r. A row sum
+// q = max_i (F rho)_i < 1 bounds the error of the illuminance at every patch:
+//   r = rho (D + F M~) - M~
 //   max |dE| <= max_i (F 1)_i max |r| / (1 - q)
-// (where sampled form factors make q >= 1, max rho takes its place). Iteration stops when this bound is below
-// the tolerance; neumann reports by it what its truncation leaves out.
+// Where sampled form factors make q >= 1, max rho takes its place. Iteration stops when this bound is below
+// the tolerance; neumann reports by it how much light its truncation leaves out.
 //
 // Shapes: albedo by material, in [0, 1); direct_lx patches x columns, columns independent.
+//
 // Throws std::invalid_argument for shapes, NaN or reflectances outside [0, 1) (a closed room that absorbs
-// nothing has no solution), for a dense solver on a transport without a matrix. Not converged within
-// max_iterations: `converged` false, `message` says how far. Sources: Cohen and Wallace (1993), "Radiosity
-// and Realistic Image Synthesis", ch. 5; Cohen, Chen, Wallace, Greenberg (1988), "A progressive refinement
-// approach to fast radiosity image generation" (ambient term); Hestenes and Stiefel (1952); van der Vorst
-// (1992), "Bi-CGSTAB".
+// nothing has no solution), and for a dense solver on a transport without a matrix. A solver that has not
+// converged within max_iterations returns `converged` false; `message` says how far it came. Sources: Cohen
+// and Wallace (1993), "Radiosity and Realistic Image Synthesis", ch. 5; Cohen, Chen, Wallace, Greenberg
+// (1988), "A progressive refinement approach to fast radiosity image generation" (ambient term); Hestenes and
+// Stiefel (1952); van der Vorst (1992), "Bi-CGSTAB".
 #ifndef LUXFIT_FORWARD_RADIOSITY_SOLVERS_H_
 #define LUXFIT_FORWARD_RADIOSITY_SOLVERS_H_
 
 #include <Eigen/Core>
 #include <string>
-#include <vector>
 
-#include "forward/radiosity/linear_transport.h"
 #include "forward/radiosity/transport.h"
 
 namespace luxfit {
@@ -54,15 +53,15 @@ enum class RadiositySolver {
   kBicgstab,
 };
 std::string ToString(RadiositySolver solver);
-// Throws std::invalid_argument that lists the names.
+// Returns the solver of that name. Throws std::invalid_argument that lists the names.
 RadiositySolver RadiositySolverFromName(const std::string& name);
 
 struct RadiositySolverOptions {
   RadiositySolver solver = RadiositySolver::kAuto;
   // Bound on the error at every patch, in percent of the area mean of the column's |direct illuminance|: ten
-  // times below what form factors and reflectances are known to.
+  // times below the accuracy of form factors and reflectances.
   double tolerance_percent = 0.1;
-  // Passes over all patches; shots of one patch for shooting. 0: 1000 passes, 100 shots a patch.
+  // Passes over all patches; for shooting, shots of one patch. 0: 1000 passes, 100 shots a patch.
   int max_iterations = 0;
   int bounces = 5;  // neumann only
 };
@@ -78,13 +77,9 @@ struct RadiositySolution {
   std::string message;
 };
 
+// Solves with a dense coupling, by any solver. forward/radiosity/internal/linear_transport.h has the one for
+// couplings that are no matrix.
 RadiositySolution SolveRadiosity(const TransportGeometry& geometry, const Eigen::VectorXd& albedo,
-                                 const Eigen::MatrixXf& direct_lx,
-                                 const RadiositySolverOptions& options = {});
-
-// Without a dense matrix: the iterative solvers only; auto means conjugate_gradient.
-RadiositySolution SolveRadiosity(const LinearTransport& transport, const Eigen::VectorXf& patch_area_m2,
-                                 const std::vector<int>& patch_material, const Eigen::VectorXd& albedo,
                                  const Eigen::MatrixXf& direct_lx,
                                  const RadiositySolverOptions& options = {});
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "forward/factors/dense_product.h"
+#include "forward/factors/form_factors.h"
 #include "forward/radiosity/internal/dense.h"
 
 namespace luxfit {

@@ -1,18 +1,18 @@
-// Radiosity: interreflection between diffuse patches, factored once for any number of luminaires.
+// Factors the interreflection between diffuse patches (radiosity) once, for any number of luminaires.
 //
 //   E = E_direct + F M,   M = rho E            (lx = lm/m2; M is luminous exitance)
 //   (I - rho F) M = rho E_direct               solved as  S x = sqrt(A rho) E_direct,  M = sqrt(rho / A) x,
 //   S = I - sqrt(rho) K sqrt(rho),  K = sqrt(A) F / sqrt(A) made symmetric (reciprocity A_i F_ij = A_j F_ji)
 //
 // S is symmetric positive definite whenever rho < 1, so one Cholesky factorisation serves all right-hand
-// sides; rho = 0 is no special case. Everything is linear in the direct light and never asks which luminaire
-// it came from. Columns of the matrices are independent light sources (or derivatives of them); rows are
-// patches.
+// sides; rho = 0 is no special case. Everything is linear in the direct light and never depends on the
+// luminaire that it came from. Columns of the matrices are independent light sources (or derivatives of
+// them); rows are patches.
 //
 // Throws std::invalid_argument for reflectances outside [0, 1), or when S is not positive definite (a closed
 // room that absorbs nothing has no solution).
-// Source: Goral et al. (1984), "Modeling the interaction of light
-// between diffuse surfaces"; symmetrised form: Neumann and Neumann (1990).
+// Source: Goral et al. (1984), "Modeling the interaction of light between diffuse surfaces"; symmetrised
+// form: Neumann and Neumann (1990).
 #ifndef LUXFIT_FORWARD_RADIOSITY_TRANSPORT_H_
 #define LUXFIT_FORWARD_RADIOSITY_TRANSPORT_H_
 
@@ -24,7 +24,7 @@
 
 namespace luxfit {
 
-// What depends on geometry alone.
+// Holds the quantities that depend on geometry alone.
 struct TransportGeometry {
   Eigen::VectorXf patch_area_m2;
   std::vector<int> patch_material;
@@ -34,15 +34,15 @@ TransportGeometry MakeTransportGeometry(const Patches& patches, const FormFactor
 
 class Transport {
  public:
-  // `albedo` by material.
+  // Factors S; `albedo` by material. `geometry` must outlive it.
   Transport(const TransportGeometry& geometry, const Eigen::VectorXd& albedo);
 
-  // Exitance of every patch (patches x columns, lm/m2) for its direct illuminance (lx).
+  // Returns the exitance of every patch (patches x columns, lm/m2) for its direct illuminance (lx).
   Eigen::MatrixXf Exitance(const Eigen::MatrixXf& direct_lx) const;
-  // Illuminance that an exitance gives back to the patches: F M.
+  // Returns F M, the illuminance that an exitance gives back to the patches.
   Eigen::MatrixXf Irradiance(const Eigen::MatrixXf& exitance) const;
-  // d(exitance)/d(albedo of each material), for the illuminance E = direct + Irradiance(exitance) of the same
-  // light: patches x (columns of E, each with its materials).
+  // Returns d(exitance)/d(albedo of each material), for the illuminance E = direct + Irradiance(exitance) of
+  // the same light: patches x (columns of E, each with its materials).
   //   dM = 1_m E + rho F dM   =>   dM = 1_m E + Exitance(F 1_m E)
   Eigen::MatrixXf ExitanceDerivatives(const std::vector<int>& materials,
                                       const Eigen::MatrixXf& illuminance_lx) const;
@@ -56,7 +56,7 @@ class Transport {
   Eigen::MatrixXf factor_;  // lower Cholesky factor of S
 };
 
-// Area means over each patch of a quantity given at the elements (elements x columns).
+// Returns the area means over each patch of a quantity given at the elements (elements x columns).
 Eigen::MatrixXf PatchMean(const Patches& patches, const Eigen::MatrixXf& at_elements);
 
 }  // namespace luxfit

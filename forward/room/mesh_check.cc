@@ -13,12 +13,11 @@
 #include "forward/room/internal/facet_corners.h"
 #include "forward/room/internal/mesh_topology.h"
 #include "forward/room/internal/shell_volume.h"
-#include "forward/room/overlaps.h"
 
 namespace luxfit {
 namespace {
 
-constexpr size_t kShown = 5;            // places of a finding
+constexpr size_t kShown = 5;            // places that a finding keeps
 constexpr double kSliverAspect = 1000;  // longest side over height
 // Rays that leak between facets that do close: 0 of 2e6 in Embree's robust mode.
 constexpr double kEscapedShare = 1e-3;
@@ -41,7 +40,7 @@ Eigen::Vector3d CenterOf(const Facet& facet) {
   return facet.PointAt(triangle ? 1. / 3 : 0.5, triangle ? 1. / 3 : 0.5);
 }
 
-// Counts, and keeps the first few.
+// Counts a defect, and keeps the first few.
 void Add(MeshFinding& finding, int facet, const Eigen::Vector3d& place, double extent) {
   ++finding.count;
   finding.extent += extent;
@@ -50,7 +49,7 @@ void Add(MeshFinding& finding, int facet, const Eigen::Vector3d& place, double e
   finding.places.push_back(place);
 }
 
-// "3 facets (0.2 m2) WHAT, the first at (0, 1, 2)"; nothing where none was found.
+// Writes the message "3 facets (0.2 m2) WHAT, the first at (0, 1, 2)"; none where nothing was found.
 void Describe(MeshFinding& finding, const std::string& things, const std::string& unit,
               const std::string& what) {
   if (finding.count == 0) return;
@@ -63,7 +62,7 @@ double DistanceToSegment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, con
   return (p - a - std::clamp(ab.dot(p - a) / ab.squaredNorm(), 0.0, 1.0) * ab).norm();
 }
 
-// Whether a point lies on a facet, its rim included.
+// Tells whether a point lies on a facet, its rim included.
 bool LiesOn(const Facet& facet, const Eigen::Vector3d& p) {
   const Eigen::Vector3d normal = facet.Normal();
   if (std::abs(normal.dot(p - facet.origin)) > kWeldM) return false;
@@ -75,7 +74,7 @@ bool LiesOn(const Facet& facet, const Eigen::Vector3d& p) {
   return true;
 }
 
-// Share of an edge's length that no facet but its own lies along.
+// Returns the share of an edge's length that no facet but its own lies along.
 double OpenShare(const Scene& scene, const BoxTree& tree, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  int own_facet) {
   constexpr int kProbes = 16;
@@ -114,7 +113,7 @@ MeshFinding OpenEdges(const Scene& scene, const MeshTopology& mesh, const BoxTre
   return finding;
 }
 
-// The lesser part of each shell where its facets are wound against one another.
+// Finds the lesser part of each shell where its facets are wound against one another.
 MeshFinding FlippedFacets(const Scene& scene, const Shells& shells) {
   std::vector<std::array<double, 2>> area(shells.closed.size(), {0, 0});
   for (size_t f = 0; f < scene.facets.size(); ++f) {
@@ -148,7 +147,7 @@ MeshFinding InsideOut(const Scene& scene, const Shells& shells) {
   return finding;
 }
 
-// Same outline, facing and material: a copy.
+// Tells whether the facet is a copy: same outline, facing and material.
 bool IsCopy(const Scene& scene, const FacetOverlap& overlap) {
   const Facet &top = scene.facets[static_cast<size_t>(overlap.on_top)],
               &below = scene.facets[static_cast<size_t>(overlap.below)];
@@ -306,7 +305,7 @@ std::vector<MeshFinding> CheckMesh(const Scene& given) {
   const std::vector<FacetOverlap> overlaps = FindOverlaps(given);
   std::vector<MeshFinding> all{Duplicates(given, overlaps), Overlaps(given, overlaps), Dropped(given),
                                Slivers(given)};
-  // What is in one place twice would make every edge of it odd.
+  // A facet that is there twice would make every edge of it odd.
   const Scene scene = overlaps.empty() ? given : WithoutOverlaps(given);
   const MeshTopology mesh = MakeTopology(scene);
   std::vector<Eigen::AlignedBox3d> boxes;
@@ -328,9 +327,10 @@ std::vector<MeshFinding> WithRayShares(std::vector<MeshFinding> findings, const 
     return std::find_if(findings.begin(), findings.end(),
                         [&](const MeshFinding& f) { return f.defect == defect; });
   };
-  // A room that is inside out loses all its rays, and that is no second defect.
+  // A room that is inside out loses all its rays, which is no second defect.
   const bool explained = find(MeshDefect::kInsideOut) != findings.end();
-  // Elements behind a flipped facet lie outside, and what falls on those beside it is lost: no hole either.
+  // Elements behind a flipped facet lie outside, and light that falls on those beside it is lost: no hole
+  // either.
   const bool flipped = find(MeshDefect::kFlippedFacets) != findings.end();
   if (find(MeshDefect::kOpenMesh) == findings.end() && shares.escaped > kEscapedShare && !explained &&
       !flipped) {

@@ -3,7 +3,7 @@
 namespace luxfit {
 namespace {
 
-// Bytes that the control character at `i` takes: 0 where there is none.
+// Returns the number of bytes that the control character at `i` takes; 0 where there is none.
 size_t ControlBytes(const std::string& text, size_t i) {
   const auto byte = static_cast<unsigned char>(text[i]);
   if (byte < 0x20 || byte == 0x7F) return 1;

@@ -1,4 +1,4 @@
-#include "forward/room/overlaps.h"
+#include "forward/room/mesh_check.h"
 
 #include <tbb/parallel_for.h>
 
@@ -26,7 +26,7 @@ struct Split {
   Polygon inside, outside;
 };
 
-// A convex polygon on both sides of a plane; `outward` is the plane's unit normal.
+// Splits a convex polygon by a plane; `outward` is the plane's unit normal.
 Split SplitBy(const Polygon& polygon, const Eigen::Vector3d& on_plane, const Eigen::Vector3d& outward) {
   Split split;
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -50,7 +50,7 @@ double AreaOf(const Polygon& polygon) {
   return 0.5 * sum.norm();
 }
 
-// Too thin to be anything but rounding.
+// Tells whether a polygon is too thin to be anything but rounding.
 bool IsThin(const Polygon& polygon) {
   double longest = 0;
   for (const Eigen::Vector3d& p : polygon) longest = std::max(longest, (p - polygon[0]).norm());
@@ -62,7 +62,7 @@ Polygon PolygonOf(const Facet& facet) {
   return {corners.begin(), corners.end()};
 }
 
-// Pieces of `polygon` outside the facet, and the one inside it.
+// Holds the pieces of `polygon` outside the facet, and the one inside it.
 struct Difference {
   std::vector<Polygon> outside;
   Polygon inside;
@@ -94,7 +94,7 @@ bool AreCoplanar(const Facet& a, const Eigen::Vector3d& normal_a, const Facet& b
          (LiesInPlane(b, a.origin, normal_a) || LiesInPlane(a, b.origin, normal_b));
 }
 
-// Area of the facet's material in the facet's plane, one a facet.
+// Returns for each facet the area of its material in its plane.
 std::vector<double> AreaInPlane(const Scene& scene, const std::vector<Eigen::Vector3d>& normals) {
   using Key = std::tuple<int64_t, int64_t, int64_t, int64_t, int>;
   const auto key = [&](size_t f) {

@@ -14,7 +14,7 @@ int CountFor(double length, double size) {
   return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
 }
 
-// A cell of a grid over a facet: the parallelogram (i, j), or the lower or upper triangle of it.
+// Names a cell of a grid over a facet: the parallelogram (i, j), or its lower or upper triangle.
 struct Cell {
   int i, j;
   bool upper;
@@ -44,7 +44,7 @@ Element MakeElement(const Facet& facet, const Place& place) {
   return element;
 }
 
-// Share of an element that is not inside a solid, by points spread over it.
+// Returns the share of an element that is not inside a solid, by points spread over it.
 double FreeShare(const Scene& scene, const RayScene& rays, const Element& element, bool triangle) {
   constexpr int kSide = 4;
   int free = 0, total = 0;
@@ -60,8 +60,7 @@ double FreeShare(const Scene& scene, const RayScene& rays, const Element& elemen
   return static_cast<double>(free) / total;
 }
 
-// The cells of an n x n triangular grid within sub-triangle `patch` of a triangle cut n_patch-fold, refined
-// m-fold.
+// Returns the cells of a triangular grid, refined m-fold, within sub-triangle `patch` of the facet.
 std::vector<Cell> CellsOfTrianglePatch(const Cell& patch, int m) {
   std::vector<Cell> cells;
   for (int j = 0; j < m; ++j) {
@@ -79,7 +78,7 @@ std::vector<Cell> CellsOfTrianglePatch(const Cell& patch, int m) {
   return cells;
 }
 
-// A cell of a facet with the share of it that is not inside a solid.
+// Pairs a cell of a facet with the share of it that is not inside a solid.
 struct FreeCell {
   Element element;
   double share = 0;
@@ -228,7 +227,7 @@ class Subdivision {
   const Scene& scene_;
   const RayScene& rays_;
   const PatchesOptions& options_;
-  std::vector<FreeCell> free_cells_;  // of the facet at hand
+  std::vector<FreeCell> free_cells_;  // those of the facet at hand
 };
 
 }  // namespace

@@ -1,14 +1,16 @@
-// Two-level subdivision of the scene: patches send light, elements receive it.
+// Cuts the scene into patches, which send light, and their elements, which receive it.
 //
 // Facets are cut into congruent patches no larger than patch_size_m, and those into elements no larger than
-// element_size_m. A patch lies in one facet, so it never straddles materials; its elements are numbered
-// consecutively. A patch that a solid stands on, or of which `must_split` says so, is halved until it is
-// clear of it or a single element. Models let solids stand on larger faces (a cabinet against its wall): what
-// lies inside a solid sees only the backs of facets, while a single sheet encloses nothing
-// (forward/room/internal/inside_solid.h). Elements that are wholly inside are left out; of those partly inside
-// only the free share counts as area.
+// element_size_m. A patch lies in one facet, so it never straddles materials. Its elements are numbered
+// consecutively. A patch is halved where a solid stands on it or where `must_split` asks for it, until
+// neither holds or it is a single element.
 //
-// Lengths m, areas m2, world frame.
+// Models let solids stand on larger faces (a cabinet against its wall). The part of a face inside a solid
+// sees only the backs of facets, while a single sheet encloses nothing
+// (forward/room/internal/inside_solid.h). Elements that are wholly inside are left out. Elements partly
+// inside count with their free share of area.
+//
+// Lengths are in m, areas in m2, in the world frame.
 // Source: Cohen, Greenberg, Immel, Brock (1986), "An efficient radiosity approach for realistic image
 // synthesis" (substructuring into patches and elements).
 #ifndef LUXFIT_FORWARD_ROOM_PATCHES_H_
@@ -49,18 +51,18 @@ struct Element {
 struct PatchesOptions {
   double patch_size_m = 0.4;    // indirect light varies slowly
   double element_size_m = 0.1;  // direct light and shadows vary fast
-  // Whether the elements of a patch of a facet differ too much to send light as one
+  // Tells whether the elements of a patch of a facet differ too much to send light as one
   // (forward/light/internal/adaptive_patches.h).
   std::function<bool(int facet, const std::vector<Element>&)> must_split = nullptr;
 };
 
-// The grid of cells of one facet.
+// Describes the grid of cells of one facet.
 struct FacetGrid {
   int cells_u = 0, cells_v = 0;
   int halves = 1;                    // 2: triangles
-  std::vector<int> element_of_cell;  // of Index, -1: none
+  std::vector<int> element_of_cell;  // by Index; -1: none
 
-  // Of cell (i, j), for triangles of its lower or upper half.
+  // Returns the number of cell (i, j); for triangles, of its lower or upper half.
   size_t Index(int i, int j, bool upper) const {
     const size_t cell = static_cast<size_t>(j) * static_cast<size_t>(cells_u) + static_cast<size_t>(i);
     return cell * static_cast<size_t>(halves) + (upper ? 1 : 0);
@@ -70,21 +72,22 @@ struct FacetGrid {
 struct Patches {
   std::vector<Patch> patches;
   std::vector<Element> elements;
-  std::vector<FacetGrid> grids;  // one a facet
+  std::vector<FacetGrid> grids;  // one per facet
   std::vector<Facet> facets;     // those of the scene
 
   bool IsTriangle(int patch) const {
     const int facet = patches[static_cast<size_t>(patch)].facet;
     return facets[static_cast<size_t>(facet)].kind == FacetKind::kTriangle;
   }
-  // The element that holds point (u, v) of a facet; -1 where that lies inside a solid.
+  // Returns the element that holds point (u, v) of a facet; -1 where that lies inside a solid.
   int ElementAt(int facet, double u, double v) const;
 };
 
-// Points at the quarters of an element (of a triangle: pulled into it), where its shadows are looked for.
+// Returns the points at the quarters of an element (of a triangle: pulled into it), where shadows are tested.
 std::vector<Eigen::Vector3d> ProbesOf(const Element& element, bool triangle);
 
-// Throws std::invalid_argument unless 0 < element_size_m <= patch_size_m.
+// Subdivides the scene, whose rays `rays` are. Throws std::invalid_argument unless 0 < element_size_m <=
+// patch_size_m, and for a scene that is not valid.
 Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions& options = {});
 
 }  // namespace luxfit

@@ -7,7 +7,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kParallelogramTolerance = 1e-6;  // of the edges' length: files carry six to seven digits
+constexpr double kParallelogramTolerance = 1e-6;  // relative to edge length: files carry six to seven digits
 constexpr double kMinAreaM2 = 1e-12;
 
 Facet MakeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
@@ -15,7 +15,7 @@ Facet MakeTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   return {FacetKind::kTriangle, a, b - a, c - a, material};
 }
 
-// Newell's normal: robust for any planar polygon, convex or not.
+// Returns Newell's normal, which is robust for any planar polygon, convex or not.
 Eigen::Vector3d NewellNormal(const std::vector<Eigen::Vector3d>& polygon) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < polygon.size(); ++i) {
@@ -32,7 +32,7 @@ bool InTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen:
   return left(a, b) && left(b, c) && left(c, a);
 }
 
-// Ear clipping (Meisters 1975): quadratic, enough for the polygons that modellers draw.
+// Triangulates by ear clipping (Meisters 1975): quadratic, enough for the polygons that modellers draw.
 std::vector<Facet> Triangulate(std::vector<Eigen::Vector3d> polygon, int material) {
   std::vector<Facet> triangles;
   const Eigen::Vector3d normal = NewellNormal(polygon);

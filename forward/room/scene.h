@@ -1,11 +1,10 @@
-// The room's geometry: planar facets, each of one material.
+// Describes the room's geometry: planar facets, each of one material.
 //
 //   p(u, v) = origin + u edge_u + v edge_v,   parallelogram: u, v in [0, 1];   triangle: also u + v <= 1
 //
-// Metres, world frame (right-handed, z up). The front of a facet, where normal = edge_u x edge_v / |edge_u x
-// edge_v| points, reflects; both sides block light. Rectangles of the file stay whole; every other polygon
-// becomes triangles.
-//
+// Metres, world frame (right-handed, z up). The front of a facet is the side that its normal points to:
+// normal = edge_u x edge_v / |edge_u x edge_v|. The front reflects; both sides block light. Rectangles of a
+// file stay whole; every other polygon becomes triangles.
 #ifndef LUXFIT_FORWARD_ROOM_SCENE_H_
 #define LUXFIT_FORWARD_ROOM_SCENE_H_
 
@@ -28,23 +27,23 @@ struct Facet {
   Eigen::Vector3d Normal() const { return edge_u.cross(edge_v).normalized(); }
   double AreaM2() const { return (kind == FacetKind::kTriangle ? 0.5 : 1.0) * edge_u.cross(edge_v).norm(); }
   Eigen::Vector3d PointAt(double u, double v) const { return origin + u * edge_u + v * edge_v; }
-  // (u, v) of the point of its plane that is nearest to p.
+  // Returns (u, v) of the point of the facet's plane that is nearest to p.
   Eigen::Vector2d CoordinatesOf(const Eigen::Vector3d& p) const;
 };
 
 struct Scene {
   std::vector<std::string> materials;
   std::vector<Facet> facets;
-  int dropped_facets = 0;  // without area
+  int dropped_facets = 0;  // left out because they have no area
 
   Eigen::AlignedBox3d Bounds() const;
 };
 
-// A planar polygon (counter-clockwise seen from its front, convex or not) as one parallelogram or several
-// triangles. Triangles without area are left out, so the list may be empty.
+// Returns a planar polygon (counter-clockwise seen from its front, convex or not) as one parallelogram or
+// several triangles. Triangles without area are left out, so the list may be empty.
 std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material);
 
-// Least distance from a point to any facet, m; infinity for an empty scene.
+// Returns the least distance from a point to any facet, m; infinity for an empty scene.
 double DistanceToSurface(const Scene& scene, const Eigen::Vector3d& p_in_world);
 
 }  // namespace luxfit

@@ -1,5 +1,6 @@
-// Limits the cores that forward's parallel loops and dense products use, for as long as it lives.
-// Program-wide.
+// Limits the cores that parallel loops and dense products of forward/ use, as long as it lives.
+//
+// The limit holds for the whole program.
 #ifndef LUXFIT_FORWARD_ROOM_THREADS_H_
 #define LUXFIT_FORWARD_ROOM_THREADS_H_
 
@@ -9,7 +10,7 @@ namespace luxfit {
 
 class ThreadLimit {
  public:
-  // 0: all cores.
+  // 0 means all cores.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

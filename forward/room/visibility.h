@@ -1,10 +1,11 @@
-// Who sees whom: the scene as a ray-tracing structure.
+// Traces rays through the scene: what a ray meets, and whether two points see each other.
 //
 // Directions need not be normalised; distances are in units of their length. Both sides of a facet block
-// light. A point on a surface is lifted off it by the caller (LiftedOff), so that it does not see its own
-// facet.
+// light. The caller lifts a point on a surface off it (LiftedOff), so that the point does not see its own
+// facet. Never aim a ray exactly at a vertex or an edge: a ray tracer may let it through there.
 //
-// Never aim a ray exactly at a vertex or an edge: a ray tracer may let it through there.
+// RayScene throws std::invalid_argument for a scene that is not valid, and std::runtime_error where Embree
+// finds no device.
 // Source: Wald et al. (2014), "Embree: a kernel framework for efficient CPU ray tracing"; its robust mode
 // (Woop et al. 2013).
 #ifndef LUXFIT_FORWARD_ROOM_VISIBILITY_H_
@@ -24,7 +25,7 @@ struct RayHit {
   bool front = false;   // the ray met the reflecting side
 };
 
-// Up to eight rays at once: what a ray tracer does best.
+// Holds up to eight rays, which a ray tracer follows at once.
 struct RayPacket {
   static constexpr int kSize = 8;
   alignas(32) float origin[3][kSize];
@@ -46,7 +47,8 @@ struct PacketHits {
   bool front[RayPacket::kSize];
 };
 
-// A point 10 um off a surface along its normal: far below any room's detail, far above float rounding in it.
+// Returns a point 10 um off a surface along its normal: far below any detail of a room, far above the
+// rounding of floats in it.
 inline Eigen::Vector3d LiftedOff(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
   return p + 1e-5 * normal;
 }
@@ -59,11 +61,11 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   RayHit Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
-  // Whether anything lies between the two points (the last 10 um before `to` do not count).
+  // Tells whether anything lies between the two points (the last 10 um before `to` do not count).
   bool Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   PacketHits Trace(const RayPacket& packet) const;
-  // Bit k: something lies on ray k between its origin and origin + direction (less the last 10 um).
+  // Returns bit k set where something lies on ray k from its origin to origin + direction (less 10 um).
   unsigned Occluded(const RayPacket& packet) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kDegreesPerRad = 180 / M_PI;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Where table 4.1 of CIE 117 ends.
+// Table 4.1 of CIE 117 ends here.
 constexpr double kLargestSide = 3, kLargestHeight = 1.9;
 
 double IndexAbove(double sigma_deg, double tau_deg) {
@@ -20,14 +20,14 @@ double IndexAbove(double sigma_deg, double tau_deg) {
   return std::exp(1e-3 * linear * sigma_deg + 1e-5 * square * sigma_deg * sigma_deg);
 }
 
-// Pieces of a luminous surface as seen from the eye: where, how large, how bright.
+// Describes a piece of a luminous surface as seen from the eye: where, how large, how bright.
 struct Piece {
   Eigen::Vector3d at;
   double solid_angle_sr = 0;
   double luminance_cd_m2 = 0;
 };
 
-// Of the cell of an uneven surface over its mean.
+// Returns the emission of the cell of an uneven surface over its mean.
 double RelativeEmission(const Luminaire& luminaire, const SurfaceSample& sample) {
   const Eigen::ArrayXXd& emission = luminaire.emission;
   if (emission.size() == 0) return 1;
@@ -60,7 +60,7 @@ std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vect
   return pieces;
 }
 
-// A sphere is as bright all over and is seen as a disc.
+// Returns the pieces of a sphere, which is as bright all over and is seen as a disc.
 std::vector<Piece> PiecesOfSphere(const Luminaire& luminaire, const Eigen::Vector3d& eye, int order) {
   const Eigen::Vector3d to_eye = eye - luminaire.position;
   const double distance_m = to_eye.norm(), radius_m = 0.5 * luminaire.size_m[0];

@@ -11,17 +11,18 @@
 #include "forward/direct/internal/shadowed_light.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/internal/gather.h"
+#include "forward/views/internal/vertex_interpolation.h"
 
 namespace luxfit {
 namespace {
 
-// Where a ray meets a luminous surface, and how bright that is.
+// Describes where a ray meets a luminous surface, and how bright that is.
 struct LuminousHit {
   double distance = std::numeric_limits<double>::infinity();
   double luminance_cd_m2 = 0;
 };
 
-// Luminous intensity, cd, towards a place far enough that the luminaire is a point.
+// Returns the luminous intensity, cd, towards a place so far that the luminaire is a point.
 double IntensityTowards(Luminaire luminaire, const Eigen::Vector3d& direction) {
   luminaire.shape = LuminaireShape::kPoint;
   return luminaire.flux_lm *
@@ -58,7 +59,7 @@ LuminousHit MeetLuminaire(const Luminaire& luminaire, const Eigen::Vector3d& ori
   return {distance, IntensityTowards(luminaire, -direction) / (area_m2 * cosine)};
 }
 
-// Rays about +z, turned to each point's normal.
+// Returns rays about +z, to be turned to each point's normal.
 SensorRays CanonicalRays(const ViewOptions& options) {
   if (options.gather_rays <= 0) return {};
   return SampleResponse({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), {}}, options.gather_rays);
@@ -82,7 +83,7 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
     indirect_lx = GatherIlluminance(room, lit.element_exitance, {p, normal, {}}, turned).illuminance_lx;
   } else {
     indirect_lx =
-        Interpolate(lit.interpolation, lit.vertex_indirect_lx, facet, u, v).cast<double>().cwiseMax(0.0);
+        Interpolate(*lit.interpolation, lit.vertex_indirect_lx, facet, u, v).cast<double>().cwiseMax(0.0);
   }
   return indirect_lx.array() + direct_lx;
 }
@@ -118,8 +119,9 @@ LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, co
   for (Eigen::Index c = 0; c < albedo.cols(); ++c)
     lit.element_exitance.col(c) =
         ElementAlbedo(room.patches, albedo.col(c)).cwiseProduct(lit.element_direct_lx + indirect_lx.col(c));
-  lit.interpolation = MakeVertexInterpolation(room.scene, room.patches);
-  lit.vertex_indirect_lx = AtVertices(lit.interpolation, indirect_lx);
+  lit.interpolation =
+      std::make_shared<const VertexInterpolation>(MakeVertexInterpolation(room.scene, room.patches));
+  lit.vertex_indirect_lx = AtVertices(*lit.interpolation, indirect_lx);
   return lit;
 }
 

@@ -1,4 +1,4 @@
-#include "forward/views/work_plane.h"
+#include "forward/views/illuminance_plane.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace luxfit {
 namespace {
 
-constexpr double kLeastUp = 0.99;         // cosine of what faces up
+constexpr double kLeastUp = 0.99;         // least cosine of a facet that faces up
 constexpr double kFloorThickness = 0.05;  // m
 constexpr double kStandardBand = 0.5;     // m
-constexpr double kBandShare = 0.15;       // of the shorter side
+constexpr double kBandShare = 0.15;       // as a share of the shorter side
 
 std::vector<Facet> FloorFacets(const Scene& scene) {
   std::vector<Facet> floor;
@@ -39,7 +39,7 @@ std::vector<Eigen::Vector2d> CornersOf(const Facet& facet) {
 
 Eigen::Vector2d Across(const Eigen::Vector2d& u) { return {-u.y(), u.x()}; }
 
-// In coordinates along u and across it.
+// Returns the box of the floor, in coordinates along u and across it.
 Eigen::AlignedBox2d BoxAlong(const std::vector<Facet>& floor, const Eigen::Vector2d& u) {
   Eigen::AlignedBox2d box;
   for (const Facet& facet : floor) {
@@ -48,11 +48,12 @@ Eigen::AlignedBox2d BoxAlong(const std::vector<Facet>& floor, const Eigen::Vecto
   return box;
 }
 
-// That of the least rectangle: it has a side along an edge. Turned by whole quarters to lie nearest to +x.
+// Returns the direction of the least rectangle: it has a side along an edge. It is turned by whole quarters
+// to lie nearest to +x.
 Eigen::Vector2d DirectionOf(const std::vector<Facet>& floor) {
   Eigen::Vector2d best = Eigen::Vector2d::UnitX();
   double least = BoxAlong(floor, best).volume();
-  constexpr size_t kMaxFacets = 200;  // of a finely cut floor: each is as good as its neighbour
+  constexpr size_t kMaxFacets = 200;  // on a finely cut floor each is as good as its neighbour
   const size_t step = floor.size() / kMaxFacets + 1;
   for (size_t f = 0; f < floor.size(); f += step) {
     const std::vector<Eigen::Vector2d> corners = CornersOf(floor[f]);

@@ -1,4 +1,4 @@
-#include "inverse/albedo/mirror_sphere.h"
+#include "inverse/albedo/photometric_stereo.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 namespace luxfit {
 namespace {
 
-// Half a pixel each: what a mask's border and a saturated highlight leave open.
+// A mask's border and a saturated highlight each leave half a pixel open.
 constexpr double kCentroidSigmaPx = 0.5, kCircleSigmaPx = 0.5;
-// Of the variances of a mask's pixels, against those of a disc.
+// Relative tolerance of the variances of a mask's pixels against those of a disc.
 constexpr double kRoundness = 0.05;
 
 struct Area {
@@ -17,7 +17,7 @@ struct Area {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
 };
 
-// The connected area around a pixel, removed from `bright`.
+// Returns the connected area around a pixel and removes it from `bright`.
 Area TakeArea(const ImagePlane& image, int row, int column, PixelMask& bright) {
   Area area;
   std::vector<std::pair<int, int>> open{{row, column}};
@@ -104,7 +104,7 @@ MirrorDirection LightOnMirrorSphere(const ImagePlane& image, const SphereCircle&
     }
   }
   const auto normal = SphereNormal(circle, largest.sum / largest.weight);
-  // At the rim a pixel is worth many degrees.
+  // At the rim one pixel spans many degrees.
   constexpr double kLeastCosine = 0.2;
   if (!normal || normal->z() < kLeastCosine) {
     result.message = "the brightest place on the sphere lies at its rim";

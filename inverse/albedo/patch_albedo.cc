@@ -14,7 +14,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kLargestAlbedoZ2 = 9;  // of one observation left out
+constexpr double kLargestAlbedoZ2 = 9;  // limit of z^2 for one observation left out
 constexpr double kMadToSigma = 1.4826;
 constexpr std::array<AlbedoDetail, 3> kDetails = {AlbedoDetail::kMaterial, AlbedoDetail::kPatch,
                                                   AlbedoDetail::kElement};
@@ -27,14 +27,14 @@ int UnitOf(const AlbedoRatio& ratio, AlbedoDetail detail) {
   return detail == AlbedoDetail::kPatch ? ratio.patch : 0;
 }
 
-// The albedo that some observations agree on.
+// Holds the albedo on which some observations agree.
 struct AgreedAlbedo {
   double albedo = NAN;
   double sigma = 0;
   int observations = 0;
 };
 
-// One material's observations.
+// Fits one material's observations.
 class MaterialFit {
  public:
   MaterialFit(const Ratios& ratios, RatioIndices own, const PatchAlbedoOptions& options)
@@ -46,7 +46,7 @@ class MaterialFit {
     return units;
   }
 
-  // Weighted by noise and model error, Cauchy's weights from the median on.
+  // Weights by noise and model error, with Cauchy weights that start at the median.
   AgreedAlbedo RobustMean(const RatioIndices& indices, double model_error) const {
     AgreedAlbedo mean;
     mean.observations = static_cast<int>(indices.size());
@@ -68,7 +68,7 @@ class MaterialFit {
     return mean;
   }
 
-  // Relative residuals of every observation, predicted from the others; as `own`.
+  // Returns relative residuals of every observation, predicted from the others, in the order of `own`.
   std::vector<double> LeftOutResiduals(AlbedoDetail detail, double model_error) const {
     std::vector<double> residuals(own_.size());
     for (int fold = 0; fold < options_.folds; ++fold) {
@@ -99,7 +99,7 @@ class MaterialFit {
   const RatioIndices& own() const { return own_; }
 
  private:
-  // States of one element fall into different parts.
+  // Puts the states of one element into different parts.
   int FoldOf(const AlbedoRatio& ratio) const { return (ratio.element + ratio.state) % options_.folds; }
 
   static double Sigma(const AlbedoRatio& ratio, double albedo, double model_error) {
@@ -111,7 +111,7 @@ class MaterialFit {
     return 1 / (sigma * sigma * (1 + z * z));
   }
 
-  // Cluster-robust by facet and state, never below what independent errors would leave.
+  // Returns a sigma that is cluster-robust by facet and state, never below that of independent errors.
   double SigmaOf(const RatioIndices& indices, double albedo, double model_error) const {
     double weights = 0;
     std::map<std::pair<int, int>, double> pulls;
@@ -133,7 +133,7 @@ class MaterialFit {
   const PatchAlbedoOptions& options_;
 };
 
-// The smallest relative error of one observation that any detail leaves: noise of the photos taken off.
+// Returns the smallest relative error of one observation that any detail leaves, less the photos' noise.
 double ModelError(const Ratios& ratios, const std::vector<MaterialFit>& fits,
                   const PatchAlbedoOptions& options) {
   double smallest = 1;
@@ -154,7 +154,7 @@ double ModelError(const Ratios& ratios, const std::vector<MaterialFit>& fits,
   return std::max(smallest, options.min_model_error);
 }
 
-// min(z^2, 9) of every observation left out; NaN where nothing predicts it.
+// Returns min(z^2, 9) of every observation left out; NaN where nothing predicts it.
 std::vector<double> Losses(const Ratios& ratios, const MaterialFit& fit, AlbedoDetail detail,
                            double model_error) {
   std::vector<double> losses = fit.LeftOutResiduals(detail, model_error);
@@ -166,8 +166,8 @@ std::vector<double> Losses(const Ratios& ratios, const MaterialFit& fit, AlbedoD
 }
 
 struct Compared {
-  double mean = 0;   // of a - b
-  double error = 0;  // its standard error, by facet and state
+  double mean = 0;   // mean of a - b
+  double error = 0;  // standard error of that mean, by facet and state
   double score = 0;  // mean of b
 };
 Compared Compare(const Ratios& ratios, const RatioIndices& own, const std::vector<double>& a,
@@ -191,12 +191,12 @@ Compared Compare(const Ratios& ratios, const RatioIndices& own, const std::vecto
   double scatter = 0;
   for (const auto& [cluster, sum] : clusters) scatter += sum * sum;
   const double n = static_cast<double>(clusters.size());
-  // One cluster gives no idea of its own error.
+  // One cluster cannot tell its own error.
   result.error = n > 1 ? std::sqrt(scatter * n / (n - 1)) / count : INFINITY;
   return result;
 }
 
-// Relative spread of the units' albedos beyond their own uncertainty.
+// Returns the relative spread of the units' albedos beyond their own uncertainty.
 double TextureOf(const MaterialFit& fit, AlbedoDetail detail, double model_error) {
   std::vector<double> albedos, sigmas;
   for (const auto& [unit, indices] : fit.Units(detail)) {

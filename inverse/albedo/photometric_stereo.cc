@@ -6,16 +6,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calib/luminance/median.h"
 #include "inverse/albedo/internal/stereo_adjustment.h"
 
 namespace luxfit {
 namespace {
 
-// Of a normal and an albedo.
+// A normal and an albedo have three unknowns.
 constexpr Eigen::Index kMinLights = 3;
-// Fewer images leave nothing over to compare curves on.
+// Fewer images leave no data to compare curves.
 constexpr Eigen::Index kMinImagesToChoose = 5;
-constexpr double kLargestZ2 = 9;  // of one observation left out
+constexpr double kLargestZ2 = 9;  // limit of z^2 for one observation left out
 
 void ExpectConsistent(const StereoData& data) {
   const Eigen::Index images = data.value.rows();
@@ -30,7 +31,7 @@ void ExpectConsistent(const StereoData& data) {
     throw std::invalid_argument("SolvePhotometricStereo: expected strengths > 0");
 }
 
-// The value that 95 % are below; 0 where there is none.
+// Returns the value below which 95 % lie; 0 where there is none.
 double BrightestValue(const Eigen::MatrixXd& value) {
   std::vector<double> finite;
   finite.reserve(static_cast<size_t>(value.size()));
@@ -78,10 +79,10 @@ StereoProblem ThinnedPixels(const StereoProblem& problem, int most) {
   return thinned;
 }
 
-// Residuals of observations that the fit did not see, by image x pixel; NaN elsewhere.
+// Holds residuals of observations left out of the fit, images x pixels; NaN elsewhere.
 struct HeldOut {
   Eigen::MatrixXd residual;
-  bool is_at_bound = false;  // of a parameter, in any part
+  bool is_at_bound = false;  // true: a parameter is at its bound in any part
 };
 HeldOut LeaveOut(const StereoProblem& problem, const Eigen::VectorXd& strength, CurveKind kind, int folds) {
   HeldOut held_out{Eigen::MatrixXd::Constant(problem.value.rows(), problem.value.cols(), NAN)};
@@ -109,13 +110,10 @@ double MedianSize(const Eigen::MatrixXd& residuals) {
   for (const double r : residuals.reshaped()) {
     if (std::isfinite(r)) size.push_back(std::abs(r));
   }
-  if (size.empty()) return NAN;
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return *middle;
+  return Quantile(std::move(size), 0.5);
 }
 
-// Mean of min(z^2, 9) of every image.
+// Returns the mean of min(z^2, 9) of every image.
 Eigen::VectorXd ScoreByImage(const Eigen::MatrixXd& residuals, double sigma) {
   Eigen::VectorXd score(residuals.rows());
   for (Eigen::Index k = 0; k < residuals.rows(); ++k) {
@@ -137,7 +135,7 @@ struct ChosenCurve {
   std::string because;
 };
 
-// The simplest candidate within one standard error of the best.
+// Returns the simplest candidate within one standard error of the best.
 ChosenCurve SimplestOfTheBest(const std::vector<CurveKind>& among,
                               const std::vector<Eigen::VectorXd>& scores) {
   const auto better = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return a.mean() < b.mean(); };
@@ -180,7 +178,7 @@ ChosenCurve ChooseCurve(const StereoProblem& problem, const Eigen::VectorXd& str
   for (const CurveKind kind : candidates) {
     HeldOut held_out = LeaveOut(thinned, strength, kind, folds);
     if (held_out.is_at_bound && kind != CurveKind::kLambert) continue;
-    // One common error: the smallest that any candidate reached.
+    // The common error is the smallest that any candidate reached.
     sigma = std::min(sigma, std::max(1.4826 * MedianSize(held_out.residual), 1e-9));
     among.push_back(kind);
     residuals.push_back(std::move(held_out.residual));
@@ -261,7 +259,7 @@ PhotometricStereo SolvePhotometricStereo(const StereoData& data, const Photometr
     result.because = std::move(chosen.because);
     fit = AdjustStereo(problem, StartOf(problem, strength, chosen.kind));
   } else {
-    fit = AdjustStereo(problem, fit.state, 0);  // only its residuals
+    fit = AdjustStereo(problem, fit.state, 0);  // only for its residuals
   }
   FillPixels(fit.state.b, brightest, result);
   result.to_light = fit.state.to_light;

@@ -8,9 +8,9 @@
 namespace luxfit {
 namespace {
 
-// Below this cosine a power of it is taken as straight, so that its slope stays finite.
+// Below this cosine a power of it is taken as a straight line, so that its slope stays finite.
 constexpr double kSmallCosine = 1e-3;
-// Cosines that are divided by.
+// Lower limit of cosines in a denominator.
 constexpr double kLeastCosine = 0.05;
 
 struct Bounds {
@@ -34,12 +34,12 @@ std::vector<Bounds> BoundsOf(CurveKind kind) {
   return {};
 }
 
-// mu^g and its slopes by mu and ln g.
+// Adds mu^g and its slopes by mu and ln g.
 void AddPower(double mu, double log_g, CurveValue& value) {
   const double g = std::exp(log_g);
   const double base = std::max(mu, kSmallCosine);
   const double power = std::pow(base, g);
-  const double share = mu / base;  // below kSmallCosine: straight to 0
+  const double share = mu / base;  // below kSmallCosine: a straight line to 0
   value.f += power * share;
   value.d_mu += mu > kSmallCosine ? g * power / mu : power / base;
   value.d_parameters[0] += power * share * g * std::log(base);

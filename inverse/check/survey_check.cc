@@ -1,6 +1,8 @@
 #include "inverse/check/survey_check.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -10,9 +12,7 @@ double TypicalDistance(const Scene& scene, const std::vector<Eigen::Vector3d>& p
   distances.reserve(points.size());
   for (const Eigen::Vector3d& p : points)
     distances.push_back(mesh_scale * DistanceToSurface(scene, p / mesh_scale));
-  const auto place = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 3 / 4);
-  std::nth_element(distances.begin(), place, distances.end());
-  return *place;
+  return Quantile(std::move(distances), 0.75);
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ namespace luxfit {
 namespace {
 
 constexpr int kCalibrationRounds = 12;
-constexpr double kConverged = 1e-4;  // of any unknown: views differ by ten times as much
-constexpr double kTail = 2;          // of the gains' prior, in its sigmas: Cauchy's
-constexpr double kUnseen = 1e-6;     // curvature of a direction that no data see
-// Of q: light to the power 2 to that of 1/3, steeper than any display's curve.
+constexpr double kConverged = 1e-4;  // largest step of any unknown; views differ by ten times as much
+constexpr double kTail = 2;          // Cauchy scale of the gains' prior, in its sigmas
+constexpr double kUnseen = 1e-6;     // curvature of a direction that no data determine
+// Limits of q: light to the power 2 to that of 1/3, steeper than any display's curve.
 constexpr double kLeastExponent = -0.5, kMostExponent = 2;
 constexpr int kMinElements = 20;
-// Of the best one's score. All elements of a view share its pose's error, furniture that the mesh lacks is at
-// another place in each view, and gains take up some of it: that comes back on what was left out, too.
+// Share of the best score. All elements of a view share its pose's error, and furniture that the mesh lacks
+// is at another place in each view. Gains absorb some of it, and then predict the data left out better, too.
 constexpr double kWorthHaving = 0.25;
-// Views of a surface differ by less than this for no reason that a camera's model could know.
+// Smallest spread between views of a surface. Below it they differ for reasons that no camera model contains.
 constexpr double kLeastRatioSigma = 1e-3;
 
 using Sums = PhotoEquations::Sums;
@@ -45,7 +45,7 @@ void ExpectInRange(const Patches& patches, const std::vector<Eigen::VectorXd>& d
   }
 }
 
-// One combination of what is free, fitted to all samples and without each fold.
+// Fits one combination of free parameters to all samples, and without each fold.
 class Candidate {
  public:
   Candidate(const PhotoEquations& equations, RadiometryCandidate& what, const OpenRadiometry& open,
@@ -60,7 +60,7 @@ class Candidate {
     }
     unknowns_.order = what.order;
     if (what.gains) unknowns_.first_gain = unknowns_.count;
-    // One of the gains goes with the light.
+    // One gain is not counted: the light absorbs it.
     what.parameters = unknowns_.count + std::max(0, photos_ - 1);
     unknowns_.count += photos_;
   }
@@ -96,7 +96,7 @@ class Candidate {
 
   double sigma() const { return fit_.sigma; }
 
-  // Residuals of one facet are no independent evidence: their gradients are summed before they are squared.
+  // Residuals of one facet are not independent: their gradients are summed before they are squared.
   Eigen::MatrixXd Covariance() const {
     Eigen::MatrixXd scatter = PriorCurvature();
     const auto gradients = equations_.GradientByGroup(unknowns_, fit_);
@@ -107,11 +107,11 @@ class Candidate {
     return curvature.solve(curvature.solve(scatter).transpose());
   }
 
-  // By the curvature alone: whether the samples determine a parameter at all.
+  // Returns the curvature alone: it tells whether the samples determine a parameter at all.
   Eigen::MatrixXd Information() const {
     return curvature_.ldlt().solve(Eigen::MatrixXd::Identity(unknowns_.count, unknowns_.count));
   }
-  // The largest of any camera, by a covariance of the unknowns.
+  // Returns the largest sigma of any camera, from a covariance of the unknowns.
   double CornerSigma(const Eigen::MatrixXd& covariance) const {
     double largest = 0;
     for (const int first : unknowns_.vignetting) {
@@ -204,7 +204,7 @@ std::vector<RadiometryCandidate> CandidatesOf(const OpenRadiometry& open, int ma
   return candidates;
 }
 
-// Candidates that the samples determine; the rest is left out of the choice.
+// Chooses among the candidates that the samples determine.
 int Choose(std::vector<RadiometryCandidate>& candidates, const std::vector<GroupScores>& scores) {
   std::vector<SelectionCandidate> selectable;
   for (size_t c = 0; c < candidates.size(); ++c)
@@ -220,7 +220,7 @@ int Choose(std::vector<RadiometryCandidate>& candidates, const std::vector<Group
   return static_cast<int>(selection.chosen);
 }
 
-// What the chosen combination says, in the caller's terms.
+// Reports the chosen combination in the caller's terms.
 void Report(const Candidate& chosen, const std::vector<PhotoSample>& samples, int states, double gain_sigma,
             SelfCalibration& result) {
   const RadiometryUnknowns& unknowns = chosen.unknowns();
@@ -237,7 +237,7 @@ void Report(const Candidate& chosen, const std::vector<PhotoSample>& samples, in
   if (unknowns.first_gain < 0) return;
   const Eigen::Index photos = result.log_gain.size();
   result.log_gain = x.segment(unknowns.first_gain, photos);
-  // A factor common to all photos is the camera's scale, and no error of any of them.
+  // A factor common to all photos belongs to the camera's scale and is not an error of any photo.
   const Eigen::MatrixXd relative = Eigen::MatrixXd::Identity(photos, photos) -
                                    Eigen::MatrixXd::Constant(photos, photos, 1 / static_cast<double>(photos));
   result.covariance = relative * covariance.block(unknowns.first_gain, unknowns.first_gain, photos, photos) *
@@ -255,11 +255,9 @@ void Report(const Candidate& chosen, const std::vector<PhotoSample>& samples, in
 
 }  // namespace
 
-double SelfCalibration::LogCorrection(const PhotoSample& sample) const {
-  double y = exponent[sample.camera] * sample.log_share - log_gain[sample.photo], power = 1;
-  for (Eigen::Index k = 0; k < vignetting.rows(); ++k)
-    y -= vignetting(k, sample.camera) * (power *= sample.radius2);
-  return y;
+PhotoCorrection SelfCalibration::CorrectionOf(int photo, int camera) const {
+  const auto coefficients = vignetting.col(camera);
+  return {log_gain[photo], {coefficients.begin(), coefficients.end()}, exponent[camera]};
 }
 
 SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
@@ -286,7 +284,8 @@ SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::V
   fitted.reserve(result.candidates.size());
   for (RadiometryCandidate& candidate : result.candidates)
     fitted.emplace_back(equations, candidate, open, photos, options.gain_sigma);
-  // All are scored with the noise that the fullest leaves; an exponent that nothing determines leads astray.
+  // All are scored with the noise that the fullest model leaves, with or without an exponent, whichever is
+  // smaller: an exponent that nothing determines misleads.
   double sigma = std::numeric_limits<double>::infinity();
   for (size_t c = 0; c < fitted.size(); ++c) {
     const bool is_fullest =

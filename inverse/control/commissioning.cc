@@ -5,24 +5,21 @@
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
-#include "forward/luminaire/photometry.h"
+#include "calib/luminance/median.h"
+#include "forward/luminaire/distribution_ops.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kTwoSided95 = 1.96;
 
-bool DependsOnHeading(const Luminaire& luminaire) {
-  return luminaire.shape == LuminaireShape::kRectangle ||
-         (luminaire.distribution == Distribution::kMeasured && !IsSymmetricAboutAim(*luminaire.table));
-}
-
 double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Designed and measured by distance, nearest pairs first.
+// Pairs designed and measured luminaires by distance, nearest pairs first.
 std::vector<int> Pairs(const std::vector<Luminaire>& designed, const std::vector<MeasuredLuminaire>& measured,
                        double match_m) {
   std::vector<std::tuple<double, int, int>> near;
@@ -44,7 +41,7 @@ std::vector<int> Pairs(const std::vector<Luminaire>& designed, const std::vector
   return measured_of;
 }
 
-// Sigma along the displacement; of all axes where there is none.
+// Returns the sigma along the displacement; where there is none, that of all axes together.
 double SigmaAlong(const Eigen::Vector3d& displacement, const Eigen::Vector3d& sigma) {
   const double length = displacement.norm();
   return length > 0 ? displacement.cwiseProduct(sigma).norm() / length : sigma.norm();
@@ -53,8 +50,8 @@ double SigmaAlong(const Eigen::Vector3d& displacement, const Eigen::Vector3d& si
 ToleranceInterval HeadingOf(const Luminaire& designed, const MeasuredLuminaire& measured, double tolerance) {
   if (!DependsOnHeading(designed) || !DependsOnHeading(measured.luminaire)) return {0, 0, tolerance, false};
   double angle = AngleBetween(AxesOf(designed).along, AxesOf(measured.luminaire).along);
-  // Half a turn changes nothing of an even rectangle.
-  if (designed.distribution != Distribution::kMeasured) angle = std::min(angle, M_PI - angle);
+  // Half a turn does not change an even rectangle.
+  if (OpsOf(designed.distribution).about_aim != nullptr) angle = std::min(angle, M_PI - angle);
   return {angle, kTwoSided95 * measured.heading_sigma_rad, tolerance, true};
 }
 
@@ -86,7 +83,7 @@ void Judge(const Luminaire& designed, const MeasuredLuminaire& measured, const C
   fault(verdict.distribution.IsBeyond(), CommissioningFault::kPhotometry);
 }
 
-// Two pairs whose ids are each other's.
+// Finds two pairs whose ids are exchanged.
 void FindSwapped(const std::vector<Luminaire>& designed, const std::vector<MeasuredLuminaire>& measured,
                  std::vector<CommissionedLuminaire>& luminaires) {
   for (CommissionedLuminaire& a : luminaires) {
@@ -109,10 +106,7 @@ double MedianRatio(const std::vector<CommissionedLuminaire>& luminaires) {
   for (const CommissionedLuminaire& l : luminaires) {
     if (l.measured >= 0) ratios.push_back(1 + l.flux_ratio_less_1.value);
   }
-  if (ratios.empty()) return 1;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return ratios.empty() ? 1 : Quantile(std::move(ratios), 0.5);
 }
 
 }  // namespace

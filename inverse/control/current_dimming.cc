@@ -1,16 +1,17 @@
-#include "inverse/control/current_dimming.h"
+#include "inverse/control/dimming.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/luminance/median.h"
 #include "inverse/model/internal/nonnegative_least_squares.h"
 
 namespace luxfit {
 namespace {
 
-// What models and rooms differ by even where a fit is good: no element counts for more than that.
+// Models and rooms differ by this much even where a fit is good. No element is weighted by a smaller sigma.
 constexpr double kLeastRelativeSigma = 0.01;
 constexpr double kLeastSigmaLx = 0.05;
 
@@ -38,14 +39,11 @@ WeightedRows RowsOf(const Eigen::MatrixXd& element_lx, const std::vector<Element
   return weighted;
 }
 
-double MedianOf(Eigen::VectorXd values) {
-  if (values.size() == 0) return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double MedianOf(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0 : Quantile({values.begin(), values.end()}, 0.5);
 }
 
-// Elements of one surface share what the model misses of it: this many of them count as one.
+// Elements of one surface share the model's error there: this many of them count as one.
 constexpr double kElementsPerIndependent = 25;
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "inverse/control/dimming_plan.h"
+#include "inverse/control/dimming.h"
 
 #include <ClpSimplex.hpp>
 #include <CoinPackedVector.hpp>
@@ -26,13 +26,13 @@ void ExpectSizes(const Eigen::VectorXd& power_w, const std::vector<LightRequirem
   }
 }
 
-// What 1 of a shortage is measured by.
+// Returns the unit in which a requirement's shortage is measured.
 double ScaleOf(const LightRequirement& r) {
   const double bound = std::isfinite(r.most) ? std::max(std::abs(r.least), std::abs(r.most)) : r.least;
   return std::max(std::abs(bound), std::max(r.light.cwiseAbs().maxCoeff(), 1e-9) * 1e-3);
 }
 
-// Columns: dimming, then a shortage and an excess a requirement. Rows scaled by the requirement.
+// Loads columns for dimming, then one shortage and one excess for each requirement. ScaleOf scales the rows.
 void Load(ClpSimplex& model, const Eigen::VectorXd& power_w,
           const std::vector<LightRequirement>& requirements, const DimmingBounds& bounds) {
   const int luminaires = static_cast<int>(power_w.size()), rows = static_cast<int>(requirements.size());

@@ -1,17 +1,16 @@
-// A photo as a luxmeter at every pixel: from the luminance of a diffuse surface to the light that falls on
-// it.
+// Computes the illuminance at every pixel of a photo from the luminance of diffuse surfaces.
 //
 //   E = pi Y / (c rho)
 //   (sigma_E / E)^2 = var(ln c rho) + (sigma_Y / Y)^2 + model^2
 //
 // Y: relative luminance, c: camera scale (relative luminance per cd/m2), rho: reflectance of the surface that
 // the pixel sees. c and rho come from one fit and are correlated: their product is known better than either.
-// Assumes diffuse surfaces of even reflectance; a pixel of a picture on the wall gives the light times the
-// ratio of reflectances.
+// Assumes diffuse surfaces of even reflectance. On a picture on the wall, the result is the illuminance times
+// the ratio of reflectances.
 //
-// Units lx; planes are height x width. A pixel that does not know its illuminance has NaN and the reason.
+// Units: lx; planes are height x width. A pixel of unknown illuminance has NaN, and `gap` holds the reason.
 // Throws std::invalid_argument for sizes that do not fit and a scale that is not above 0.
-// Source: house; luminance photometry with cameras: CIE 244:2021.
+// Sources: own; CIE 244:2021 (luminance photometry with cameras).
 #ifndef LUXFIT_INVERSE_CONTROL_LUX_MAP_H_
 #define LUXFIT_INVERSE_CONTROL_LUX_MAP_H_
 
@@ -28,35 +27,35 @@ namespace luxfit {
 struct SurfaceScale {
   double camera_scale = 0;         // relative luminance per cd/m2
   Eigen::VectorXd albedo;          // by material
-  Eigen::VectorXd relative_sigma;  // of c rho, by material; NaN: the reflectance is not known
+  Eigen::VectorXd relative_sigma;  // sigma of c rho, by material; NaN: unknown reflectance
   double relative_model_sigma = 0;
 };
 
-// Why a pixel has no illuminance; the numbers stand in files.
+// Says why a pixel has no illuminance. Files store the numbers.
 enum class PixelGap { kNone = 0, kNoSurface = 1, kSaturated = 2, kDark = 3, kReflectanceUnknown = 4 };
 
 struct LuxMap {
   ImagePlane illuminance_lx, sigma_lx;  // NaN where unknown
   ImagePlane gap;                       // PixelGap as a number
-  double known_share = 0;               // of all pixels
-  double saturated_share = 0;           // of the pixels that see a surface
+  double known_share = 0;               // share of all pixels
+  double saturated_share = 0;           // share of the pixels that see a surface
 };
 
-// `map` of all pixels that see one surface: DensePixels.
+// `map`: made with DensePixels(), so that it holds all pixels that see one surface.
 LuxMap MapIlluminance(const PixelMap& map, const LuminanceImage& photo, const Patches& patches,
                       const SurfaceScale& scale);
 
-// Options of MapPixels that leave out the borders of surfaces only.
+// Returns options of MapPixels that leave out only the borders of surfaces.
 PixelMapOptions DensePixels();
 
-// The same by element, from what was observed of it (inverse/observe/observe.h).
+// Holds the illuminance of one element, from its observations (inverse/observe/observe.h).
 struct ElementIlluminance {
   int element = 0;
   int pixels = 0;
   double illuminance_lx = 0, sigma_lx = 0;
-  double random_sigma_lx = 0;  // of the photo alone: without the uncertainty that all photos share
+  double random_sigma_lx = 0;  // by the photo alone, without the uncertainty that all photos share
 };
-// Elements of unknown reflectance are left out.
+// Returns the illuminance of the observed elements. Elements of unknown reflectance are left out.
 std::vector<ElementIlluminance> ElementsOf(const std::vector<Observation>& observations,
                                            const Patches& patches, const SurfaceScale& scale);
 

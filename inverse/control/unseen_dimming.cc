@@ -1,15 +1,13 @@
-#include "inverse/control/unseen_dimming.h"
+#include "inverse/control/dimming.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "inverse/control/dimming_plan.h"
-
 namespace luxfit {
 namespace {
 
-// Sigma of 1 - (a.d)/(a.d0), with a_k erring by its flux.
+// Returns the sigma of 1 - (a.d)/(a.d0), where each a_k errs with its flux.
 double DropSigma(const Eigen::VectorXd& light, const Eigen::VectorXd& now, const Eigen::VectorXd& then,
                  const Eigen::MatrixXd& log_flux_covariance) {
   const double before = light.dot(now), after = light.dot(then);

@@ -1,4 +1,4 @@
-#include "inverse/fit/count_luminaires.h"
+#include "inverse/fit/fit_room.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "inverse/choose/choose_count.h"
+#include "inverse/choose/internal/choose_count.h"
 #include "inverse/fit/internal/room_light.h"
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/measured_indirect.h"
 
 namespace luxfit {
 namespace {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "inverse/model/internal/row_block.h"
+
 namespace luxfit {
 namespace {
 
 constexpr double kNotDetermined = std::numeric_limits<double>::quiet_NaN();
 
-// Whether every luminaire that is on in the state was found.
+// Returns whether every luminaire that is on in the state was found.
 bool IsLit(const RoomFit& fit, int state) {
   const Eigen::VectorXd& dimming = fit.data.dimming[static_cast<size_t>(state)];
   for (size_t k = 0; k < fit.luminaire_found.size(); ++k)

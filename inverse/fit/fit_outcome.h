@@ -1,9 +1,9 @@
-// Reads a fit as its users do: luminaires and readings with their sigmas, and only what the data determine.
+// Extracts from a fit the luminaires and predicted readings that the data determine, with their sigmas.
 //
 //   sigma of a prediction = hypot(sigma by the parameters, relative model error * prediction)
 //
-// NaN stands for what the data do not determine, 0 for the sigma of what was held. Units: m, lm (or relative where the fit
-// has no absolute scale), lx.
+// NaN marks what the data do not determine; a sigma of 0 marks what was held. Units: m, lx, and lm; where the
+// fit has no absolute scale, fluxes are relative.
 #ifndef LUXFIT_INVERSE_FIT_FIT_OUTCOME_H_
 #define LUXFIT_INVERSE_FIT_FIT_OUTCOME_H_
 
@@ -14,24 +14,24 @@
 
 namespace luxfit {
 
-// Standard deviation of a parameter in its own unit; `quantity` counts for ParameterKind::kLuminaire only.
+// Returns the standard deviation of a parameter in its own unit. `quantity` is used for
+// ParameterKind::kLuminaire only.
 double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {});
 
-// Whether the luminaire's flux is a number of lumens that the data stand behind.
+// Returns whether the data determine the luminaire's flux in lumens.
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
 
-// The luminaires that were found. Their flux is relative where the fit is not absolute.
+// Returns the luminaires that were found. Their flux is relative where the fit is not absolute.
 std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);
 
 struct PredictedReading {
-  bool is_known =
-      false;  // else the number would be made up: no scale, or a luminaire that is on was not found
+  bool is_known = false;  // false: there is no scale, or a luminaire that is on was not found
   double illuminance_lx = 0;
   double direct_lx = 0;
   double parameter_sigma_lx = 0;
   double sigma_lx = 0;
 };
-// One a reading of `fit.data`; empty where nothing was fitted.
+// Returns one prediction for each reading of `fit.data`; empty where nothing was fitted.
 std::vector<PredictedReading> PredictedReadings(const RoomFit& fit);
 
 }  // namespace luxfit

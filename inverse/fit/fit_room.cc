@@ -8,21 +8,23 @@
 #include <utility>
 
 #include "forward/luminaire/photometry.h"
-#include "inverse/albedo/albedo_rgb.h"
-#include "inverse/choose/choose_model.h"
-#include "inverse/choose/colour_detail.h"
-#include "inverse/choose/contradiction.h"
-#include "inverse/choose/scene_detail.h"
-#include "inverse/choose/several_starts.h"
+#include "inverse/albedo/internal/albedo_rgb.h"
+#include "inverse/choose/internal/choose_model.h"
+#include "inverse/choose/internal/colour_detail.h"
+#include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/profile_direct_share.h"
+#include "inverse/choose/internal/scene_detail.h"
+#include "inverse/choose/internal/several_starts.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
 #include "inverse/fit/internal/words.h"
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/light_model.h"
+#include "inverse/model/internal/measured_indirect.h"
 
 namespace luxfit {
 namespace {
 
-// A class because each step adds to the same few things.
+// Runs the steps in order. It is a class because each step adds to the same result.
 class RoomFitter {
  public:
   RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
@@ -51,14 +53,13 @@ class RoomFitter {
   }
 
  private:
-  // Held for as long as the step goes on.
+  // Announces a step. The caller holds the returned token until the step ends.
   std::shared_ptr<void> Begin(const std::string& step, const std::string& words) const {
     return options_.on_step ? options_.on_step(step, words) : nullptr;
   }
 
-  // A start that needs no more than a few steps of the whole problem: places, models and fluxes of the
-  // luminaires. Photos hold the indirect light that they measured for that; readings alone need the
-  // radiosity.
+  // Returns places, models and fluxes from which the whole problem needs only a few steps. With photos, the
+  // measured indirect light is held. Readings alone need the radiosity.
   LightState StartByParts() {
     const bool photos = !result_.data.observations.empty();
     LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
@@ -68,7 +69,7 @@ class RoomFitter {
       result_.luminaire_found = start_.luminaire_found;
     }
     LightState state = start_.state;
-    // Without readings, a flux tells the camera's scale, or it is given.
+    // Without readings, the camera's scale is given or follows from a known flux.
     if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;
     if (photos) state.meter_scale_free = false;
     LightData part = data;
@@ -78,7 +79,7 @@ class RoomFitter {
     LuminaireFit fit = FitLuminaires(room_, part, state, start_.priors, quick);
     if (fit.status == FitStatus::kNoData) return start_.state;
     if (photos) {
-      // With the radiosity solved, so that the models are compared in its light.
+      // The radiosity is solved here, so that the models are compared with its indirect light.
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
       fit = FitLuminaires(room_, part, fit.state, start_.priors, quick);
@@ -112,7 +113,7 @@ class RoomFitter {
     return choice.state;
   }
 
-  // What detail the data ask for, at the fitted state; materials that are as good grey are given as grey.
+  // Compares finer and coarser models at the fitted state. A material that fits as well in grey becomes grey.
   void CompareDetails(const LuminaireFit& fit) {
     const auto step = Begin("detail", "");
     RecordDetail(CompareDetail(room_, result_.data, fit), result_.findings);
@@ -126,7 +127,7 @@ class RoomFitter {
     }
   }
 
-  // A size that shrank to nothing beside the others' light is a point.
+  // Turns a luminaire into a point where its size has shrunk to nothing.
   LightState WithoutVanishedSizes(LightState state) {
     for (size_t k = 0; k < state.luminaires.size(); ++k) {
       Luminaire& luminaire = state.luminaires[k];
@@ -143,7 +144,7 @@ class RoomFitter {
     return state;
   }
 
-  // The whole problem: on a part of the elements until nothing moves, then on all of them.
+  // Fits the whole problem: to a part of the elements until nothing moves, then to all of them.
   LuminaireFit FitToAll(const LightState& start) {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
     LightData part = result_.data;
@@ -161,7 +162,7 @@ class RoomFitter {
     return FitLuminaires(room_, result_.data, refined, start_.priors, options);
   }
 
-  // What is open of a luminaire beyond its simple model.
+  // Returns which refinements of the luminaire's simple model are open.
   OpenRefinements RefinementsOf(size_t k) const {
     const KnownLuminaire& known = given_.luminaires[k];
     const Luminaire& start = start_.state.luminaires[k];
@@ -172,7 +173,7 @@ class RoomFitter {
     open.table_asked_for = known.photometry == KnownPhotometry::kTableOpen;
     open.aim = (is_file || open.table_asked_for) && !known.aim;
     open.table = known.photometry == KnownPhotometry::kNothing || open.table_asked_for;
-    // Finer models of the luminaire would take up what is the walls', while these are not known.
+    // While the walls are unknown, finer models of the luminaire would absorb their share of the light.
     if (AsksForDirectShare()) {
       open.table = open.table_asked_for;
       return open;
@@ -183,14 +184,13 @@ class RoomFitter {
     return open;
   }
 
-  // Reflectances that only readings speak of.
+  // Returns whether free reflectances rest on readings alone.
   bool AsksForDirectShare() const {
     return result_.data.observations.empty() && light_.used_readings > 0 &&
            std::count(start_.state.albedo_free.begin(), start_.state.albedo_free.end(), true) > 0;
   }
 
-  // Photos alone give fluxes up to one common factor: it needs a reading, a known flux, or a calibrated
-  // camera.
+  // Photos alone give fluxes up to one common factor. A reading, a known flux or a calibrated camera sets it.
   void SettleScale(LightState& state) {
     result_.absolute = light_.used_readings > 0 || start_.flux_known || !state.camera_scale_free;
     if (!result_.absolute) {
@@ -205,7 +205,7 @@ class RoomFitter {
     if (light_.used_readings > 0 && state.camera_scale_free) MatchScale(state);
   }
 
-  // Fluxes in the readings' scale: one linear factor, solved exactly.
+  // Scales the fluxes to the readings by one linear factor, solved exactly.
   void MatchScale(LightState& state) const {
     LightData readings;
     readings.dimming = result_.data.dimming;

@@ -1,15 +1,20 @@
-// Fits luminaires and reflectances to what photos and a luxmeter say of a room: luxfit's front door.
+// Fits luminaires and reflectances to the photos and luxmeter readings of a room: luxfit's front door.
 //
-//   first guess -> models by left-out data -> scale -> all parameters together -> what detail the data support
+//   first guess -> models by left-out data -> scale -> all parameters together -> detail that data support
 //
-// The steps: a start (places seen in photos or searched for), several starts where places compete, the simplest model of
-// each luminaire that data left out support (inverse/choose), the absolute scale, and FitLuminaires on all observations with
-// the interreflection solved. The result holds values, covariance, choices with their reasons and warnings with their
-// remedies.
+// The steps are:
+// 1. a start, at places seen in photos or searched for, and several starts where places compete;
+// 2. the simplest model of each luminaire that data left out support (inverse/choose);
+// 3. the absolute scale;
+// 4. FitLuminaires on all observations, with the interreflection solved.
+// The result holds values, covariance, choices with their reasons and warnings with their remedies.
 //
-// Throws std::invalid_argument where sizes do not match: no luminaires, dimming that is not one entry a luminaire, a state
-// out of range, an albedo list of another length than the room's materials, neither observations nor readings to fit to.
-// What the data do not determine is no exception: see `findings` and RoomFit::IsUsable.
+// Throws std::invalid_argument for inputs that do not fit together:
+// - no luminaires;
+// - dimming without one entry for each luminaire, or a state out of range;
+// - an albedo list of another length than the room's materials;
+// - neither observations nor readings to fit to.
+// It does not throw where the data determine too little: `findings` and RoomFit::IsUsable say so.
 #ifndef LUXFIT_INVERSE_FIT_FIT_ROOM_H_
 #define LUXFIT_INVERSE_FIT_FIT_ROOM_H_
 
@@ -22,37 +27,62 @@
 
 #include "forward/light/room.h"
 #include "inverse/choose/direct_share.h"
-#include "inverse/fit/findings.h"
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
 
 namespace luxfit {
 
+// Findings record in words what a fit decided and what it could not decide. A choice carries the candidates
+// and the reason. A warning carries a code (docs/warnings.md), what is wrong and what would fix it.
+struct Warning {
+  std::string code, message, remedy;
+};
+
+struct Choice {
+  std::string what, chosen;
+  std::vector<std::string> among;  // empty: there was no alternative
+  std::string because;
+};
+
+struct Findings {
+  std::vector<Warning> warnings;
+  std::vector<Choice> choices;
+  bool undetermined = false;  // something that was asked for is not determined by the data
+};
+
 struct FitRoomOptions {
-  // Observed elements used until the models are chosen: positions are then known to a few millimetres.
+  // Observed elements used until the models are chosen. They give positions to a few millimetres.
   int max_elements_to_choose = 2000;
-  // Called as a step begins, with its name ("guess", "choose", "refine", "detail", "fit") and what it does in words. The
-  // token that it returns is released as the step ends. Empty: nobody listens.
+  // Called as a step begins, with its name ("guess", "choose", "refine", "detail", "fit") and its
+  // description. The token that it returns is released as the step ends. Empty: no calls.
   std::function<std::shared_ptr<void>(const std::string& step, const std::string& words)> on_step;
 };
 
 struct RoomFit {
   LuminaireFit fit;
-  LightData data;                     // that was fitted to: views of one element merged
-  std::vector<bool> luminaire_found;  // without a place it gives no light
+  LightData data;                     // data of the fit, with the views of one element merged
+  std::vector<bool> luminaire_found;  // false: it has no place and gives no light
   Eigen::Matrix3Xd albedo_rgb;        // by material; NaN where not estimated
-  // By luminaire, relative to their mean (inverse/choose/colour_detail.h); empty where they are alike.
+  // By luminaire, relative to their mean (inverse/choose/internal/colour_detail.h). Empty where all have
+  // one colour.
   Eigen::Matrix3Xd tint_rgb;
   bool absolute = false;                    // whether fluxes are in lm
-  std::optional<DirectShare> direct_share;  // of fits to readings alone with reflectances free
+  std::optional<DirectShare> direct_share;  // only for fits to readings alone with free reflectances
   Findings findings;
 
   bool IsUsable() const { return fit.IsUsable(); }
-  // Whether light that comes straight is told from light that comes by the walls.
+  // Returns whether the data tell direct light from light that the walls reflect.
   bool TellsDirectLight() const { return !direct_share || direct_share->is_determined; }
 };
 
 RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options = {});
+
+// Counts the luminaires that nobody names from one state in which all are on
+// (inverse/choose/internal/choose_count.h). Returns the chosen number, at least 1, and records the choice.
+// Where nothing could be placed, it sets `undetermined` and a warning says why. Throws as
+// ChooseLuminaireCount does. `given.luminaires`: the luminaires that are known already. `max_count`: the
+// largest number tried.
+int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings);
 
 }  // namespace luxfit
 

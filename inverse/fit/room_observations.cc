@@ -4,10 +4,12 @@
 
 #include <cmath>
 
+#include "inverse/fit/fit_room.h"
+
 namespace luxfit {
 namespace {
 
-// Ratios and fluxes in files are rounded to a percent; beyond this one of them is wrong.
+// Files round ratios and fluxes to a percent. Beyond this tolerance one of the two is wrong.
 constexpr double kFluxTolerance = 0.03;
 
 }  // namespace
@@ -23,7 +25,7 @@ void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Fin
       {"photometry_flux",
        fmt::format("the photometry of {} states {:.6g} lm, but its intensities integrate to {:.6g} lm", id,
                    file.stated_flux_lm, file.luminaire_flux_lm),
-       "the intensities were believed; give flux_lm, or ask the maker for a consistent file"});
+       "the intensities were used; give flux_lm, or ask the maker for a consistent file"});
 }
 
 }  // namespace luxfit

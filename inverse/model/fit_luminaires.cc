@@ -8,6 +8,8 @@
 #include "calib/luminance/median.h"
 #include "inverse/model/internal/fit_covariance.h"
 #include "inverse/model/internal/frozen_problem.h"
+#include "inverse/model/internal/light_model.h"
+#include "inverse/model/internal/null_direction.h"
 #include "inverse/model/internal/part_smoothness.h"
 
 namespace luxfit {
@@ -66,7 +68,7 @@ class OuterLoop {
     }
   }
 
-  // What the blocks say of their rows that no state changes.
+  // Reads from the blocks what no state changes.
   void ReadRows() {
     const int rows = model_.row_count();
     values_.resize(rows);
@@ -85,9 +87,9 @@ class OuterLoop {
 
   bool HasData() const { return std::find(is_used_.begin(), is_used_.end(), true) != is_used_.end(); }
 
-  // Visibility, model error and weights at the present state.
+  // Updates visibility, model error and weights at the present state.
   void Refresh(bool with_jacobian) {
-    // Shadow edges move about as much as what casts them: rows at an edge are left out anyway.
+    // Shadow edges move about as far as the luminaires; rows at an edge are left out anyway.
     constexpr double kStillM = 2e-3;
     if (frozen_.empty() || LargestMove(frozen_, fit_.state.luminaires) > kStillM) {
       model_.FreezeVisibility(fit_.state, options_.visibility_order);
@@ -118,7 +120,7 @@ class OuterLoop {
     return std::hypot(std::sqrt(variance_[row]), model);
   }
 
-  // f such that the median absolute normalised residual is that of a Gaussian; a damped fixed point.
+  // Finds f by a damped fixed point: the median absolute normalised residual is to be a Gaussian's.
   void EstimateRelativeSigma(const Eigen::VectorXd& residual) {
     for (int k = 0; k < 3; ++k) {
       std::vector<double> absolute;
@@ -133,7 +135,7 @@ class OuterLoop {
     }
   }
 
-  // Of any point of any luminaire, m.
+  // Returns the largest move of any point of any luminaire, in m.
   static double LargestMove(const std::vector<Luminaire>& a, const std::vector<Luminaire>& b) {
     double move = 0;
     for (size_t k = 0; k < a.size(); ++k) {
@@ -144,7 +146,7 @@ class OuterLoop {
     return move;
   }
 
-  // Covariance, what is undetermined, predictions of the readings.
+  // Computes the covariance, the undetermined directions and the predictions of the readings.
   void Conclude() {
     fit_.predicted = at_state_.value;
     const auto readings = static_cast<Eigen::Index>(data_.readings.size());
@@ -154,7 +156,7 @@ class OuterLoop {
       const Parameter& p = fit_.parameters[i];
       const double margin = 1e-6 * std::max(1.0, p.upper - p.lower);
       const double value = x[static_cast<Eigen::Index>(i)];
-      // Dark parts are nothing to warn of.
+      // A dark part at its bound needs no warning.
       if (p.kind == ParameterKind::kLuminaire && p.reference != p.part) continue;
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.id());
     }
@@ -202,7 +204,7 @@ class OuterLoop {
     return rows;
   }
 
-  // What the model leaves out of each row by its discretisation.
+  // Returns what the model's discretisation leaves out of each row.
   Eigen::VectorXd Bias() const {
     Eigen::VectorXd bias(values_.size());
     Eigen::Index first = 0;
@@ -213,9 +215,9 @@ class OuterLoop {
     return bias;
   }
 
-  // Mean square of the normalised residuals of rows that stand alone, never below 1: a reading's stated sigma counts even
-  // where the fit passes through it (a scale reading leaves no residual). One mean for all: max(1, z^2) of
-  // each would be 1.48 on average where nothing is wrong.
+  // Returns the mean square of the normalised residuals of rows that stand alone, at least 1. A reading's
+  // stated sigma counts even where the fit passes through it (a scale reading leaves no residual). One mean
+  // serves all: max(1, z^2) of each row would average 1.48 with correct sigmas.
   double AloneScatter(const WeightedRows& rows) const {
     double squares = 0;
     int used = 0;
@@ -233,10 +235,10 @@ class OuterLoop {
   LightModel model_;
   LuminaireFit fit_;
   std::vector<std::pair<int, ParameterPrior>> priors_;
-  std::vector<Luminaire> frozen_;  // where the visibility is of
+  std::vector<Luminaire> frozen_;  // luminaires at which the visibility was computed
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, variance_, root_weight_;
-  std::vector<bool> is_used_, is_usable_;  // fitted to; and not spoilt at the present state
+  std::vector<bool> is_used_, is_usable_;  // fitted to; fitted to and not spoilt at the present state
   std::vector<bool> carries_model_error_;  // rows of the first block that has any
   Prediction at_state_;
   double relative_sigma_before_ = 0;

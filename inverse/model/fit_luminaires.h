@@ -1,21 +1,27 @@
-// Luminaires and albedo from observed luminance and luxmeter readings: the inversion of the radiosity model.
+// Estimates luminaires and albedo from observed luminance and luxmeter readings by the radiosity model.
 //
 //   min over theta  sum_i w_i (model_i(theta) - data_i)^2 / (s_i^2 + (f data_i)^2) + priors
 //
-// Levenberg-Marquardt (Ceres) within bounds, inside an outer loop that refreshes what must stand still during
-// one solve: the luminaires' visibility, the robust weights w (Cauchy at robust_sigmas), and the model error
-// f, a relative error common to all observations, estimated from the residuals' median absolute deviation.
+// Levenberg-Marquardt (Ceres) solves it within bounds. An outer loop refreshes what a solve holds:
+// - the luminaires' visibility;
+// - the robust weights w (Cauchy at robust_sigmas);
+// - the model error f, a relative error common to all observations, estimated from the residuals' median
+//   absolute deviation.
 // Rows that a shadow edge crosses are left out: their dependence on position is not smooth.
 //
-// Covariance: residuals of neighbouring elements share their model error, so they are no independent
-// evidence. The cluster-robust ("sandwich") estimate is used, with clusters of one facet and one state, each
-// judged by a fit without it, and few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 %
-// interval (inverse/model/internal/fit_covariance.h). It contains noise, the model errors that differ from facet to
-// facet or state to state, the readings' and priors' sigmas, and what elements
-// and patches lose by their size (inverse/model/internal/discretisation_bias.h); not camera poses, nor the mesh,
-// nor any other model error that is the same everywhere. A direction of parameters that the data leave
-// undetermined (singular value below 1e-5 of the largest, after scaling) has no covariance: it is listed in
-// `undetermined`, described in `null_directions`, and status is kUndetermined.
+// Covariance: residuals of neighbouring elements share their model error, so they are not independent. The
+// estimate is cluster-robust ("sandwich"), with one cluster for each facet and state, judged by a fit without
+// it. Few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 % interval
+// (inverse/model/internal/fit_covariance.h).
+// - It contains noise, model errors that differ between facets or states, and the readings' and priors'
+//   sigmas. It also contains the error by the size of elements and patches
+//   (inverse/model/internal/discretisation_bias.h).
+// - It does not contain errors of camera poses, of the mesh, or any other model error that is the same
+//   everywhere.
+//
+// A direction of parameters that the data leave undetermined (singular value below 1e-5 of the largest, after
+// scaling) has no covariance. It is listed in `undetermined` and described in `null_directions`, and the
+// status is kUndetermined.
 //
 // Sources: Triggs et al. (2000), sec. 4 (IRLS, LM).
 #ifndef LUXFIT_INVERSE_MODEL_FIT_LUMINAIRES_H_
@@ -26,14 +32,13 @@
 #include <string>
 #include <vector>
 
-#include "inverse/model/light_model.h"
-#include "inverse/model/null_direction.h"
+#include "inverse/model/light_state.h"
 
 namespace luxfit {
 
 enum class FitStatus { kConverged, kNotConverged, kUndetermined, kNoData };
 
-// Knowledge of one parameter from outside the data, in the parameter's own unit.
+// Holds knowledge of one parameter from outside the data, in the parameter's own unit.
 struct ParameterPrior {
   ParameterKind kind = ParameterKind::kLuminaire;
   int index = 0;
@@ -47,14 +52,20 @@ struct FitLuminairesOptions {
   int max_inner_iterations = 12;
   double initial_relative_sigma =
       0.05;                          // f at the start: generous, so that a rough start is not all outliers
-  double min_relative_sigma = 2e-3;  // f below this would trust a forward model beyond its own validation
+  double min_relative_sigma = 2e-3;  // a smaller f would trust the forward model beyond its validation
   double robust_sigmas = 3.0;
-  double position_tolerance_m = 5e-4;  // outer loop ends when nothing moves more
-  int visibility_order = 3;            // points a side of a luminaire tested for occlusion
+  double position_tolerance_m = 5e-4;  // the outer loop ends when nothing moves farther
+  int visibility_order = 3;            // points along each side of a luminaire tested for occlusion
   bool covariance = true;
-  // The start came from a fit to a part of the same data: relative_sigma begins at the initial one of these
-  // options, steps need no damping, and one round that moves nothing is enough.
+  // Set it where the start came from a fit to a part of the same data. relative_sigma then begins at
+  // initial_relative_sigma, steps need no damping, and one round that moves nothing is enough.
   bool start_is_near = false;
+};
+
+// Holds in words a combination of parameters that the data leave undetermined.
+struct NullDirection {
+  std::vector<ParameterId> parameters;  // parameters that take part, the strongest first
+  std::string meaning, remedy;          // a sentence each, without a full stop
 };
 
 struct LuminaireFit {
@@ -62,16 +73,16 @@ struct LuminaireFit {
   std::string message;
   LightState state;
   std::vector<Parameter> parameters;
-  Eigen::MatrixXd covariance;                  // of the parameters
-  std::vector<ParameterId> undetermined;       // in directions without information
+  Eigen::MatrixXd covariance;                  // parameters x parameters
+  std::vector<ParameterId> undetermined;       // parameters in directions without information
   std::vector<NullDirection> null_directions;  // those directions, in words
-  std::vector<ParameterId> at_bound;           // that stopped at a bound
+  std::vector<ParameterId> at_bound;           // parameters that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
   Eigen::VectorXd reading_direct_lx;
-  Eigen::VectorXd reading_sigma_lx;  // of the predictions
+  Eigen::VectorXd reading_sigma_lx;  // sigma of the predicted readings
   double relative_sigma = 0;         // f
-  double effective_parts = 0;        // of tables and uneven emission, with the covariance
+  double effective_parts = 0;        // effective number, for tables and uneven emission; needs covariance
   double cost = 0;
   int outer_iterations = 0;
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
 
 namespace luxfit {
@@ -25,7 +26,8 @@ bool IsTurn(const Parameter& p) {
           p.quantity == LuminaireQuantity::kHeading);
 }
 
-// A luminaire's turn from a frame: first about the aim by `heading`, then the aim by `tilt` along the turned axes.
+// Holds a luminaire's turn from a frame: about the aim by `heading`, then the aim by `tilt` along the turned
+// axes.
 //   along_h = cos(h) along + sin(h) across,   aim' ~ aim + t1 along_h + t2 across_h
 struct Turn {
   AimFrame frame;
@@ -42,7 +44,7 @@ void Apply(const Turn& turn, Luminaire& luminaire) {
   luminaire.heading = AxesOf(luminaire).along;
 }
 
-// The inverse: along_h is the vector across the frame's aim that the heading is the projection of.
+// Inverts Turn. along_h is the vector across the frame's aim whose projection is the heading.
 Turn TurnOf(const Luminaire& luminaire, const AimFrame& frame) {
   Turn turn{frame};
   const Eigen::Vector3d& heading = AxesOf(luminaire).along;
@@ -64,7 +66,7 @@ std::vector<LuminaireQuantity> FreeQuantitiesOf(const Luminaire& luminaire, cons
     list.insert(list.end(), {LuminaireQuantity::kPositionX, LuminaireQuantity::kPositionY,
                              LuminaireQuantity::kPositionZ});
   }
-  if (free.exponent && luminaire.distribution == Distribution::kCosinePower) {
+  if (free.exponent && OpsOf(luminaire.distribution).has_exponent) {
     list.push_back(LuminaireQuantity::kExponent);
   }
   if (free.size && luminaire.shape != LuminaireShape::kPoint) {
@@ -113,7 +115,7 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
   return p;
 }
 
-// Of a quantity that is no part.
+// Returns the value of a quantity that is not a part.
 double ValueOf(const Luminaire& luminaire, const Parameter& p) {
   switch (p.quantity) {
     case LuminaireQuantity::kPositionX:

@@ -1,19 +1,43 @@
-// Holds what a fit varies: luminaires, reflectances and scales, and the parameters that are free of them.
+// Holds the data of a fit, and what the fit varies to explain them.
 //
-// Free parameters are stacked in one vector: fluxes, exponents and the scales of camera and meter as logarithms, so that they
-// stay positive and scales separate; positions and sizes in metres; tilts and headings in radians from the parameter's frame.
+// LightData: luminance of elements in photos, and readings of a luxmeter. LightState: luminaires,
+// reflectances and scales, and which of their parameters are free.
+//
+// Free parameters are stacked in one vector. Fluxes, exponents and the scales of camera and meter are
+// logarithms, which keeps them positive and makes scales additive. Positions and sizes are in metres. Tilts
+// and headings are in radians from the parameter's frame.
 #ifndef LUXFIT_INVERSE_MODEL_LIGHT_STATE_H_
 #define LUXFIT_INVERSE_MODEL_LIGHT_STATE_H_
 
 #include <Eigen/Core>
 #include <vector>
 
+#include "forward/direct/sensor.h"
 #include "forward/light/room.h"
 #include "inverse/model/parameter.h"
+#include "inverse/observe/observe.h"
 
 namespace luxfit {
 
-// What is free of one luminaire.
+struct Reading {
+  Sensor sensor;
+  int state = 0;
+  double illuminance_lx = 0;
+  double sigma_lx = 0;
+  bool used = false;      // false: only predicted
+  int sensor_index = -1;  // one of several sensors of a meter, each with its own gain; -1: the only sensor
+};
+
+struct LightData {
+  std::vector<Eigen::VectorXd> dimming;  // one vector per state, by luminaire
+  std::vector<Observation> observations;
+  std::vector<Reading> readings;
+  // true: the observations carry their indirect light (inverse/model/internal/measured_indirect.h). No
+  // radiosity is solved, and there are no readings.
+  bool indirect_is_held = false;
+};
+
+// Says which quantities of one luminaire are free.
 struct FreeQuantities {
   bool position = true;
   bool flux = true;
@@ -21,40 +45,41 @@ struct FreeQuantities {
   bool size = false;
   bool tilt = false;
   bool heading = false;
-  // > 0: the shares of its table's nodes or of its cells are free, their smoothness known to so much
-  // (inverse/model/internal/part_smoothness.h).
+  // > 0: the shares of its table's nodes, or of its cells, are free; the value is the sigma of their
+  // smoothness (inverse/model/internal/part_smoothness.h).
   double table_sigma = 0;
   double emission_sigma = 0;
 };
 
 struct LightState {
   std::vector<Luminaire> luminaires;
-  std::vector<FreeQuantities> free;  // one a luminaire
+  std::vector<FreeQuantities> free;  // one for each luminaire
   Eigen::VectorXd albedo;            // by material
   std::vector<bool> albedo_free;
   double camera_scale = 1;  // relative luminance per cd/m2
   bool camera_scale_free = true;
   double meter_scale = 1;
-  bool meter_scale_free = false;   // wants a prior: nothing else tells it from the fluxes
+  bool meter_scale_free = false;   // needs a prior: nothing else tells it from the fluxes
   Eigen::VectorXd sensor_gain;     // by Reading::sensor; empty: 1
-  bool sensor_gains_free = false;  // want priors likewise
+  bool sensor_gains_free = false;  // need priors likewise
 };
 
-// The free parameters in their order, with bounds: positions within the room's bounding box (a luminaire
-// hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
+// Returns the free parameters in their order, with bounds: positions within the room's bounding box (a
+// luminaire hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
 std::vector<Parameter> FreeParameters(const Room& room, const LightState& state);
-// x = PackParameters(WithParameters(state, parameters, x), parameters) for every x within the bounds.
+// PackParameters reads the vector x of the parameters from a state; WithParameters writes it into one.
+//   x = PackParameters(WithParameters(state, parameters, x), parameters) for every x within the bounds
 Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parameter>& parameters);
 LightState WithParameters(LightState state, const std::vector<Parameter>& parameters,
                           const Eigen::VectorXd& x);
 
-// The same parameters, tilts and headings counted from where the luminaires of `state` now point: they pack to 0 there, which is
-// where Predict has their derivatives.
+// Returns the same parameters with tilts and headings counted from where the luminaires of `state` point.
+// They pack to 0 there, and Predict has their derivatives at 0.
 std::vector<Parameter> Recentred(std::vector<Parameter> parameters, const LightState& state);
 
-// Whether the parameter is the share of a node of a table or of a cell.
+// Returns whether the parameter is the share of a table's node or of a cell.
 bool IsPart(const Parameter& parameter);
-// That share of the part which the others are counted by.
+// Returns the share of the reference part, by which the other shares are divided.
 double ReferenceShare(const LightState& state, const Parameter& parameter);
 
 }  // namespace luxfit

@@ -1,7 +1,8 @@
 // Identifies the parameters of the light model, in code and in files.
 //
-// An id says what a parameter is and whose: a quantity of a luminaire, its flux, a material's reflectance, a scale. It means
-// the same in another fit of the same room. Words are made of it in one place and never read back.
+// An id says what a parameter is and to which owner it belongs: a quantity of a luminaire, its flux, a
+// material's reflectance, a scale. It means the same in another fit of the same room. NameOf writes it for
+// people; no code reads such a name back.
 #ifndef LUXFIT_INVERSE_MODEL_PARAMETER_H_
 #define LUXFIT_INVERSE_MODEL_PARAMETER_H_
 
@@ -19,38 +20,39 @@ enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogM
 struct ParameterId {
   ParameterKind kind = ParameterKind::kLuminaire;
   std::string owner;  // id of the luminaire, name of the material, number of the sensor; empty for scales
-  LuminaireQuantity quantity = LuminaireQuantity::kPositionX;  // of kLuminaire
-  int part = 0;                                                // of kGammaNode and kCell
+  LuminaireQuantity quantity = LuminaireQuantity::kPositionX;  // for kLuminaire
+  int part = 0;                                                // for kGammaNode and kCell
 };
 bool operator==(const ParameterId& a, const ParameterId& b);
 bool operator!=(const ParameterId& a, const ParameterId& b);
 
-// "position x of A", "log flux of A", "albedo of floor": for people.
+// Returns a name for people: "position x of A", "log flux of A", "albedo of floor".
 std::string NameOf(const ParameterId& id);
 std::vector<std::string> NamesOf(const std::vector<ParameterId>& ids);
 
-// The words of files: "luminaire", "log_flux", ...; "position_x", "size_along", ... None for other words.
+// Convert to and from the words of files: "luminaire", "log_flux", "position_x", "size_along", ... Other
+// words give none.
 std::string ToString(ParameterKind kind);
 std::optional<ParameterKind> ParameterKindFrom(const std::string& word);
 std::string ToString(LuminaireQuantity quantity);
 std::optional<LuminaireQuantity> LuminaireQuantityFrom(const std::string& word);
 
-// Directions that tilts and headings are counted from: unit vectors in world, across = aim x along.
+// Holds the directions from which tilts and headings count: unit vectors in world, across = aim x along.
 struct AimFrame {
   Eigen::Vector3d aim{0, 0, -1}, along{1, 0, 0}, across{0, -1, 0};
 };
 
-// One free parameter of a fit.
+// Describes one free parameter of a fit.
 struct Parameter {
   ParameterKind kind = ParameterKind::kLuminaire;
-  int index = 0;  // of the luminaire, the material or the sensor
+  int index = 0;  // index of the luminaire, the material or the sensor
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
   double lower = 0, upper = 0;
   std::string owner;  // as in ParameterId
-  // Of kGammaNode and kCell: the value is the share of `part` over that of `reference`, which is the largest
-  // at the start and no parameter itself.
+  // For kGammaNode and kCell: the value is the share of `part` over that of `reference`. The reference is the
+  // largest at the start and not a parameter itself.
   int part = 0, reference = 0;
-  // Of kTiltAlong, kTiltAcross and kHeading: how the luminaire stood when the parameter was made.
+  // For kTiltAlong, kTiltAcross and kHeading: the luminaire's frame when the parameter was made.
   AimFrame frame = {};
 
   ParameterId id() const { return {kind, owner, quantity, part}; }

@@ -5,14 +5,15 @@
 #include <stdexcept>
 
 #include "forward/light/illuminance.h"
-#include "inverse/model/light_model.h"
+#include "forward/luminaire/distribution_ops.h"
+#include "inverse/model/internal/light_model.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kLeftOutVariance = 1e-3;
 
-// Everything that a fit may have had free.
+// Returns a state with every parameter free that a fit may free.
 LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
                    const Eigen::VectorXd& albedo) {
   LightState state;
@@ -20,7 +21,7 @@ LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
   for (const Luminaire& luminaire : luminaires) {
     FreeQuantities free;
     free.exponent = free.size = free.tilt = free.heading = true;
-    free.table_sigma = luminaire.distribution == Distribution::kMeasured ? 1 : 0;
+    free.table_sigma = OpsOf(luminaire.distribution).has_table ? 1 : 0;
     free.emission_sigma = luminaire.emission.size() > 0 ? 1 : 0;
     state.free.push_back(free);
   }
@@ -30,7 +31,7 @@ LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
   return state;
 }
 
-// Each luminaire alone, at every place.
+// Returns data with each luminaire alone at every place.
 LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
   LightData data;
   for (Eigen::Index k = 0; k < luminaires; ++k)
@@ -53,7 +54,7 @@ struct KnownParameters {
   std::vector<ParameterId> left_out;
 };
 
-// The camera's and the meter's own scales change no light.
+// Returns whether the parameter changes light. The camera's and the meter's scales do not.
 bool ChangesLight(ParameterKind kind) {
   return kind == ParameterKind::kLuminaire || kind == ParameterKind::kLogFlux ||
          kind == ParameterKind::kAlbedo;
@@ -76,7 +77,7 @@ KnownParameters Find(const std::vector<Parameter>& possible, const ParameterCova
   return known;
 }
 
-// S of J Sigma J^T, its columns by falling variance of the relative predictions.
+// Returns S of J Sigma J^T, its columns by falling variance of the relative predictions.
 Eigen::MatrixXd FactorOf(const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& covariance) {
   if (jacobian.cols() == 0) return {};
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> root(0.5 * (covariance + covariance.transpose()));

@@ -1,16 +1,15 @@
-// Illuminance at any places by the luminaires of a fit, one column each, with what the fit's covariance says
-// of it.
+// Predicts the illuminance that a fit's luminaires give at any places, with its covariance from the fit.
 //
 //   E_ik = Phi_k E_k(place i),   E_i(d) = sum_k d_k E_ik                                        lx
-//   Cov(E) = J Sigma J^T ~ S S^T,    J = dE / dtheta by the model that was fitted (inverse/model/light_model.h)
+//   Cov(E) = J Sigma J^T ~ S S^T,    J = dE / dtheta by the fitted model (internal/light_model.h)
 //
-// Rows of S are (place, luminaire), the luminaire fastest; its columns the directions in which the
-// predictions vary most, as many as leave out less than a thousandth of the variance. So any sum of columns
-// (a state, a mean over places) has its sigma: |sum of rows|.
+// Rows of S are (place, luminaire), the luminaire fastest. Its columns are the directions in which the
+// predictions vary most; those left out hold less than a thousandth of the variance. Any weighted sum of
+// predictions (a state, a mean over places) therefore has the sigma |sum of rows|.
 //
-// Parameters that no prediction depends on (the camera's scale) are passed over. Those that would matter and are none
-// of these luminaires and materials stand in `left_out`, and sigmas are then too small. Rooms so large that their transport is sparse have
-// no derivatives: S is empty.
+// Parameters on which no prediction depends (the camera's scale) are ignored. Parameters that matter but
+// belong to none of these luminaires and materials are listed in `left_out`; sigmas are then too small. S is
+// empty for rooms so large that their transport is sparse: they have no derivatives.
 //
 // Throws std::invalid_argument where the covariance is not as large as the list of parameters.
 // Source: JCGM 102:2011, sec. 6 (propagation for several outputs).
@@ -34,7 +33,7 @@ struct ParameterCovariance {
 
 struct PredictedPlaces {
   Eigen::MatrixXd total_lx, direct_lx;  // places x luminaires
-  Eigen::MatrixXd factor;               // S; empty: not known
+  Eigen::MatrixXd factor;               // S; empty: unknown
   std::vector<ParameterId> left_out;
 };
 PredictedPlaces PredictPlaces(const Room& room, const std::vector<Luminaire>& luminaires,

@@ -8,8 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "calib/luminance/median.h"
+
 namespace luxfit {
 namespace {
+
+// A tag's paper reaches beyond its black square: at least one cell of white border, with mounts often more.
+constexpr double kTagMargin = 1.5;
 
 using IndexImage = Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -57,6 +62,23 @@ bool SameFacetAround(const IndexImage& facets, int u, int v, int guard) {
 double SizeOf(const Element& element) { return std::max(element.edge_u.norm(), element.edge_v.norm()); }
 
 }  // namespace
+
+std::vector<PixelQuad> TagQuads(const std::vector<SurveyedTag>& survey, const Camera& camera,
+                                const Eigen::Isometry3d& cam_from_world) {
+  std::vector<PixelQuad> quads;
+  for (SurveyedTag tag : survey) {
+    tag.size_m *= kTagMargin;
+    PixelQuad quad;
+    bool in_front = true;
+    const auto corners = TagCornersInWorld(tag);
+    for (size_t i = 0; i < 4; ++i) {
+      quad[i] = Project(camera, cam_from_world * corners[i]);
+      in_front = in_front && quad[i].allFinite();
+    }
+    if (in_front) quads.push_back(quad);
+  }
+  return quads;
+}
 
 PixelDirections UnprojectAllPixels(const Camera& camera) {
   PixelDirections directions(3, static_cast<Eigen::Index>(camera.width_px) * camera.height_px);
@@ -146,7 +168,7 @@ std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage&
     const double mean = s.sum / s.count;
     const double spread = std::max(0.0, s.squares / s.count - mean * mean) * s.count / (s.count - 1);
     if (!(mean > 0)) continue;
-    // A few pixels may agree by chance better than their noise allows.
+    // A few pixels may agree by chance better than their noise allows, so the noise is a lower limit.
     const double variance = std::max(spread, s.noise / s.count) / s.count;
     observations.push_back({static_cast<int>(e), view, state, s.count, mean, variance, s.rgb / s.count, 0});
   }
@@ -163,9 +185,7 @@ MergedObservations MergeViews(const std::vector<Observation>& observations,
     if (views.size() >= 3) {
       std::vector<double> values;
       for (const Observation& o : views) values.push_back(o.relative_luminance);
-      std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                       values.end());
-      const double median = values[values.size() / 2];
+      const double median = Quantile(std::move(values), 0.5);
       const auto end = std::remove_if(views.begin(), views.end(), [&](const Observation& o) {
         return std::abs(o.relative_luminance - median) > options.outlier_sigmas * std::sqrt(o.variance);
       });

@@ -1,13 +1,15 @@
-// Which element each pixel sees, and the mean luminance of every element in every photo.
+// Finds the element that each pixel sees, and the mean luminance of every element in every photo.
 //
-// A pixel belongs to an element when its centre's ray meets the element's front first, the pixels around it
-// see the same facet (a registration error of a pixel then does not mix surfaces), and no masked quad (a tag)
-// covers it. An element counts in a view when enough such pixels see it and their mean point lies near its
-// centre: its mean luminance then stands for the luminance at its centre. In one photo it counts when nearly
-// all those pixels are valid there.
+// A pixel belongs to an element under three conditions:
+// - its centre's ray meets the element's front first;
+// - the pixels around it see the same facet, so that a registration error of a pixel does not mix surfaces;
+// - no masked quad (a tag) covers it.
+// An element counts in a view when enough such pixels see it and their mean point lies near its centre. Its
+// mean luminance then stands for the luminance at its centre. In one photo it counts when nearly all those
+// pixels are valid there.
 //
-// Luminance is relative, in the camera's own unit (see calib/luminance/luminance.h).
-// Source: house; the bias bound of the centroid rule is the gradient times centroid_tolerance * element size.
+// Luminance is relative, in the camera's own unit (calib/luminance/luminance.h).
+// Source: own. The bias bound of the centroid rule is the gradient times centroid_tolerance * element size.
 #ifndef LUXFIT_INVERSE_OBSERVE_OBSERVE_H_
 #define LUXFIT_INVERSE_OBSERVE_OBSERVE_H_
 
@@ -18,29 +20,35 @@
 
 #include "calib/lens/camera.h"
 #include "calib/luminance/luminance.h"
+#include "calib/targets/tags.h"
 #include "forward/light/room.h"
 
 namespace luxfit {
 
-using PixelQuad = std::array<Eigen::Vector2d, 4>;  // corners in order around, px
+using PixelQuad = std::array<Eigen::Vector2d, 4>;  // corners in order round the quad, px
+
+// Returns where surveyed tags cover a photo: no surface of the room is seen there. One quad for each tag in
+// front of the camera, with the paper around its black square. `survey`: tags in the world frame.
+std::vector<PixelQuad> TagQuads(const std::vector<SurveyedTag>& survey, const Camera& camera,
+                                const Eigen::Isometry3d& cam_from_world);
 
 struct PixelMapOptions {
   int guard_px = 2;                 // distance within which all pixels must see the same facet
   int min_pixels = 4;               // fewer: the mean is too noisy and its centroid too coarse
-  double centroid_tolerance = 0.2;  // of the element's size
+  double centroid_tolerance = 0.2;  // share of the element's size
 };
 
-// height x width: index into room.patches.elements, -1: not used.
+// Maps pixels, height x width, to indices into room.patches.elements; -1: not used.
 struct PixelMap {
   Eigen::Array<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> element;
-  std::vector<int> pixels_of_element;  // one an element
+  std::vector<int> pixels_of_element;  // one for each element
 };
 
-// Unit directions of every pixel's ray in the camera frame, row by row; the same for all views of a camera.
+// Unit directions of all pixels' rays in the camera frame, row by row. All views of a camera share them.
 using PixelDirections = Eigen::Matrix<float, 3, Eigen::Dynamic>;
 PixelDirections UnprojectAllPixels(const Camera& camera);
 
-// `directions` belong to `camera`.
+// Returns the element of each pixel. `directions` are those of `camera`.
 PixelMap MapPixels(const Camera& camera, const PixelDirections& directions,
                    const Eigen::Isometry3d& cam_from_world, const Room& room,
                    const std::vector<PixelQuad>& masked, const PixelMapOptions& options = {});
@@ -51,22 +59,21 @@ struct Observation {
   int state = 0;
   int pixels = 0;
   double relative_luminance = 0;
-  double variance = 0;  // of the mean, from the spread of the pixels, and no less than their stated noise
+  double variance = 0;  // variance of the mean, from the pixels' spread, at least their stated noise
   Eigen::Vector3d relative_rgb = Eigen::Vector3d::Zero();  // the channels' means, in the same unit
-  // What light from other surfaces gives a white element there (inverse/model/measured_indirect.h); 0: not asked
-  // for.
+  // Luminance that light from other surfaces gives a white element there
+  // (inverse/model/internal/measured_indirect.h). 0: not computed.
   double relative_indirect = 0;
 };
 
-// The observations of one photo.
+// Returns the observations of one photo.
 std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage& photo, int view, int state);
 
-// One value an element and state: the views' weighted mean, each view's variance enlarged by (relative_sigma
-// * value)^2. Views more than outlier_sigmas from the median of three or more are left out. `view` is -1,
-// `pixels` the sum.
+// MergeViews returns one value for each element and state: the weighted mean of the views. Each view's
+// variance is enlarged by (relative_sigma * value)^2. Views more than outlier_sigmas from the median of three
+// or more are left out. In the result `view` is -1 and `pixels` is the sum.
 struct MergeViewsOptions {
-  double relative_sigma =
-      0.01;  // registration and element-size effects differ from view to view by about this
+  double relative_sigma = 0.01;  // about the spread of registration and element-size effects between views
   double outlier_sigmas = 4;
 };
 struct MergedObservations {
@@ -76,8 +83,8 @@ struct MergedObservations {
 MergedObservations MergeViews(const std::vector<Observation>& observations,
                               const MergeViewsOptions& options = {});
 
-// Observations of at most about `max_elements` of the observed elements, taken evenly: enough for a start or
-// a comparison. Order is kept.
+// Returns the observations of at most about `max_elements` of the observed elements, taken evenly and in
+// their order. These are enough for a start or a comparison.
 std::vector<Observation> ThinElements(const std::vector<Observation>& observations, int max_elements);
 
 }  // namespace luxfit

@@ -8,13 +8,13 @@
 #include <stdexcept>
 
 #include "calib/luminance/bright_blobs.h"
-#include "calib/targets/tag_refine.h"
-#include "inverse/observe/tag_quads.h"
+#include "calib/targets/tags.h"
+#include "inverse/observe/observe.h"
 
 namespace luxfit {
 namespace {
 
-// Tags of every view, combined from its photos.
+// Returns the tags of every view, combined from its photos.
 std::vector<ViewDetections> DetectViews(const std::vector<Camera>& cameras,
                                         const std::vector<RoomPhoto>& photos, const std::string& tag_family) {
   std::vector<std::vector<TagDetection>> found(photos.size());

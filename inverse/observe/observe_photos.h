@@ -1,10 +1,10 @@
-// Goes from photos of a room to what a fit starts from, by the room's surveyed tags alone.
+// Turns photos of a room into the observations that a fit needs, by the room's surveyed tags alone.
 //
-//   tags of every photo -> a pose for every view -> luminance of every element -> places where luminaires show
+//   tags of every photo -> pose of every view -> luminance of every element -> places where luminaires show
 //
-// Assumes cameras of known lens, photos that are linear, and a survey in the frame of the room's mesh. Views without a usable
-// pose are left out; `registration.notes` says why. Throws std::invalid_argument for a camera or state out of range, and as
-// FindTagCorners and RegisterViews do.
+// Assumes cameras of known lens, linear photos, and a survey in the frame of the room's mesh. Views without a
+// usable pose are left out; `registration.notes` says why. Throws std::invalid_argument for a camera or state
+// out of range, and throws as FindTagCorners and RegisterViews do.
 #ifndef LUXFIT_INVERSE_OBSERVE_OBSERVE_PHOTOS_H_
 #define LUXFIT_INVERSE_OBSERVE_OBSERVE_PHOTOS_H_
 
@@ -23,14 +23,14 @@ namespace luxfit {
 
 struct RoomPhoto {
   std::string view;  // photos of one view share one pose
-  int camera = 0;    // of `cameras`
-  int state = 0;     // of the light
+  int camera = 0;    // index into `cameras`
+  int state = 0;     // state of the luminaires
   LuminanceImage image;
 };
 
 struct PhotoObservations {
   Registration registration;
-  std::vector<Observation> observations;  // of every view (Observation::view counts registration.views)
+  std::vector<Observation> observations;  // all views; Observation::view indexes registration.views
   std::vector<SeenPlace> seen;
 };
 

@@ -8,13 +8,15 @@
 #include <limits>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "calib/luminance/median.h"
 #include "calib/register/triangulation.h"
 
 namespace luxfit {
 namespace {
 
-// A luminaire hangs a little below a ceiling that the mesh, and the views' poses, know to so much.
+// Tolerance for a luminaire just below a ceiling: the error of the mesh and of the views' poses.
 constexpr double kMeshToleranceM = 0.05;
 
 struct BlobOfPhoto {
@@ -100,15 +102,11 @@ class SeenSearch {
       const double area = FacingDownM2(*seen.photo, *seen.blob, point.position);
       if (std::isfinite(area)) areas.push_back(area);
     }
-    place.area_m2 = std::numeric_limits<double>::quiet_NaN();
-    if (areas.empty()) return place;
-    const auto middle = areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2);
-    std::nth_element(areas.begin(), middle, areas.end());
-    place.area_m2 = *middle;
+    place.area_m2 = Quantile(std::move(areas), 0.5);
     return place;
   }
 
-  // A blob's area at the place, on a horizontal plane.
+  // Returns a blob's area at the place, on a horizontal plane.
   double FacingDownM2(const PhotoBlobs& photo, const BrightBlob& blob, const Eigen::Vector3d& place) const {
     const RegisteredView& view = View(photo);
     const Eigen::Vector3d in_cam = view.cam_from_world * place;
@@ -121,7 +119,7 @@ class SeenSearch {
                             : std::numeric_limits<double>::quiet_NaN();
   }
 
-  // In how many photos of the state it shows, and in how many it ought to and does not.
+  // Counts the photos of the state that show the place, and those that should and do not.
   void CountPhotos(int state, SeenPlace& place) const {
     for (const PhotoBlobs& photo : photos_) {
       if (photo.state != state) continue;
@@ -152,7 +150,7 @@ class SeenSearch {
     return !room_.rays.Occluded(eye, place.position + skipped_m * to_eye.normalized());
   }
 
-  // The same place in another state: that which more views saw stands for both.
+  // Merges the same place of another state. The one that more views saw stands for both.
   static void Merge(const SeenPlace& place, std::vector<SeenPlace>& places) {
     const auto same = std::find_if(places.begin(), places.end(), [&](const SeenPlace& p) {
       return (p.position - place.position).norm() < 3 * std::hypot(p.sigma_m, place.sigma_m);
@@ -162,7 +160,7 @@ class SeenSearch {
       return;
     }
     const SeenPlace other = *same;
-    // Two places of one state are two.
+    // Two places of one state stay apart.
     if (other.states.back() == place.states.back()) {
       places.push_back(place);
       return;

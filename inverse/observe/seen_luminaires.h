@@ -1,16 +1,19 @@
-// Where luminaires hang, as the photos themselves show it: bright blobs of several views, triangulated.
-//
-// State by state the blobs of all views are triangulated (calib/register/triangulation.h). What lies outside the room,
-// or is missing in more of the photos that ought to show it than it is in, is dropped: a highlight moves with
-// the camera, a washed-out surface is not washed out in a shorter exposure. What is left are places where a
-// luminaire may be, not luminaires: tags on a desk, mirror images and windows stay among them where several
-// views saw them alike. Which are right, the light decides (inverse/model/first_guess.h).
+// Finds places where luminaires may hang by triangulating bright blobs of several views.
 //
 //   A = median_v(blob area / |d pixel / d place|) / |cos| of the direction to v against the vertical
 //
-// is the emitting area of a luminaire that faces down (or up); NaN where every view saw it edge-on. m, world
-// frame. Blobs at a photo's edge are cut: their centres are not used, but they count as seen. Throws
-// std::invalid_argument for a view out of range. Sources: those of bright_blobs.h and triangulation.h.
+// A: emitting area of a luminaire that faces down (or up); NaN where every view saw it edge-on. Units: m, m2;
+// world frame.
+//
+// The blobs of all views are triangulated state by state (calib/register/triangulation.h). A place is dropped
+// where it lies outside the room, or where more of the photos that should show it miss it than show it. A
+// highlight moves with the camera, and a washed-out surface is not washed out in a shorter exposure.
+//
+// The remaining places may hold a luminaire. Tags on a desk, mirror images and windows stay among them where
+// several views saw them alike. The light decides which are right (inverse/model/internal/first_guess.h).
+// Blobs at a photo's edge are cut: their centres are not used, but they count as seen.
+//
+// Throws std::invalid_argument for a view out of range. Sources: those of bright_blobs.h and triangulation.h.
 #ifndef LUXFIT_INVERSE_OBSERVE_SEEN_LUMINAIRES_H_
 #define LUXFIT_INVERSE_OBSERVE_SEEN_LUMINAIRES_H_
 
@@ -24,31 +27,31 @@
 
 namespace luxfit {
 
-// The blobs of one photo; a photo without any is one too.
+// Holds the blobs of one photo. A photo without blobs is listed, too.
 struct PhotoBlobs {
-  int view = 0;  // of the registered ones
+  int view = 0;  // index of the registered view
   int state = 0;
   std::vector<BrightBlob> blobs;
 };
 
 struct SeenPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double sigma_m = 0;       // along its worst direction
-  std::vector<int> states;  // in which it is bright
-  int photos = 0;           // that show it, of those states
-  int views = 0;            // that it was triangulated from, in one state
-  int missing = 0;          // photos of those states that ought to show it and do not
+  double sigma_m = 0;       // standard deviation along the worst direction
+  std::vector<int> states;  // states in which it is bright
+  int photos = 0;           // photos of those states that show it
+  int views = 0;            // views from which it was triangulated, in one state
+  int missing = 0;          // photos of those states that should show it and do not
   double area_m2 = 0;
 };
 
 struct SeenLuminairesOptions {
-  int min_views = 2;  // three where chance is to be excluded; here the light decides
+  int min_views = 2;  // three would exclude chance; here the light decides
   double center_sigma_px = 1;
-  // Of a blob's width: the centre of a photo's blob is not the photo of the luminaire's centre.
+  // As a share of a blob's width: a blob's centre is not the image of the luminaire's centre.
   double width_sigma = 0.05;
 };
 
-// Most views first.
+// Returns the places, those of most views first.
 std::vector<SeenPlace> FindSeenLuminaires(const Room& room, const std::vector<Camera>& cameras,
                                           const std::vector<RegisteredView>& views,
                                           const std::vector<PhotoBlobs>& photos,

@@ -23,7 +23,7 @@ void Scale(Observation& o, double factor) {
   o.variance *= factor * factor;
 }
 
-// `count` of the values, drawn at random.
+// Returns `count` of the values, drawn at random.
 std::set<int> Draw(const std::set<int>& values, int count, std::mt19937_64& rng) {
   if (count < 0 || count > static_cast<int>(values.size()))
     throw std::invalid_argument("degrade: expected to leave out 0 to " + std::to_string(values.size()) +
@@ -81,7 +81,7 @@ std::vector<Observation> WithPixelNoise(std::vector<Observation> observations, d
   for (Observation& o : observations) {
     const double sigma = relative_sigma / std::sqrt(std::max(1, o.pixels));
     const double before = o.relative_luminance;
-    // What noise makes negative is no luminance: the darkest that a mean can be.
+    // Noise must not make a luminance negative: this is the darkest mean.
     const double factor = std::max(1e-3, 1 + sigma * normal(rng));
     o.relative_luminance *= factor;
     o.relative_rgb *= factor;
@@ -173,7 +173,7 @@ Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng) {
     for (const int f : pieces[static_cast<size_t>(p)]) out.insert(f);
   }
   Scene kept;
-  std::map<int, int> material_of;  // what it was, what it is
+  std::map<int, int> material_of;  // old index, new index
   for (size_t f = 0; f < scene.facets.size(); ++f) {
     if (out.count(static_cast<int>(f)) > 0) continue;
     Facet facet = scene.facets[f];

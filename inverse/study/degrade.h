@@ -1,17 +1,16 @@
-// Ways in which photos, surveys and meshes are worse than they were meant to be: pure functions, for asking
-// how much of it a fit stands.
+// Degrades photos, surveys and meshes, to test how much degradation a fit tolerates.
 //
 //   noise        Y' = Y (1 + s g / sqrt(n)),   variance + (s Y)^2 / n      s: of one pixel, n: pixels
-//   exposure     Y' = Y exp(s g), one g a photo (view and state)
+//   exposure     Y' = Y exp(s g), one g for each photo (view and state)
 //   survey       every tag's centre moves by s g along each axis
 //   albedo       rho' = rho + t (0.95 - rho)
 //
-// g: standard normal, drawn from the generator passed in, in the order of the input. Noise is applied to the
-// means that the fit sees, with the statistics that independent noise of pixels would give them: nothing
-// saturates and no pixel is rejected. Luminance in any unit, metres, world.
+// g: standard normal, drawn from the generator passed in, in the order of the input. The functions are pure.
+// Noise is applied to the means that the fit uses, with the statistics of independent pixel noise: nothing
+// saturates and no pixel is rejected. Units: luminance in any unit, m; world frame.
 //
-// Throws std::invalid_argument for negative sizes, and where more is to be left out than there is.
-// Source: house.
+// Throws std::invalid_argument for negative sizes, and where more is to be left out than exists.
+// Source: own.
 #ifndef LUXFIT_INVERSE_STUDY_DEGRADE_H_
 #define LUXFIT_INVERSE_STUDY_DEGRADE_H_
 
@@ -31,7 +30,7 @@ std::vector<Observation> WithPixelNoise(std::vector<Observation> observations, d
 std::vector<Observation> WithExposureErrors(std::vector<Observation> observations, double log_sigma,
                                             std::mt19937_64& rng);
 
-// Without `dropped` of the views (of the states) that were observed, drawn at random.
+// Return the observations without `dropped` of the observed views (or states), drawn at random.
 std::vector<Observation> WithoutViews(const std::vector<Observation>& observations, int dropped,
                                       std::mt19937_64& rng);
 std::vector<Observation> WithoutStates(const std::vector<Observation>& observations, int dropped,
@@ -41,14 +40,14 @@ int CountStates(const std::vector<Observation>& observations);
 
 std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double sigma_m, std::mt19937_64& rng);
 
-// Furniture: facets that do not lie on the scene's bounding box, joined where they share a corner. Indices
-// into scene.facets, one list a piece.
+// Returns pieces of furniture as indices into scene.facets, one list for each piece. A piece is made of
+// facets that do not lie on the scene's bounding box, joined where they share a corner.
 std::vector<std::vector<int>> LoosePieces(const Scene& scene);
-// Without `dropped` of them, drawn at random, and without the materials that then have no facet.
+// Returns the scene without `dropped` pieces, drawn at random, and without materials that then have no facet.
 Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng);
 
-// The two luminaires that are nearest to each other, moved along the line between them until they are that
-// far apart, their middle where it was. Throws std::invalid_argument for fewer than two.
+// Moves the two luminaires that are nearest to each other along the line between them until they are
+// `distance_m` apart. Their middle stays. Throws std::invalid_argument for fewer than two.
 std::vector<Luminaire> WithLuminairesTogether(std::vector<Luminaire> luminaires, double distance_m);
 
 Eigen::VectorXd WithRaisedAlbedo(const Eigen::VectorXd& albedo, double share);

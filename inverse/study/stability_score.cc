@@ -12,7 +12,7 @@ namespace {
 constexpr double kChiSquare3 = 7.815;  // 95 %, three degrees of freedom
 constexpr double kNormal = 1.96;       // 95 %, both sides
 
-// For each of the reference's, the index of what was found; -1: none.
+// Returns for each luminaire of the reference the index of the one found; -1: none.
 std::vector<int> Match(const std::vector<EstimatedLuminaire>& found,
                        const std::vector<EstimatedLuminaire>& reference) {
   std::vector<int> match(reference.size(), -1);

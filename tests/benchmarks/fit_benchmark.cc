@@ -18,6 +18,8 @@
 
 #include "apps/stages/prepared_session.h"
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/model/internal/light_model.h"
+#include "tests/paths.h"
 
 namespace luxfit {
 namespace {

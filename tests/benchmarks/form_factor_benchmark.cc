@@ -19,6 +19,7 @@
 
 #include "forward/factors/form_factors.h"
 #include "forward/room/mesh_file.h"
+#include "tests/paths.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

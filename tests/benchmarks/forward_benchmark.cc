@@ -11,6 +11,7 @@
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
 #include "forward/room/mesh_file.h"
+#include "tests/paths.h"
 
 namespace luxfit {
 namespace {

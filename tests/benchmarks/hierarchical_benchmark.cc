@@ -25,7 +25,7 @@
 #include "forward/light/choose_accuracy.h"
 #include "forward/light/light_tracer.h"
 #include "forward/light/room.h"
-#include "forward/radiosity/hierarchical.h"
+#include "forward/radiosity/internal/hierarchical.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

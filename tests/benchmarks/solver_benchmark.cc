@@ -12,11 +12,12 @@
 #include <functional>
 #include <map>
 
-#include "forward/factors/dense_product.h"
+#include "forward/factors/form_factors.h"
 #include "forward/light/room.h"
+#include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/radiosity/solvers.h"
-#include "forward/radiosity/sparse_transport.h"
 #include "forward/room/mesh_file.h"
+#include "tests/paths.h"
 
 namespace luxfit {
 namespace {

@@ -15,7 +15,7 @@
 #include <string>
 
 #include "calib/lens/camera_file.h"
-#include "calib/register/colmap_model.h"
+#include "calib/register/colmap_files.h"
 
 namespace {
 

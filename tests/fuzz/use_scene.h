@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 #include "forward/room/mesh_check.h"
-#include "forward/room/overlaps.h"
 #include "forward/room/patches.h"
 #include "forward/room/scene.h"
 #include "forward/room/visibility.h"

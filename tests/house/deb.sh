@@ -14,11 +14,12 @@ dpkg-deb -c "$program" | awk '{print $6}' >"$work/files"
 dpkg-deb -c "$dev" | awk '{print $6}' >"$work/dev_files"
 for file in usr/bin/luxfit usr/share/doc/luxfit/copyright usr/share/doc/luxfit/changelog.gz usr/share/doc/luxfit/CHANGELOG.md.gz \
   usr/share/doc/luxfit/docs/session-format.md usr/share/doc/luxfit/docs/tutorial.md usr/share/doc/luxfit/examples/example.py \
-  usr/share/luxfit/office/session.toml; do
+  usr/share/luxfit/office/session.toml usr/share/luxfit/schema/result.schema.json; do
   grep -qx "./$file" "$work/files" || fail "luxfit: no $file"
 done
 if grep -q '^LUXFIT_PYTHON:BOOL=ON' "$2/CMakeCache.txt" && [ -e "$2/apps/python" ]; then
   grep -q '^./usr/lib/python3/dist-packages/luxfit\.' "$work/files" || fail "luxfit: no Python module"
+  grep -qx './usr/lib/python3/dist-packages/luxfit-stubs/__init__.pyi' "$work/files" || fail "luxfit: no types of the Python module"
 fi
 grep -qE '\.(h|a|cmake)$' "$work/files" && fail "luxfit: holds what belongs to libluxfit-dev"
 for name in calib forward inverse; do

@@ -13,7 +13,7 @@
 
 #include "calib/lens/camera.h"
 #include "calib/luminance/image.h"
-#include "calib/targets/board_drawing.h"
+#include "calib/targets/board.h"
 #include "tests/support/blur.h"
 
 namespace luxfit::support {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
-#include "calib/lens/colmap_cameras.h"
-#include "calib/register/colmap_model.h"
+#include "calib/lens/camera_file.h"
+#include "calib/register/colmap_files.h"
 #include "calib/register/feature_model.h"
 
 namespace luxfit::support {

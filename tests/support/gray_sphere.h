@@ -13,7 +13,6 @@
 
 #include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
-#include "inverse/albedo/mirror_sphere.h"
 #include "inverse/albedo/photometric_stereo.h"
 
 namespace luxfit::support {

@@ -12,6 +12,7 @@
 
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire.h"
+#include "tests/paths.h"
 
 namespace luxfit::support {
 

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-#include "inverse/model/light_model.h"
+#include "inverse/model/light_state.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 

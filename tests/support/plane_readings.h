@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "inverse/model/light_model.h"
+#include "inverse/model/light_state.h"
 
 namespace luxfit::support {
 

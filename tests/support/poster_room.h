@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "forward/light/light_tracer.h"
-#include "inverse/model/light_model.h"
+#include "inverse/model/light_state.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit::support {

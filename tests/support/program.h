@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/paths.h"
+
 namespace luxfit::support {
 
 struct ProgramRun {

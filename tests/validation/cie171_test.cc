@@ -20,6 +20,7 @@
 #include "forward/factors/internal/polygon_factor.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "tests/paths.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 

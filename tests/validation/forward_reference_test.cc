@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "calib/luminance/bracket.h"
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 
 namespace {
 

@@ -19,6 +19,7 @@
 #include "calib/luminance/luminance.h"
 #include "forward/room/mesh_file.h"
 #include "forward/views/surface_view.h"
+#include "tests/paths.h"
 
 namespace luxfit {
 namespace {

@@ -131,7 +131,8 @@ int main(int argc, char** argv) {
   const Study study;
   luxfit::LineChart chart;
   chart.title = "95 % intervals that hold the truth";
-  chart.subtitle = "6 facets, 3 lamps and states; noise 0.5 %, two readings of 1 %; asked for: 90 to 98 %";
+  chart.subtitle =
+      "6 facets, 3 luminaires and states; noise 0.5 %, two readings of 1 %; asked for: 90 to 98 %";
   chart.x = {"model error common to a facet and state, %", false, {}, {}};
   chart.y = {"of the intervals, %", false, 60, 100};
   for (const char* name : kNames) chart.series.push_back({name, {}, {}, true});

@@ -23,8 +23,9 @@
 #include "apps/stages/session_light.h"
 #include "apps/text/artifact.h"
 #include "inverse/fit/internal/room_light.h"
-#include "inverse/model/first_guess.h"
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/measured_indirect.h"
+#include "tests/paths.h"
 #include "tests/support/study_options.h"
 
 namespace luxfit {

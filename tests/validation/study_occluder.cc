@@ -20,8 +20,8 @@
 
 #include "apps/text/artifact.h"
 #include "forward/direct/direct_light.h"
-#include "inverse/model/first_guess.h"
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/model/internal/first_guess.h"
 #include "tests/support/partition_readings.h"
 #include "tests/support/plane_readings.h"
 #include "tests/support/study_options.h"

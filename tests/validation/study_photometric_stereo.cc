@@ -92,7 +92,8 @@ class Study {
     luxfit::LineChart chart;
     chart.title = "Albedo of a room: with and without interreflection";
     chart.subtitle =
-        "lamps known, a poster that is not in the model; no direct light on the ceiling; labels: element "
+        "luminaires known, a poster that is not in the model; no direct light on the ceiling; labels: "
+        "element "
         "size, m";
     chart.x = {"processor time, ms", true, {}, {}};
     chart.y = {"mean error of the materials' albedo, %", true, {}, {}};

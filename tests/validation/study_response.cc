@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "apps/charts/line_chart_svg.h"
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 #include "tests/support/camera_model.h"
 #include "tests/support/study_options.h"
 

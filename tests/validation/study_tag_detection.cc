@@ -20,8 +20,6 @@
 #include "apps/charts/line_chart_svg.h"
 #include "apps/text/artifact.h"
 #include "calib/targets/board.h"
-#include "calib/targets/board_drawing.h"
-#include "calib/targets/tag_refine.h"
 #include "calib/targets/tags.h"
 #include "tests/support/board_render.h"
 #include "tests/support/study_options.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "apps/session/session_luminaires.h"
-#include "apps/stages/given_session.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/text/suggest.h"
 #include "apps/text/toml_reader.h"
 

@@ -1,10 +1,10 @@
-// A lighting design: luminaires as a session has them, their power, and points with the light they need.
+// Reads a lighting design: luminaires as in a session, their power, and points with the light they need.
 //
 //   [[luminaire]]   as in a session; position_m, photometry and a flux must be given
 //   [power_w]       W by luminaire, fully on; without it power goes with the flux, at 100 lm/W
 //   [[point]]       id, illuminance_lx; position_m and normal, or the id of a place of the luxmeter
 //
-// Throws std::runtime_error("FILE:LINE: key: expected X, got Y; mend").
+// Throws std::runtime_error("FILE:LINE: key: expected X, got Y; remedy").
 // Source: docs/commands.md.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_DESIGN_FILE_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_DESIGN_FILE_H_
@@ -31,7 +31,7 @@ struct LightingDesign {
   std::vector<DesignPoint> points;
 };
 
-// `session` for the luxmeter's places.
+// `session` gives the luxmeter's places.
 LightingDesign ReadDesign(const std::string& path, const Session& session);
 
 }  // namespace luxfit

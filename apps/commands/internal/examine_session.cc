@@ -14,7 +14,7 @@
 #include "apps/text/file_stem.h"
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/exposure.h"
 #include "calib/luminance/image.h"
 #include "calib/targets/tags.h"
 
@@ -49,7 +49,7 @@ void ExamineMesh(const Session& session, DoctorFindings& findings) {
 }
 
 struct LookedAt {
-  std::string problem, mend;
+  std::string problem, remedy;
   std::vector<int> tags;
 };
 
@@ -61,14 +61,14 @@ LookedAt LookAt(const Session& session, const SessionPhoto& photo, const std::op
     const SessionCamera& settings = session.cameras[static_cast<size_t>(photo.camera)];
     if (counts.bits_per_channel == 8 && settings.response == "linear") {
       look.problem = "has 8 bits, camera " + Quoted(settings.id) + " is declared linear";
-      look.mend = "give 16-bit or RAW photos, or response = \"estimate\" with brackets of three exposures";
+      look.remedy = "give 16-bit or RAW photos, or response = \"estimate\" with brackets of three exposures";
     } else if (camera && (counts.width_px() != camera->width_px || counts.height_px() != camera->height_px)) {
       look.problem = fmt::format("is {} x {}, the intrinsics are of {} x {}", counts.width_px(),
                                  counts.height_px(), camera->width_px, camera->height_px);
-      look.mend = "give the intrinsics of this resolution";
+      look.remedy = "give the intrinsics of this resolution";
     } else if (!(photo.exposure_s > 0) && !ReadExposureMetadata(photo.file).exposure_s) {
       look.problem = "has no exposure, in the table or of its own";
-      look.mend = "fill in exposure_s";
+      look.remedy = "fill in exposure_s";
     }
     if (!for_tags) return look;
     DetectTagsOptions options;
@@ -134,7 +134,7 @@ void ExaminePhotos(const Session& session, DoctorFindings& findings) {
     if (for_tags[i]) tags_of_view[session.photos[i].view] = looks[i].tags;
     if (looks[i].problem.empty()) continue;
     ++problems;
-    files_of_problem[{looks[i].problem, looks[i].mend}].push_back(FileName(session.photos[i].file));
+    files_of_problem[{looks[i].problem, looks[i].remedy}].push_back(FileName(session.photos[i].file));
   }
   for (const auto& [problem, files] : files_of_problem)
     findings.push_back({Health::kBad, ListNames(files, kNamedFiles) + ": " + problem.first, problem.second});
@@ -145,7 +145,8 @@ void ExaminePhotos(const Session& session, DoctorFindings& findings) {
   ExamineTags(session, tags_of_view, findings);
 }
 
-// States that tell luminaires apart: as many independent ones as there are luminaires.
+// Checks that the states tell luminaires apart, which takes as many independent states as there are
+// luminaires.
 void ExamineStates(const Session& session, DoctorFindings& findings) {
   if (session.luminaires.empty()) return;
   Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(session.states.size()),

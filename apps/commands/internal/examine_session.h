@@ -1,6 +1,6 @@
-// What a session lacks, told without running it: mesh, photos, tags, states, readings.
+// Finds what a session lacks without running it: mesh, photos, tags, states, readings.
 //
-// Looks at every photo once, for its size, depth and exposure, and at one of each view for tags.
+// Looks at every photo once, for its size, depth and exposure, and at one photo of each view for tags.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
 

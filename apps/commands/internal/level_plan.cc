@@ -15,16 +15,17 @@ using nlohmann::json;
 
 constexpr double kAssumedLmPerW = 100;
 
-// Relative sigma of the light of each luminaire.
+// Returns the relative sigma of the light of each luminaire.
 Eigen::VectorXd LightSigma(const FittedRoom& fitted) {
   const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
   const Eigen::VectorXd variance = FluxCovariance(fitted, uncertainty).diagonal();
   const double model = uncertainty.relative_model_sigma;
-  // What the data did not determine could be nothing: it is not counted on.
+  // Light that the data did not determine could be zero, so the plan does not count on it.
   return variance.unaryExpr([&](double v) { return std::isfinite(v) ? std::sqrt(v + model * model) : 1.0; });
 }
 
-// Uniformity is a ratio, from which the scale that all luminaires share cancels.
+// Lowers the light by its uncertainty. The scale that all luminaires share cancels from uniformity, which is
+// a ratio.
 std::vector<LightRequirement> Assured(const RoomTargets& targets, const Eigen::VectorXd& sigma) {
   std::vector<LightRequirement> requirements;
   requirements.reserve(targets.requirements.size());
@@ -107,7 +108,7 @@ json LevelPlanJson(const FittedRoom& fitted, const RoomTargets& targets,
                                     {"power_full_w", power_w[i]}});
   }
   for (size_t i = 0; i < assured.size(); ++i) {
-    // A row for each point of a uniformity would bury the rest: its area says it.
+    // A row for each point of a uniformity would hide the rest; its area shows it.
     const RoomRequirement& target = targets.requirements[i];
     if (target.kind != "uniformity" || plan.shortage[i] > 0)
       result["targets"].push_back(TargetJson(target, assured[i], plan, plan.shortage[i]));

@@ -1,6 +1,7 @@
-// The dimming levels that reach a room's targets at the least power, and what is missing where none do.
+// Finds the dimming levels that reach a room's targets at the least power, and what is missing where none do.
 //
-// Levels are sure to 95 %: every coefficient of light is lowered by its uncertainty (inverse/control/dimming_plan.h).
+// Targets are reached with 95 % certainty: every coefficient of light is lowered by its uncertainty
+// (inverse/control/dimming.h).
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_LEVEL_PLAN_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_LEVEL_PLAN_H_
 
@@ -12,10 +13,12 @@
 
 namespace luxfit {
 
-// W of each luminaire of the room, fully on; those not given take their flux at 100 lm/W.
+// Returns the power of each luminaire of the room fully on, W. Powers that are not given follow from the flux
+// at 100 lm/W.
 Eigen::VectorXd PowerOf(const FittedRoom& fitted, const std::map<std::string, double>& given_w);
 
-// {"reached", "power_w", "power_full_w", "luminaires": [...], "targets": [...], "areas": [...], "remedies"}
+// Returns {"reached", "power_w", "power_full_w", "luminaires": [...], "targets": [...], "areas": [...],
+// "remedies"}.
 nlohmann::json LevelPlanJson(const FittedRoom& fitted, const RoomTargets& targets,
                              const std::map<std::string, double>& power_w);
 std::string LevelPlanText(const nlohmann::json& plan);

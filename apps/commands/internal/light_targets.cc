@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "apps/text/suggest.h"
-#include "forward/views/work_plane.h"
+#include "forward/views/illuminance_plane.h"
 
 namespace luxfit {
 namespace {
@@ -21,7 +21,7 @@ IlluminancePlane PlaneOf(const FittedRoom& fitted, const TargetArea& area) {
   return *plane;
 }
 
-// Light at the points of an area that count, points x luminaires.
+// Returns the light at the points of an area that count, points x luminaires.
 Eigen::MatrixXd LightOver(const FittedRoom& fitted, const TargetArea& area) {
   const PlaneGrid grid = GridOf(PlaneOf(fitted, area));
   const std::vector<GridPointKind> kinds =

@@ -1,4 +1,4 @@
-// Targets of a room as requirements of a dimming plan: points, means over areas, uniformity.
+// Turns the targets of a room into requirements of a dimming plan: points, means over areas, uniformity.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_LIGHT_TARGETS_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_LIGHT_TARGETS_H_
 
@@ -9,16 +9,16 @@
 #include "apps/commands/internal/design_file.h"
 #include "apps/export/fitted_room.h"
 #include "apps/session/report_targets.h"
-#include "inverse/control/dimming_plan.h"
+#include "inverse/control/dimming.h"
 
 namespace luxfit {
 
-// Requirements in lx. `needed_lx` is what the requirement says to a person: 0 of uniformity, whose
+// Holds one requirement in lx. `needed_lx` is the value shown to a person: 0 for uniformity, whose
 // requirement is E_j - U0 mean(E) >= 0.
 struct RoomRequirement {
   LightRequirement requirement;
   std::string kind;  // point | average | uniformity
-  std::string of;    // id of the point or area
+  std::string of;    // id of its point or area
 };
 struct RoomTargets {
   std::vector<RoomRequirement> requirements;

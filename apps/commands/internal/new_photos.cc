@@ -7,7 +7,7 @@
 #include <map>
 
 #include "apps/session/session_files.h"
-#include "apps/stages/view_tags.h"
+#include "apps/stages/register/view_tags.h"
 #include "apps/text/csv_table.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
@@ -15,7 +15,7 @@
 namespace luxfit {
 namespace {
 
-// The states of the new photos: one a photo or bracket, so that no two are taken for exposures of one.
+// Gives each new photo or bracket a state of its own, so that no two are taken for exposures of one.
 constexpr char kNewState[] = "(new) ";
 
 struct Row {
@@ -93,7 +93,7 @@ const RegisteredView& ViewOf(const FittedRoom& fitted, const Row& row) {
   throw InputError(row.place, "view", ExpectedOneOf(names, row.view));
 }
 
-// The response that the run estimated, which new photos need not determine again.
+// Reads the response that the run estimated; new photos need not determine it again.
 void KeepResponses(const FittedRoom& fitted, Session& session) {
   for (SessionCamera& camera : session.cameras) {
     if (camera.response != "estimate") continue;
@@ -102,7 +102,8 @@ void KeepResponses(const FittedRoom& fitted, Session& session) {
   }
 }
 
-// The session with its first photo of each camera, to which exposures are relative, and the new ones.
+// Returns the session with its first photo of each camera, to which exposures are relative, and with the new
+// photos.
 Session WithRows(const FittedRoom& fitted, const std::vector<Row>& rows, bool pose_from_tags) {
   Session session = fitted.session;
   session.photos.clear();
@@ -137,7 +138,7 @@ Session WithRows(const FittedRoom& fitted, const std::vector<Row>& rows, bool po
 
 bool IsNew(const SessionPhoto& photo) { return photo.state.rfind(kNewState, 0) == 0; }
 
-// Poses by the room's tags, which hang where the run had them.
+// Finds poses by the room's tags, which must hang where the run had them.
 std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, Session session,
                                                      RunContext& context) {
   session.photos.erase(std::remove_if(session.photos.begin(), session.photos.end(),

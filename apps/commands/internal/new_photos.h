@@ -1,10 +1,10 @@
-// Photos taken after a run, as photos of its session: camera, pose, exposure.
+// Reads photos taken after a run as photos of its session: camera, pose, exposure.
 //
-// Rows of a table that share view and time are an exposure bracket. ISO and aperture count against those of
-// the session's first photo of the camera, as in the run. A response that the run estimated is that of its
+// Rows of a table that share view and time are an exposure bracket. ISO and aperture are relative to those of
+// the session's first photo of the camera, as in the run. A response that the run estimated is read from
 // OUT/response_CAMERA.csv.
 //
-// Throws std::runtime_error("FILE:LINE: column: ...") or naming the flag.
+// Throws std::runtime_error("FILE:LINE: column: ..."), or with the name of the flag.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_NEW_PHOTOS_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_NEW_PHOTOS_H_
 
@@ -25,7 +25,7 @@ struct NewPhotos {
   Session session;  // linearized, with the new photos
   std::vector<NewPhoto> photos;
 };
-// `context` takes warnings; photos whose pose the tags do not determine are left out with one.
+// `context` receives warnings. Photos whose pose the tags do not determine are left out with a warning.
 NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& options, RunContext& context);
 
 }  // namespace luxfit

@@ -12,9 +12,9 @@
 #include "apps/export/luminaire_files.h"
 #include "apps/report/report.h"
 #include "apps/session/earlier_result.h"
+#include "apps/stages/albedo/stage_albedo.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
-#include "apps/stages/stage_albedo.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/artifact.h"
 #include "apps/text/terminal.h"
@@ -24,7 +24,8 @@ namespace {
 
 using nlohmann::json;
 
-// The run's own files count as inputs of what it left: one that was changed or removed is made again.
+// Adds the run's own files to the inputs of its result, so that a file that was changed or removed is made
+// again.
 StageInputs WithOutputs(StageInputs inputs, const std::string& out) {
   for (const char* name : {"result.json", "plan.svg"}) {
     const std::string path = out + "/" + name;
@@ -64,19 +65,19 @@ RoomResult FitAndDescribe(Session session, const SessionInputs& inputs, RoomRun 
   return {std::move(result), std::move(plan_svg), std::move(prepared.registered), std::move(prepared.room)};
 }
 
-// What the stages of the last run into a folder took; nothing where there was none.
+// Returns the times of the stages of the last run into a folder; nothing where there was none.
 std::map<std::string, double> LastTimes(const std::string& out) {
   std::map<std::string, double> times_s;
   try {
     const json result = ReadResult(out + "/result.json");
     for (const auto& [stage, time_s] : result.at("timing_s").items()) times_s[stage] = time_s.get<double>();
   } catch (const std::exception&) {
-    times_s.clear();  // a first run, or a folder of something else
+    times_s.clear();  // a first run, or a folder with other contents
   }
   return times_s;
 }
 
-// The page on what was found. Seconds that it took.
+// Writes the report page. Returns the seconds that it took.
 double MakeReport(const RunContext& context, const std::function<FittedRoom()>& fitted_room) {
   RunContext own;
   own.expected_s = context.expected_s;

@@ -1,6 +1,6 @@
-// `luxfit run`, `fit` and `albedo` on a room: all stages in order, each kept, and nothing done twice.
+// Runs `luxfit run`, `fit` and `albedo` on a room: all stages in order, each kept, and none repeated.
 //
-// Where nothing has changed since the last run into the folder, that run's result stands and is shown again.
+// Where nothing has changed since the last run into the folder, that run's result remains and is shown again.
 // Returns the exit status: 0 done, 1 the data do not determine what was asked. Throws as the stages do.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_ROOM_RUN_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_ROOM_RUN_H_
@@ -11,11 +11,11 @@
 
 namespace luxfit {
 
-// kAll is kFit with the report.
+// kAll is kFit and the report.
 enum class RoomRun { kAll, kFit, kFitAndAlbedo };
 int RunRoom(Session session, const CommandOptions& options, RoomRun what);
 
-// Where to write, and what the artifacts say of their making.
+// Returns the context of a run: where to write, and the provenance of its artifacts.
 RunContext MakeContext(const CommandOptions& options, const Session& session);
 
 }  // namespace luxfit

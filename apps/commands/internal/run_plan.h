@@ -1,4 +1,5 @@
-// What a run would do, and why: stage by stage, from what has changed since the last one into its folder.
+// Plans what a run would do and why, stage by stage, from what has changed since the last one into its
+// folder.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_RUN_PLAN_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_RUN_PLAN_H_
 

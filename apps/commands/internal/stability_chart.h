@@ -1,11 +1,11 @@
-// Success rate and error of a fit against one degradation, as SVG and as rows of a table.
+// Charts success rate and error of a fit against one degradation, as SVG and as rows of a table.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_STABILITY_CHART_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_STABILITY_CHART_H_
 
 #include <string>
 #include <vector>
 
-#include "apps/stages/degradations.h"
+#include "apps/stages/degrade/degradations.h"
 #include "inverse/study/stability_score.h"
 
 namespace luxfit {
@@ -13,8 +13,8 @@ namespace luxfit {
 struct LevelResult {
   double level = 0;
   LevelSummary summary;
-  int undetermined = 0;                 // trials that said so, or could not be fitted
-  int warned = 0;                       // with a warning that the undegraded session has not
+  int undetermined = 0;                 // trials that reported so, or could not be fitted
+  int warned = 0;                       // trials with a warning that the undegraded session does not have
   double median_lux_error_percent = 0;  // NaN: no readings that only check
 };
 
@@ -23,7 +23,7 @@ struct DegradationResult {
   std::vector<LevelResult> levels;
 };
 
-// Two charts above one another: rates in percent, and median errors of position (mm) and flux (%).
+// Draws two charts, one above the other: rates in percent, and median errors of position (mm) and flux (%).
 std::string StabilitySvg(const DegradationResult& result, const std::string& session, int trials);
 
 std::string StabilityCsv(const std::vector<DegradationResult>& results);

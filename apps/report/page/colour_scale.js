@@ -1,10 +1,11 @@
-// Values as colours, and back again for the reader: one table, used by every picture of the page.
+// Maps values to colours, with a legend to read them back: one table serves every picture of the page.
 //
-// The table runs through OKLab at equal steps of colour difference from near black over violet, red and orange to pale
-// yellow, its lightness rising all the way: it reads in grey and with colour-deficient sight (OKLab: Ottosson 2020).
+// The table runs through OKLab in equal steps of colour difference, from near black over violet, red and
+// orange to pale yellow. Its lightness rises throughout, so that it works in grey and with colour-deficient
+// sight (OKLab: Ottosson 2020).
 
 const kLevels = 256;
-// L, C, hue (degrees) of the way's posts.
+// L, C and hue (degrees) of the posts of the path.
 const kPosts = [[0.13, 0.02, 285], [0.28, 0.13, 287], [0.40, 0.165, 320], [0.53, 0.185, 5], [0.66, 0.175, 38],
   [0.78, 0.155, 68], [0.89, 0.135, 93], [0.97, 0.06, 105]];
 
@@ -24,7 +25,7 @@ function levelsOf([L, a, b]) {
   });
 }
 
-// A smooth curve through the posts (Catmull-Rom), sampled finely.
+// Returns a smooth curve through the posts (Catmull-Rom), finely sampled.
 function pathOf(posts) {
   const path = [], last = posts.length - 1, steps = 400;
   for (let i = 0; i < last; ++i) {
@@ -54,7 +55,7 @@ function makeTable() {
 
 export const kTable = makeTable();
 
-// Range and spacing of the colours.
+// Holds the range and spacing of the colours.
 export class ColourScale {
   constructor(min, max, isLog) {
     this.min = min;
@@ -62,7 +63,7 @@ export class ColourScale {
     this.isLog = isLog;
   }
 
-  // 0..1; what is outside the range takes its end.
+  // Returns 0..1; a value outside the range takes that of its end.
   share(value) {
     if (!(this.max > this.min)) return 0;
     const at = this.isLog
@@ -75,7 +76,7 @@ export class ColourScale {
     return Math.round((kLevels - 1) * this.share(value));
   }
 
-  // Red, green, blue, 0..255.
+  // Returns red, green and blue, 0..255.
   colour(value) {
     const at = 3 * this.level(value);
     return [kTable[at], kTable[at + 1], kTable[at + 2]];
@@ -89,7 +90,7 @@ export class ColourScale {
     return this.isLog ? this.min * (this.max / this.min) ** share : this.min + share * (this.max - this.min);
   }
 
-  // Round values to write beside the scale.
+  // Returns round values to write beside the scale.
   ticks() {
     if (!(this.max > this.min)) return [this.min];
     if (!this.isLog) {
@@ -116,7 +117,7 @@ export function niceStep(rough) {
   return power * [1, 2, 2.5, 5, 10].find((m) => m * power >= rough * (1 - 1e-9));
 }
 
-// A range that holds nearly all values: `max` a round number above their 99.5th percentile.
+// Returns a range that holds nearly all values: `max` is a round number above their 99.5th percentile.
 export function rangeOf(values, isLog) {
   const sorted = Float64Array.from(values).filter((v) => v > 0).sort();
   if (sorted.length === 0) return [isLog ? 0.1 : 0, 1];

@@ -1,4 +1,5 @@
-// What the program wrote into the page, its columns of numbers decoded (apps/report/report_room.h, report_places.h).
+// Reads the data that the program wrote into the page, and decodes its columns of numbers
+// (apps/report/report_room.h, report_places.h).
 
 function bytesOf(text) {
   const binary = atob(text);
@@ -10,7 +11,8 @@ function bytesOf(text) {
 export const floats = (text) => new Float32Array(bytesOf(text));
 export const shorts = (text) => new Uint16Array(bytesOf(text));
 
-// Light at places: rows (place, luminaire), and the factor of their covariance, one row each of `modes`.
+// Decodes light at places: rows (place, luminaire), and the factor of their covariance with one row for each of
+// `modes`.
 function decodeLight(light) {
   return { total: floats(light.total), modes: light.factor ? light.modes : 0,
     factor: light.factor ? floats(light.factor) : null };
@@ -37,7 +39,7 @@ export function readData() {
   return data;
 }
 
-// The corners of a cell in world: four of a parallelogram, three of a triangle.
+// Returns the corners of a cell in world: four of a parallelogram, three of a triangle.
 export function cellCorners(room, cell) {
   const f = room.facetOf[cell], at = 9 * f, c = room.corners;
   const triangle = room.kinds[4 * f] === 1, nu = room.kinds[4 * f + 2], nv = room.kinds[4 * f + 3];

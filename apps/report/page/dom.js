@@ -1,4 +1,4 @@
-// Elements made from data. Text is always a text node: nothing that a user wrote is read as HTML.
+// Makes elements from data. Text is always a text node: nothing that a user wrote is read as HTML.
 
 const kSvg = 'http://www.w3.org/2000/svg';
 
@@ -29,7 +29,7 @@ export function replace(element, ...children) {
   return element;
 }
 
-// A table of columns [{title, unit, align, of: row => cell}]; wide ones scroll by themselves.
+// Makes a table of columns [{title, unit, align, of: row => cell}]. Wide tables scroll by themselves.
 export function table(columns, rows, attributes) {
   const kind = (column) => (column.text ? 'text' : 'number');
   return h('div', { class: 'scroll' },

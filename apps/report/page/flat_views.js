@@ -1,10 +1,11 @@
-// The room without WebGL, and on paper: floor plan, ceiling and walls, each looked at squarely, in the same colours.
+// Draws the room without WebGL, and on paper: floor plan, ceiling and walls, each seen frontally, in the same
+// colours.
 
 import { cellCorners, facetNormal } from './data.js';
 import { h } from './dom.js';
 import { fixed } from './format.js';
 
-// right and up of the picture, towards: what one looks along.
+// `right` and `up` are axes of the picture; `towards` is the direction of view.
 const kViews = [
   { name: 'Floor and furniture, from above', right: [1, 0, 0], up: [0, 1, 0], towards: [0, 0, -1], isPlan: true },
   { name: 'Ceiling, from below', right: [1, 0, 0], up: [0, -1, 0], towards: [0, 0, 1] },
@@ -16,7 +17,7 @@ const kViews = [
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-// Cells that face the eye, the farthest first.
+// Returns the cells that face the eye, the farthest first.
 function cellsOf(room, view) {
   const facing = Array.from({ length: room.facets.count }, (_, f) => dot(facetNormal(room, f), view.towards) < -0.3);
   const cells = [];
@@ -115,7 +116,7 @@ class FlatView {
 export class FlatViews {
   constructor(data) {
     this.views = kViews.map((view) => new FlatView(data, view));
-    // All to one scale; a page is about 1100 pixels wide.
+    // All views have one scale; a page is about 1100 pixels wide.
     this.pixelsPerMetre = Math.min(160, 1000 / Math.max(...this.views.map((v) => v.size[0])));
     const longest = Math.max(...this.views.map((v) => v.size[0]));
     this.element = h('div', { class: 'flats' }, this.views.map((v) => {

@@ -1,4 +1,4 @@
-// Numbers as people read them: as many digits as the uncertainty leaves meaning to.
+// Formats numbers with as many digits as their uncertainty justifies.
 
 export const kTwoSided95 = 1.96;
 export const kNone = 'not determined';
@@ -12,7 +12,7 @@ export function digits(value, significant = 4) {
   return fixed(value, decimals);
 }
 
-// With a true minus sign, and none before zeros.
+// Writes a true minus sign, and none before zeros.
 export function fixed(value, decimals) {
   if (!isNumber(value)) return kNone;
   let text = value.toFixed(decimals);
@@ -26,13 +26,13 @@ export function signed(value, decimals) {
   return value > 0 && Number(text) !== 0 ? '+' + text : text;
 }
 
-// Decimals that show two digits of an interval.
+// Returns the decimals that show two digits of an interval.
 export function decimalsOf(half) {
   if (!isNumber(half) || half <= 0) return null;
   return Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(half))));
 }
 
-// "3592 ± 141": the half width is that of 95 %.
+// Writes "3592 ± 141", where the half width is that of 95 %.
 export function plusMinus(value, sigma, significant = 4) {
   if (!isNumber(value)) return kNone;
   const half = kTwoSided95 * sigma;
@@ -41,7 +41,7 @@ export function plusMinus(value, sigma, significant = 4) {
   return fixed(value, decimals) + ' \u00b1 ' + fixed(half, decimals);
 }
 
-// The half width alone, or how it is that there is none.
+// Writes the half width alone, or why there is none.
 export function halfWidth(sigma, scale = 1) {
   if (sigma === null || sigma === undefined) return kNone;
   if (sigma === 0) return 'held';

@@ -1,14 +1,14 @@
-// Unified glare ratings of the observers under the present dimming.
+// Lists the unified glare ratings of the observers under the present dimming.
 
 import { h, replace, table } from './dom.js';
 import { digits, fixed, isNumber, kNone, vector } from './format.js';
 import { glare, verdict } from './light.js';
 import { badge } from './work_plane.js';
 
-// CIE 117 is meant for sources between these solid angles, sr.
+// CIE 117 applies to sources between these solid angles, sr.
 const kSmallest = 0.0003, kLargest = 0.1;
 
-// Of the flux's scale, common to sources and background: 8/ln 10 times its relative sigma.
+// Returns the rating's sigma from the flux's scale, common to sources and background: 8/ln 10 times its relative sigma.
 function ratingSigma(data, dimming) {
   const shares = data.result.luminaires.filter((l, k) => dimming[k] > 0).map((l) => (isNumber(l.flux_sigma_lm) && l.flux_lm > 0 ? l.flux_sigma_lm / l.flux_lm : null));
   if (shares.length === 0 || shares.some((s) => s === null)) return null;
@@ -23,7 +23,7 @@ function notes(data, light, rated) {
     seen.some((w) => w < kSmallest) ? 'A source is seen smaller than 0.0003 sr, beyond what UGR is meant for: it is rated too harshly.' : null].filter(Boolean);
 }
 
-// A lower bound can miss a limit, never meet it.
+// Compares a rating with its limit. A lower bound can show that a limit is missed, but not that it is met.
 function judge({ observer, rating, points, reason }, sigma) {
   if (!isNumber(observer.ugr)) return null;
   if (reason === 'nothing glares') return badge('met');

@@ -1,12 +1,12 @@
-// Lines of equal value over a grid: marching squares, linear along the edges of cells.
+// Draws lines of equal value over a grid: marching squares, linear along the edges of cells.
 //
 // Saddles are split by the mean of their four corners. Cells that touch a point without a value draw nothing.
 // Source: Lorensen and Cline (1987), "Marching cubes", in two dimensions.
 
-// Segments of one cell as pairs of edges (0 lower, 1 right, 2 upper, 3 left), by which corners are above.
+// Segments of one cell as pairs of edges (0 lower, 1 right, 2 upper, 3 left), by the corners that are above the level.
 const kSegments = { 1: [[3, 0]], 2: [[0, 1]], 3: [[3, 1]], 4: [[1, 2]], 6: [[0, 2]], 7: [[3, 2]], 8: [[2, 3]], 9: [[0, 2]], 11: [[1, 2]], 12: [[1, 3]], 13: [[0, 1]], 14: [[3, 0]] };
 
-// values[j * nu + i]; NaN: none. Polylines of [i, j] in units of the grid.
+// Returns polylines of [i, j] in units of the grid. Values are values[j * nu + i]; NaN means none.
 export function isolines(values, nu, nv, level) {
   const segments = [];
   for (let j = 0; j + 1 < nv; ++j) {
@@ -27,7 +27,7 @@ export function isolines(values, nu, nv, level) {
   return joined(segments);
 }
 
-// Segments that share an end become one line.
+// Joins segments that share an end into one line.
 function joined(segments) {
   const key = (p) => p.map((x) => x.toFixed(6)).join(','), ends = new Map();
   const add = (p, s) => ends.set(key(p), [...(ends.get(key(p)) || []), s]);

@@ -1,4 +1,4 @@
-// The light of any dimming: sums of the columns of single luminaires (light adds).
+// Computes the light of any dimming: sums of the columns of single luminaires (light adds).
 
 export class Light {
   constructor(data) {
@@ -23,13 +23,13 @@ export class Light {
     this.set(dimming);
   }
 
-  // The state of the session that the sliders stand at; null: none.
+  // Returns the state of the session that the sliders match; null where they match none.
   get state() {
     const same = (s) => s.dimming.every((d, k) => Math.abs(d - this.dimming[k]) < 1e-9);
     return this.data.states.find(same) || null;
   }
 
-  // Of all cells of the room: illuminance, and its direct part.
+  // Returns the illuminance of all cells of the room, and its direct part.
   cells() {
     const room = this.data.room, n = room.count;
     const total = new Float64Array(n), direct = new Float64Array(n);
@@ -44,7 +44,7 @@ export class Light {
     return { total, direct };
   }
 
-  // At places: illuminance and, where it is known, the factor of its covariance (rows of `modes`).
+  // Returns illuminance at places and, where it is known, the factor of its covariance (rows of `modes`).
   places(light) {
     const lamps = this.dimming.length, count = light.total.length / lamps;
     const value = new Float64Array(count), factor = light.factor ? new Float64Array(count * light.modes) : null;
@@ -59,7 +59,7 @@ export class Light {
   }
 }
 
-// Mean, least, uniformity and their sigmas: forward/views/plane_statistics.h in words of the page.
+// Returns mean, least value, uniformity and their sigmas, as forward/views/illuminance_plane.h does.
 export function statistics(places, counts, model) {
   const { value, factor, modes } = places;
   const members = [...value.keys()].filter((i) => counts[i]);
@@ -86,15 +86,16 @@ export function statistics(places, counts, model) {
   return result;
 }
 
-// met | missed | open: at 95 %, two-sided; null where nothing is asked for.
+// Returns met | missed | open, at 95 % two-sided; null where there is no requirement.
 export function verdict(margin, sigma) {
   if (!Number.isFinite(margin) || sigma === null) return 'open';
   if (Math.abs(margin) < 1.96 * sigma) return 'open';
   return margin >= 0 ? 'met' : 'missed';
 }
 
-// Unified glare rating of an observer (forward/views/glare.h); null where it is not defined, with the reason. Luminaires that
-// are points are left out, since their luminous area is not known: the rating is then a lower bound.
+// Returns the unified glare rating of an observer (forward/views/glare.h); null, with the reason, where it is
+// undefined. Luminaires that are points are left out, since their luminous area is not known: the rating is then a
+// lower bound.
 export function glare(observer, dimming) {
   if (observer.is_inside) return { rating: null, reason: 'the eye would be inside a solid' };
   let sum = 0, indirect = 0;

@@ -1,4 +1,5 @@
-// What is on: the state of the session and a slider for each luminaire, beside the page's top while one scrolls.
+// Shows what is on: the state of the session and a slider for each luminaire, at the page's top while one
+// scrolls.
 
 import { h } from './dom.js';
 import { fixed } from './format.js';
@@ -25,7 +26,7 @@ export function lightBar(data, light) {
   return h('div', { class: 'lightbar no-print' }, h('label', null, 'State ', select), all);
 }
 
-// What is on, in words: for paper.
+// Writes in words what is on, for paper.
 export function lightWords(data, light) {
   const words = h('span', { class: 'light-words' });
   light.onChange(() => {

@@ -1,4 +1,4 @@
-// The page: parts in the order in which they are read.
+// Builds the page: its parts in the order in which they are read.
 
 import { readData } from './data.js';
 import { details, h, section } from './dom.js';
@@ -62,7 +62,7 @@ function build(data) {
   return { data, light, room, planes };
 }
 
-// Paper has no folds to open.
+// Opens all folded parts for printing.
 function openForPrint() {
   let opened = [];
   window.addEventListener('beforeprint', () => {
@@ -72,7 +72,7 @@ function openForPrint() {
   window.addEventListener('afterprint', () => { for (const d of opened) d.open = false; });
 }
 
-// Session, date and page number on every sheet. A name is written in CSS as its characters' numbers.
+// Prints session, date and page number on every sheet. A name is written in CSS as the numbers of its characters.
 function headSheets(data) {
   const quoted = (text) => '"' + Array.from(text, (c) => '\\' + c.codePointAt(0).toString(16) + ' ').join('') + '"';
   const font = 'font: 8pt system-ui, sans-serif; color: #667';

@@ -1,4 +1,4 @@
-// Photos beside what the fit predicts of them, and where they differ.
+// Shows photos beside what the fit predicts of them, and where they differ.
 
 import { h } from './dom.js';
 import { digits, fixed, isNumber, signed } from './format.js';
@@ -17,7 +17,7 @@ function compared(view, data) {
     h('div', { class: 'triple' }, picture(view.photo, 'photo'), picture(view.predicted, 'predicted'), picture(view.residual, 'residual')));
 }
 
-// Of one state at a time: the page's, as long as it was photographed, or the one chosen here.
+// Shows one state at a time: that of the page if it was photographed, or the one chosen here.
 export function photoViews(data, light) {
   const { states, limit_percent: limit } = data.views;
   if (states.length === 0) return h('p', null, data.result.views.length > 0 ? 'No registered view was photographed with a luminaire on.' : 'The session has no photos: it was fitted to readings alone.');

@@ -1,4 +1,4 @@
-// Polar light distribution curves: luminous intensity over gamma, in the planes C0-C180 and C90-C270.
+// Draws polar light distribution curves: luminous intensity over gamma, in the planes C0-C180 and C90-C270.
 
 import { niceStep } from './colour_scale.js';
 import { h, svg } from './dom.js';
@@ -34,7 +34,8 @@ function web(top, step, unit) {
   return [rings, spokes];
 }
 
-// The gamma beyond which an intensity stays below a value, linear between samples; degrees, null: none up to 180.
+// Returns the gamma (degrees) beyond which an intensity stays below a value, linear between samples; null: none up to
+// 180.
 function halfAngle(values, value) {
   const last = values.length - 1, nadir = last / 2;
   let i = last;

@@ -1,4 +1,4 @@
-// Measured against predicted readings of the luxmeter.
+// Compares measured with predicted readings of the luxmeter.
 
 import { h, svg, table } from './dom.js';
 import { niceStep } from './colour_scale.js';
@@ -6,9 +6,9 @@ import { digits, fixed, isNumber, kNone, signed } from './format.js';
 
 const kSize = 420, kMargin = 56;
 
-const errorPercent = (r) => (isNumber(r.measured_lux) && isNumber(r.predicted_lux) && r.measured_lux > 0 ? 100 * (r.predicted_lux / r.measured_lux - 1) : null);
+const errorPercent = (r) => (isNumber(r.measured_lx) && isNumber(r.predicted_lx) && r.measured_lx > 0 ? 100 * (r.predicted_lx / r.measured_lx - 1) : null);
 
-// Colour of an error, as in the plan: below 2 %, below 5 %, beyond.
+// Returns the colour of an error, as in the plan: below 2 %, below 5 %, beyond.
 export function errorColour(percent) {
   if (!isNumber(percent)) return '#9aa0a6';
   const error = Math.abs(percent);
@@ -22,11 +22,11 @@ function logTicks(low, high) {
   return ticks;
 }
 
-// Predicted over measured, both logarithmic, with the 95 % intervals of both; the diagonal is agreement.
+// Plots predicted over measured, both logarithmic, with the 95 % intervals of both; the diagonal is agreement.
 function scatter(readings) {
-  const shown = readings.filter((r) => isNumber(r.measured_lux) && isNumber(r.predicted_lux) && r.measured_lux > 0 && r.predicted_lux > 0);
+  const shown = readings.filter((r) => isNumber(r.measured_lx) && isNumber(r.predicted_lx) && r.measured_lx > 0 && r.predicted_lx > 0);
   if (shown.length === 0) return null;
-  const all = shown.flatMap((r) => [r.measured_lux, r.predicted_lux]);
+  const all = shown.flatMap((r) => [r.measured_lx, r.predicted_lx]);
   const low = Math.min(...all) / 1.3, high = Math.max(...all) * 1.3;
   const at = (v) => (Math.log(Math.min(high, Math.max(low, v)) / low) / Math.log(high / low)) * (kSize - kMargin - 14);
   const x = (v) => kMargin + at(v), y = (v) => kSize - kMargin - at(v) + 0;
@@ -35,14 +35,14 @@ function scatter(readings) {
     svg('line', { x1: x(t), x2: x(t), y1: y(low), y2: y(high), class: 'grid' }), svg('line', { x1: x(low), x2: x(high), y1: y(t), y2: y(t), class: 'grid' }),
     svg('text', { x: x(t), y: y(low) + 18, 'text-anchor': 'middle' }, digits(t, 1)), svg('text', { x: x(low) - 8, y: y(t) + 4, 'text-anchor': 'end' }, digits(t, 1))]);
   const dots = shown.map((r) => {
-    const [a, b] = r.interval95_lux || [r.predicted_lux, r.predicted_lux], half = 1.96 * (r.measured_sigma_lux || 0), colour = errorColour(errorPercent(r));
+    const [a, b] = r.interval95_lx || [r.predicted_lx, r.predicted_lx], half = 1.96 * (r.measured_sigma_lx || 0), colour = errorColour(errorPercent(r));
     return svg('g', null,
-      svg('line', { x1: x(r.measured_lux), x2: x(r.measured_lux), y1: y(a), y2: y(b), stroke: colour, 'stroke-width': 1.5 }),
-      svg('line', { x1: x(r.measured_lux - half), x2: x(r.measured_lux + half), y1: y(r.predicted_lux), y2: y(r.predicted_lux), stroke: colour, 'stroke-width': 1.5 }),
+      svg('line', { x1: x(r.measured_lx), x2: x(r.measured_lx), y1: y(a), y2: y(b), stroke: colour, 'stroke-width': 1.5 }),
+      svg('line', { x1: x(r.measured_lx - half), x2: x(r.measured_lx + half), y1: y(r.predicted_lx), y2: y(r.predicted_lx), stroke: colour, 'stroke-width': 1.5 }),
       r.role === 'check'
-        ? svg('circle', { cx: x(r.measured_lux), cy: y(r.predicted_lux), r: 3.6, fill: colour })
-        : svg('rect', { x: x(r.measured_lux) - 4, y: y(r.predicted_lux) - 4, width: 8, height: 8, fill: 'none', stroke: colour, 'stroke-width': 2 }),
-      svg('title', null, `${r.id} in ${r.state}: measured ${fixed(r.measured_lux, 2)} lx, predicted ${fixed(r.predicted_lux, 2)} lx`));
+        ? svg('circle', { cx: x(r.measured_lx), cy: y(r.predicted_lx), r: 3.6, fill: colour })
+        : svg('rect', { x: x(r.measured_lx) - 4, y: y(r.predicted_lx) - 4, width: 8, height: 8, fill: 'none', stroke: colour, 'stroke-width': 2 }),
+      svg('title', null, `${r.id} in ${r.state}: measured ${fixed(r.measured_lx, 2)} lx, predicted ${fixed(r.predicted_lx, 2)} lx`));
   });
   return svg('svg', { viewBox: `0 0 ${kSize} ${kSize}`, class: 'chart', role: 'img', 'aria-label': 'Predicted over measured illuminance' }, grid,
     svg('line', { x1: x(low), y1: y(low), x2: x(high), y2: y(high), class: 'agreement' }), dots,
@@ -50,19 +50,19 @@ function scatter(readings) {
     svg('text', { transform: `translate(14 ${(y(low) + y(high)) / 2}) rotate(-90)`, 'text-anchor': 'middle', class: 'axis' }, 'predicted, lx'));
 }
 
-// Error of each reading with the interval that it should lie in.
+// Plots the error of each reading, with the interval that should contain it.
 function errorStrip(readings) {
   const names = [...new Set(readings.map((r) => r.state))];
   const shown = readings.filter((r) => isNumber(errorPercent(r)) && isNumber(r.z)).sort((a, b) => names.indexOf(a.state) - names.indexOf(b.state));
   if (shown.length === 0) return null;
   const width = 720, height = 220, left = 46, right = 8, top = 12, bottom = 40;
-  const sigma = (r) => 100 * Math.hypot(r.measured_sigma_lux || 0, r.prediction_sigma_lux || 0) / r.measured_lux;
+  const sigma = (r) => 100 * Math.hypot(r.measured_sigma_lx || 0, r.prediction_sigma_lx || 0) / r.measured_lx;
   const limit = Math.max(...shown.map((r) => Math.max(Math.abs(errorPercent(r)), 1.96 * sigma(r)))) * 1.08;
   const step = niceStep(limit / 3), y = (e) => top + ((limit - e) / (2 * limit)) * (height - top - bottom);
   const pitch = (width - left - right) / shown.length, x = (i) => left + (i + 0.5) * pitch;
   const places = [0, 1].find((d) => Number.isInteger(step * 10 ** d)) ?? 2, ticks = [];
   for (let t = -Math.floor(limit / step) * step; t <= limit; t += step) ticks.push(t);
-  // A name that would run into the one before it is left out; the point's own text has it.
+  // A name that would overlap the one before it is left out; the point's own text has it.
   const states = [];
   let free = 0;
   shown.forEach((r, i) => {
@@ -88,20 +88,20 @@ export function summaryWords(data) {
   const check = data.result.check, z = data.result.luxmeter.filter((r) => r.role === 'check' && isNumber(r.z)).map((r) => r.z);
   const rms = Math.sqrt(z.reduce((sum, v) => sum + v * v, 0) / Math.max(1, z.length));
   const beyond = check?.disagreements?.length || 0;
-  return `${s.readings_checked} readings that took no part in the fit: mean error ${fixed(s.mean_abs_error_lux, 2)} lx, which is ` +
+  return `${s.readings_checked} readings that took no part in the fit: mean error ${fixed(s.mean_abs_error_lx, 2)} lx, which is ` +
     `${fixed(s.mean_abs_error_percent, 2)} % of their mean; largest ${fixed(s.max_abs_error_percent, 1)} %. ` +
     `Root mean square z ${fixed(rms, 2)} (1 is what the intervals promise); ` +
     (beyond === 0 ? 'none disagrees beyond chance.' : `${beyond} disagree beyond chance, named below.`);
 }
 
-const interval = (r) => (r.interval95_lux ? `${fixed(r.interval95_lux[0], 1)} to ${fixed(r.interval95_lux[1], 1)}` : kNone);
+const interval = (r) => (r.interval95_lx ? `${fixed(r.interval95_lx[0], 1)} to ${fixed(r.interval95_lx[1], 1)}` : kNone);
 
 export function readingTable(data) {
   return table([
     { title: 'Point', text: true, of: (r) => r.id },
     { title: 'State', text: true, of: (r) => r.state },
-    { title: 'Measured', unit: 'lx', of: (r) => (isNumber(r.measured_lux) ? fixed(r.measured_lux, 1) : '\u2013') },
-    { title: 'Predicted', unit: 'lx', of: (r) => (isNumber(r.predicted_lux) ? fixed(r.predicted_lux, 1) : kNone) },
+    { title: 'Measured', unit: 'lx', of: (r) => (isNumber(r.measured_lx) ? fixed(r.measured_lx, 1) : '\u2013') },
+    { title: 'Predicted', unit: 'lx', of: (r) => (isNumber(r.predicted_lx) ? fixed(r.predicted_lx, 1) : kNone) },
     { title: '95 % interval', unit: 'lx', of: interval },
     { title: 'Error', unit: '%', of: (r) => (isNumber(errorPercent(r)) ? h('span', { style: { color: errorColour(errorPercent(r)), fontWeight: 600 } }, signed(errorPercent(r), 1)) : '\u2013') },
     { title: 'z', of: (r) => (isNumber(r.z) ? signed(r.z, 1) : '\u2013') },

@@ -1,4 +1,4 @@
-// What the numbers rest on: reflectances, conditions, choices, speed, provenance.
+// Shows the basis of the numbers: reflectances, conditions, choices, speed, provenance.
 
 import chart from 'fit_office.csv';
 import { details, h, svg, table } from './dom.js';
@@ -47,7 +47,7 @@ export function choices(data) {
     h('dd', null, c.because, c.among.length > 1 ? details(`among ${c.among.length}`, c.among.join(', ')) : null)]));
 }
 
-// Stages of the run as a bar; those within another stand apart.
+// Stages of the run for the bar; stages within another have a bar of their own.
 const kWhole = ['scene', 'linearize', 'register', 'observe', 'count', 'fit'], kWithinFit = ['guess', 'choose', 'refine', 'detail'];
 const kHues = ['#4c78a8', '#f58518', '#54a24b', '#e45756', '#b279a2', '#72b7b2', '#9d755d'];
 
@@ -58,7 +58,7 @@ function stageBar(timing, names) {
     h('div', { class: 'keys' }, parts.map(([n, t], i) => h('span', { class: 'key', style: { '--key': '' } }, h('i', { style: { background: kHues[i % kHues.length] } }), `${n} ${seconds(t)}`))));
 }
 
-// The run on the axes of docs/charts/fit_office.csv: error of the readings over time of the fit.
+// Places the run on the axes of docs/charts/fit_office.csv: error of the readings over time of the fit.
 function speedChart(data) {
   const lines = chart.trim().split('\n').map((l) => l.split(',')), column = (name) => lines[0].indexOf(name);
   const known = lines.slice(1).map((l) => [Number(l[column('processor_time_s')]), Number(l[column('lux_percent')])]).filter(([t, e]) => t > 0 && e > 0);

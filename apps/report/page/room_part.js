@@ -1,4 +1,5 @@
-// The room and what is set beside it: quantity, scale, layers, reading of a surface, predictions at the meter's points.
+// Shows the room and its controls: quantity, scale, layers, value of a surface, predictions at the meter's
+// points.
 
 import { ColourScale, rangeOf } from './colour_scale.js';
 import { h, replace, svg, table } from './dom.js';
@@ -110,12 +111,13 @@ export class RoomPart {
     }
   }
 
-  // Of the present state's readings; of all states the worst where the sliders stand at none.
+  // Colours the points by the readings of the present state, or by the worst of all states where the sliders match
+  // none.
   pointColours() {
     const { data } = this, worst = data.places.points.map(() => null), { state } = this.light;
     data.result.luxmeter.forEach((r, i) => {
-      if (!isNumber(r.measured_lux) || !isNumber(r.predicted_lux) || !(r.measured_lux > 0) || (state && r.state !== state.id)) return;
-      const error = 100 * (r.predicted_lux / r.measured_lux - 1), p = data.places.point_of_reading[i];
+      if (!isNumber(r.measured_lx) || !isNumber(r.predicted_lx) || !(r.measured_lx > 0) || (state && r.state !== state.id)) return;
+      const error = 100 * (r.predicted_lx / r.measured_lx - 1), p = data.places.point_of_reading[i];
       if (worst[p] === null || Math.abs(error) > Math.abs(worst[p])) worst[p] = error;
     });
     return worst.map(errorColour);
@@ -128,14 +130,14 @@ export class RoomPart {
     const rows = names.map((name, i) => {
       const own = factor ? Math.hypot(...factor.subarray(i * modes, (i + 1) * modes)) : null;
       const sigma = own === null ? null : Math.hypot(own, data.places.relative_model_error * value[i]);
-      const reading = state && data.result.luxmeter.find((r, n) => data.places.point_of_reading[n] === i && r.state === state.id && isNumber(r.measured_lux));
+      const reading = state && data.result.luxmeter.find((r, n) => data.places.point_of_reading[n] === i && r.state === state.id && isNumber(r.measured_lx));
       return { name, value: value[i], sigma, reading };
     });
     this.pointValues = value;
     replace(this.points, h('h4', null, 'At the meter\u2019s points now'), table([
       { title: 'Point', text: true, of: (r) => r.name },
       { title: 'Predicted, 95 %', unit: data.unit, of: (r) => plusMinus(r.value, r.sigma ?? 0) },
-      { title: 'Measured', unit: data.unit, of: (r) => (r.reading ? fixed(r.reading.measured_lux, 1) : '\u2013') },
+      { title: 'Measured', unit: data.unit, of: (r) => (r.reading ? fixed(r.reading.measured_lx, 1) : '\u2013') },
     ], rows));
   }
 

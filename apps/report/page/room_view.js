@@ -1,7 +1,7 @@
-// The room in three dimensions: cells in false colours, and what was found in it.
+// Draws the room in three dimensions: cells in false colours, and everything that was found in it.
 //
-// Fronts of surfaces alone are drawn, so that one looks into the room from outside. Colours are those of the table of
-// colour_scale.js, unlit and unmapped: a pixel is its value's colour to the last bit.
+// Only the fronts of surfaces are drawn, so that one looks into the room from outside. Colours are those of
+// the table of colour_scale.js, unlit and without tone mapping: a pixel has exactly the colour of its value.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three-examples/controls/OrbitControls.js';
@@ -33,7 +33,7 @@ function cellGeometry(room) {
   return { geometry, firstVertex, cellOfTriangle, corners };
 }
 
-// Outlines of facets where no neighbour in the same plane continues them.
+// Returns the outlines of facets where no neighbour in the same plane continues them.
 function edgeLines(room) {
   const positions = [], seen = new Map();
   const key = (p) => p.map((x) => Math.round(1000 * x)).join(',');
@@ -46,7 +46,7 @@ function edgeLines(room) {
       seen.set(name, { count: (seen.get(name)?.count || 0) + 1, triangle, ends: [p, q] });
     });
   }
-  // The diagonal of two triangles of one wall is no edge of the room; a box's edge is shared by rectangles.
+  // The diagonal of two triangles of one wall is not an edge of the room; rectangles share the edges of a box.
   for (const { count, triangle, ends } of seen.values()) if (!(triangle && count === 2)) positions.push(...ends[0], ...ends[1]);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(positions), 3));
@@ -211,7 +211,7 @@ export class RoomView {
     return vec(this.room.max_m).distanceTo(vec(this.room.min_m));
   }
 
-  // From as near as all of the room is in the picture.
+  // Looks from the nearest place from which the whole room is in the picture.
   lookAtWhole(direction) {
     const { min_m: a, max_m: b } = this.room;
     const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(i & 1 ? a[0] : b[0], i & 2 ? a[1] : b[1], i & 4 ? a[2] : b[2]));
@@ -227,7 +227,7 @@ export class RoomView {
     }
   }
 
-  // outside | top | the name of a view
+  // `from` is outside, top or the name of a view.
   look(from) {
     const view = this.data.cameras.find((c) => c.view === from);
     this.resize();
@@ -272,7 +272,7 @@ export class RoomView {
     for (const listener of this.afterRender) listener();
   }
 
-  // The picture as it is now, for the printed page.
+  // Returns the present picture, for the printed page.
   snapshot() {
     this.render();
     const copy = document.createElement('canvas'), pen = copy.getContext('2d'), ratio = this.renderer.getPixelRatio();
@@ -293,7 +293,7 @@ export class RoomView {
     return copy.toDataURL('image/jpeg', 0.92);
   }
 
-  // What is under a place of the canvas (CSS pixels): the cell and the point.
+  // Returns the cell and the point under a place of the canvas (CSS pixels).
   pick(x, y) {
     const pointer = new THREE.Vector2((2 * x) / this.width - 1, 1 - (2 * y) / this.height);
     const caster = new THREE.Raycaster();
@@ -319,7 +319,7 @@ export class RoomView {
     if (window.ResizeObserver) new ResizeObserver(() => this.requestRender()).observe(this.container);
   }
 
-  // Colours as drawn at places of the canvas (CSS pixels): rendered and read back in one go.
+  // Returns the colours drawn at places of the canvas (CSS pixels); draws and reads them in one step.
   pixelsAt(places) {
     this.renderer.render(this.scene, this.camera);
     const gl = this.renderer.getContext(), ratio = this.renderer.getPixelRatio(), pixel = new Uint8Array(4);
@@ -330,7 +330,7 @@ export class RoomView {
     });
   }
 
-  // Where the middle of a cell is on the canvas (CSS pixels).
+  // Returns the place of a cell's middle on the canvas (CSS pixels).
   placeOf(cell) {
     const points = this.cellPoints[cell];
     const p = points.reduce((sum, q) => sum.add(vec(q)), new THREE.Vector3()).divideScalar(points.length).project(this.camera);

@@ -1,4 +1,4 @@
-// What was found: the luminaires, each quantity with its 95 % interval.
+// Lists the luminaires that were found, each quantity with its 95 % interval.
 
 import { h, table } from './dom.js';
 import { digits, fixed, halfWidth, isNumber, kNone, plusMinus, vector } from './format.js';
@@ -60,7 +60,7 @@ export function schedule(data) {
   ], data.result.luminaires, { class: 'schedule' });
 }
 
-// What the data did not determine, and what to do about it.
+// Lists what the data did not determine, and the remedy.
 export function findings(data) {
   const { warnings, status } = data.result;
   const undetermined = data.places.undetermined;

@@ -1,7 +1,7 @@
-// report.html#selftest: the page checks itself, on the machine and in the browser where it is read.
+// Tests the page itself (report.html#selftest), on the machine and in the browser where it is read.
 //
-// Results are written as JSON into an element of id "selftest". Pixels are read back from the picture, sliders are
-// moved, a surface is clicked, numbers are compared with those that the program wrote.
+// Results are written as JSON into an element of id "selftest". The test reads pixels back from the picture,
+// moves sliders, clicks a surface, and compares numbers with those that the program wrote.
 
 import { h } from './dom.js';
 import { digits } from './format.js';
@@ -9,7 +9,7 @@ import { glare, statistics } from './light.js';
 
 const frame = () => new Promise((done) => { setTimeout(done, 30); });
 
-// Cells whose middle is seen from where the view looks, and with it the whole pixel that it lies in.
+// Yields cells whose middle is visible from the view's place, together with the whole pixel that contains it.
 function* visibleCells(view, wanted) {
   const step = Math.max(1, Math.floor(view.room.count / (24 * wanted)));
   let found = 0;
@@ -43,7 +43,7 @@ function pixels(room) {
   return { ok: compared >= 100 && wrong === 0, compared, wrong, first };
 }
 
-// Moving sliders changes what is written by the sum of the columns, computed here anew.
+// Checks that moving sliders changes the values by the sum of the columns, which is computed here again.
 async function sliders({ data, light }) {
   const inputs = [...document.querySelectorAll('.lightbar input[type=range]')];
   if (inputs.length !== data.luminaires.length || data.places.points.length === 0) return { ok: inputs.length === data.luminaires.length };
@@ -72,7 +72,7 @@ async function click(room) {
   return { ok: text.includes(digits(room.total[cell])), text };
 }
 
-// Statistics and ratings in every state, against those of the program.
+// Compares statistics and ratings in every state with those of the program.
 function numbers({ data, light, planes }) {
   let largest = 0, compared = 0;
   const compare = (a, b) => { if (b !== null && b !== 0) { ++compared; largest = Math.max(largest, Math.abs(a / b - 1)); } };

@@ -1,5 +1,5 @@
-// A work plane: its illuminance in false colours with lines of equal value and the values of the standard's grid,
-// and what is asked of it.
+// Shows a work plane: its illuminance in false colours with lines of equal value, the values of the
+// standard's grid, and its requirements.
 
 import { ColourScale, niceStep, rangeOf } from './colour_scale.js';
 import { floats } from './data.js';
@@ -26,7 +26,7 @@ export class WorkPlane {
     light.onChange(() => this.update());
   }
 
-  // Rows of the standard to choose from; both numbers can be written over.
+  // Offers rows of the standard to choose from; both numbers can be overwritten.
   tools() {
     const number = (name, step, title) => h('input', { type: 'number', min: 0, step, value: this.asked[name] ?? '', title,
       oninput: (e) => { this.asked[name] = e.target.value === '' ? null : Number(e.target.value); this.task.value = ''; this.update(); } });
@@ -111,7 +111,7 @@ export class WorkPlane {
   }
 }
 
-// A bar of colours with its ticks.
+// Draws a bar of colours with its ticks.
 export function legend(scale, x, y, width, words) {
   const steps = 128, bars = [];
   for (let i = 0; i < steps; ++i) bars.push(svg('rect', { x: x + (i * width) / steps, y, width: width / steps + 0.5, height: 12, fill: scale.css(scale.valueAt((i + 0.5) / steps)) }));

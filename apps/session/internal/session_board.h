@@ -1,9 +1,9 @@
-// The `board = { ... }` of a [[camera]]: what its calibration images show.
+// Reads the `board = { ... }` of a [[camera]], which its calibration images show.
 //
-// Keys by type: aprilgrid: columns, rows, tag_size_m, spacing, family, first_id; chessboard: columns, rows,
-// square_size_m; charuco: columns, rows, square_size_m, marker_size_m, dictionary, first_id.
+// The keys depend on the type. aprilgrid: columns, rows, tag_size_m, spacing, family, first_id; chessboard:
+// columns, rows, square_size_m; charuco: columns, rows, square_size_m, marker_size_m, dictionary, first_id.
 //
-// Throws std::runtime_error("FILE:LINE: camera[i].board.key: expected ..., got ...; mend").
+// Throws std::runtime_error("FILE:LINE: camera[i].board.key: expected ..., got ...; remedy").
 // Source: docs/session-format.md.
 #ifndef LUXFIT_APPS_SESSION_INTERNAL_SESSION_BOARD_H_
 #define LUXFIT_APPS_SESSION_INTERNAL_SESSION_BOARD_H_

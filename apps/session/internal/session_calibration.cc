@@ -1,5 +1,7 @@
 #include "apps/session/internal/session_calibration.h"
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 
 SessionCalibration ReadCalibrationSection(const TomlCursor& section) {
@@ -11,13 +13,13 @@ SessionCalibration ReadCalibrationSection(const TomlCursor& section) {
         "width";
     const std::string name = lens->Text(expected);
     calibration.lens = name == "auto" ? std::nullopt : LensKindOf(name);
-    if (name != "auto" && (!calibration.lens ||
-                           (calibration.lens->lens == LensModel::kSplined && calibration.lens->knots == 0)))
+    if (name != "auto" && (!calibration.lens || (OpsOf(calibration.lens->lens).has_control_points &&
+                                                 calibration.lens->knots == 0)))
       throw lens->Error("expected " + expected + ", got " + lens->Shown());
   }
   if (const auto back_end = section.Find("back_end"))
     calibration.back_end = back_end->OneOf({"mrcal", "opencv"});
-  if (calibration.back_end == "opencv" && calibration.lens && calibration.lens->lens == LensModel::kSplined)
+  if (calibration.back_end == "opencv" && calibration.lens && !OpsOf(calibration.lens->lens).is_in_opencv)
     throw section.Error("expected back_end = \"mrcal\" with a splined lens, got \"opencv\"");
   if (const auto rig = section.Find("rig"))
     calibration.rig = rig->OneOf({"auto", "numbers", "order", "none"});

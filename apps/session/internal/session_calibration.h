@@ -1,4 +1,4 @@
-// The section [calibration] of a session: how cameras without intrinsics are calibrated.
+// Reads the section [calibration] of a session: how cameras without intrinsics are calibrated.
 //
 // Throws std::runtime_error("FILE:LINE: calibration.key: ...").
 //

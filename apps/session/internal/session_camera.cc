@@ -25,7 +25,7 @@ Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
   return weights;
 }
 
-// `none`, "estimate" or the name of a file, whose absolute path goes with it.
+// Holds `none`, "estimate" or the name of a file, and the absolute path of that file.
 struct NameOrFile {
   std::string name, path;
 };
@@ -35,7 +35,7 @@ NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key, const
   if (!value) return {none, ""};
   const std::string name = value->Text("\"" + none + "\", \"estimate\" or a file");
   if (name == none || name == "estimate") return {name, ""};
-  // A word without an extension is a misspelt name rather than a missing file.
+  // A word without an extension is a misspelt name, not a missing file.
   if (ExtensionOf(name).empty()) value->OneOf({none, "estimate"});
   return {name, AbsolutePath(FindFile(*value, folder))};
 }

@@ -1,7 +1,7 @@
-// The list [[camera]] of a session.
+// Reads the list [[camera]] of a session.
 //
 // Throws std::runtime_error("FILE:LINE: camera[i].key: ...") for malformed values, ids that two cameras
-// share, and values that the format knows and this version cannot serve.
+// share, and values of the format that this version does not support.
 //
 // Source: docs/session-format.md.
 #ifndef LUXFIT_APPS_SESSION_INTERNAL_SESSION_CAMERA_H_
@@ -15,7 +15,7 @@
 
 namespace luxfit {
 
-// What `intrinsics` may be, for messages.
+// Describes the values that `intrinsics` may have, for messages.
 std::string ExpectedIntrinsics();
 
 std::vector<SessionCamera> ReadCameras(const TomlCursor& list, const std::string& folder);

@@ -55,7 +55,7 @@ void ReadReference(const TomlCursor& table, const std::string& folder, SessionLi
     throw albedo.Error("expected a reflectance in 0..1, got " + albedo.Shown() + "; 18 % is written 0.18");
 }
 
-// The only view but the mirror sphere's.
+// Returns the only view other than the mirror sphere's.
 std::string ObjectView(const TomlCursor& section, std::vector<std::string> views,
                        const SessionLights& lights) {
   if (const auto view = section.Find("view")) return ReadView(*view, views);
@@ -88,7 +88,7 @@ void ReadDirections(const TomlCursor& value, const std::string& folder, SessionL
   }
 }
 
-// Every state that the object is photographed in has its direction, or its photo of the mirror sphere.
+// Checks that every state of the object's photos has a direction, or a photo of the mirror sphere.
 void ExpectLights(const TomlCursor& section, const std::vector<SessionPhoto>& photos,
                   const SessionLights& lights) {
   const std::vector<std::string> states = StatesOf(photos, lights.view);

@@ -1,9 +1,9 @@
-// The lights over an object, for photometric stereo.
+// Reads the lights over an object, for photometric stereo.
 //
 //   state,x,y,z[,strength]        the table of directions: towards the light, of any length but 0
 //
 // Throws std::runtime_error("FILE:LINE: key: ...") for a view or state that no photo has, a state of the
-// object's view without a direction, and a view that cannot be told.
+// object's view without a direction, and a view that is ambiguous.
 //
 // Source: docs/session-format.md, [lights].
 #ifndef LUXFIT_APPS_SESSION_INTERNAL_SESSION_LIGHTS_H_
@@ -18,7 +18,7 @@
 
 namespace luxfit {
 
-// The states that the photo table names, in its order: each is a light of its own.
+// Returns the states that the photo table names, in its order. Each is a light of its own.
 std::vector<SessionState> StatesOfLights(const CsvTable& photos);
 
 SessionLights ReadLightsSection(const TomlCursor& section, const std::string& folder,

@@ -63,7 +63,7 @@ bool Matches(const SessionReading& reading, const std::string& pattern) {
          MatchesPattern(reading.state, pattern.substr(at + 1));
 }
 
-// The pattern of this list that matches each reading; "" for none.
+// Returns for each reading the pattern of this list that matches it; "" where none does.
 std::vector<std::string> PatternOfEach(const TomlCursor& section, const std::string& key,
                                        const std::vector<SessionReading>& readings) {
   std::vector<std::string> pattern_of(readings.size());
@@ -108,7 +108,7 @@ std::vector<SessionReading> WithRoles(const TomlCursor& section, std::vector<Ses
   return readings;
 }
 
-// Half of the class's total error, which is expanded with k = 2.
+// Returns half of the class's total error, which is expanded with k = 2.
 double CommonSigma(const std::string& meter_class) {
   static const std::map<std::string, double> total_error{{"L", 0.03}, {"A", 0.05}, {"B", 0.10}, {"C", 0.20}};
   const auto at = total_error.find(meter_class);

@@ -29,15 +29,15 @@ int CameraIndex(const CsvTable& table, const CsvRow& row, const std::vector<Sess
                      (nearest.empty() ? "; add [[camera]] with this id, or correct the row" : nearest));
 }
 
-// The field of a column that may be missing or left empty.
+// Returns the field of a column that may be missing or empty.
 std::optional<double> PositiveOrNone(const CsvTable& table, const CsvRow& row, const std::string& column,
-                                     const std::string& mend) {
+                                     const std::string& remedy) {
   if (!HasColumn(table, column) || CsvText(table, row, column).empty()) return std::nullopt;
   const double value = CsvNumber(table, row, column);
   if (value <= 0)
     throw CsvError(
         table, row, column,
-        "expected > 0, got " + Quoted(CsvText(table, row, column)) + "; " + mend + ", or leave it empty");
+        "expected > 0, got " + Quoted(CsvText(table, row, column)) + "; " + remedy + ", or leave it empty");
   return value;
 }
 
@@ -51,7 +51,7 @@ SessionPhoto ReadRow(const CsvTable& table, const CsvRow& row, const std::string
   if (photo.view.empty())
     throw CsvError(table, row, "view", "expected a name, got nothing; photos from one place share one name");
   photo.state = StateOfRow(table, row, states);
-  // Empty: the file's own metadata say it.
+  // An empty field leaves the value to the file's own metadata.
   photo.exposure_s =
       PositiveOrNone(table, row, "exposure_s", "write the exposure time in seconds").value_or(0);
   photo.f_number = PositiveOrNone(table, row, "aperture", "write the f-number");

@@ -1,4 +1,4 @@
-// The photos of a session: the table that [photos] names.
+// Reads the photos of a session: the table that [photos] names.
 //
 //   file,camera,view,state,exposure_s[,aperture,iso]
 //
@@ -6,7 +6,7 @@
 // Exposure time, aperture (f-number) and ISO may be empty where the photo's own metadata state them.
 //
 // Throws std::runtime_error("FILE:LINE: column: ...") for a missing photo, an unknown camera or state, an
-// exposure that is not > 0 s and a photo given twice.
+// exposure that is not > 0 s, and a photo given twice.
 //
 // Source: docs/session-format.md, [photos].
 #ifndef LUXFIT_APPS_SESSION_INTERNAL_SESSION_PHOTOS_H_
@@ -23,7 +23,7 @@ namespace luxfit {
 
 CsvTable ReadPhotoTable(const TomlCursor& section, const std::string& folder);
 
-// `folder` is the session's: photos are named relative to it.
+// `folder` is that of the session; photos are named relative to it.
 std::vector<SessionPhoto> PhotosOf(const CsvTable& table, const std::string& folder,
                                    const std::vector<SessionCamera>& cameras,
                                    const std::vector<SessionState>& states);

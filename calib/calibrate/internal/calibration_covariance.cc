@@ -11,7 +11,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// d(rotation vector on the left) / d(Rodrigues vector).
+// Returns d(rotation vector on the left) / d(Rodrigues vector).
 Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& r) {
   const double angle = r.norm();
   const Eigen::Matrix3d cross = CrossMatrix(r);
@@ -20,7 +20,8 @@ Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& r) {
          (angle - std::sin(angle)) / (angle * angle * angle) * cross * cross;
 }
 
-// d(twist) / d(Rodrigues vector, translation): p' = exp(w) p + v for points in the pose's outer frame.
+// Returns d(twist) / d(Rodrigues vector, translation): p' = exp(w) p + v for points in the pose's outer
+// frame.
 Matrix6 TwistOf(const Eigen::Isometry3d& pose) {
   Matrix6 twist = Matrix6::Identity();
   twist.topLeftCorner<3, 3>() = LeftJacobian(RodriguesOf(pose).head<3>());
@@ -28,7 +29,7 @@ Matrix6 TwistOf(const Eigen::Isometry3d& pose) {
   return twist;
 }
 
-// A twist of the inner frame of `pose`, in its outer frame.
+// Returns the matrix that maps a twist of the inner frame of `pose` to its outer frame.
 Matrix6 Adjoint(const Eigen::Isometry3d& pose) {
   Matrix6 adjoint = Matrix6::Zero();
   adjoint.topLeftCorner<3, 3>() = adjoint.bottomRightCorner<3, 3>() = pose.linear();
@@ -48,7 +49,8 @@ std::set<int> SetsSeen(const CalibrationProblem& problem, int camera) {
   return sets;
 }
 
-// Rows: free lens parameters and the mean twist of one camera; columns: unknowns of the adjustment.
+// Returns the matrix that selects one camera's lens and mean twist. Rows: free lens parameters, mean twist;
+// columns: unknowns of the adjustment.
 Eigen::MatrixXd Selection(const CalibrationProblem& problem, const CalibrationState& state,
                           const LinearizedState& linearized, std::size_t camera) {
   const int free = ParameterCount(state.lens) - FirstFreeParameter(state.lens);
@@ -77,7 +79,7 @@ CalibrationCovariance CovarianceOf(const CalibrationProblem& problem, const Cali
     camera.kind = state.lens.kind;
     camera.noise_px = noise_px;
   }
-  // Unknowns differ by ten orders of magnitude: factorised at unit diagonal.
+  // Unknowns differ by ten orders of magnitude: scale the matrix to unit diagonal before it is factorised.
   Eigen::SparseMatrix<double> hessian = linearized.jacobian.transpose() * linearized.jacobian;
   const Eigen::VectorXd diagonal = hessian.diagonal();
   if (!(diagonal.minCoeff() > 0)) return out;

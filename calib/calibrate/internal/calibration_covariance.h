@@ -1,8 +1,9 @@
-// From an adjustment's derivatives to the covariance that projections need.
+// Converts the derivatives of an adjustment to the covariance that projections need.
 //
-// A pose's Rodrigues vector r and translation t move points of the reference frame by the twist
-// w = A dr, v = dt - w x t with A the left Jacobian of the rotation; the mean over a camera's images is
-// carried into its own frame, to which a rig's own pose adds its twist.
+//   w = A dr,  v = dt - w x t,   A: left Jacobian of the rotation
+// A pose's Rodrigues vector r and translation t move points of the reference frame by this twist (w, v). The
+// mean twist over a camera's images is carried into the camera's frame. In a rig, the camera's own pose adds
+// its twist.
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_COVARIANCE_H_
 #define LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_COVARIANCE_H_
 
@@ -14,12 +15,14 @@
 namespace luxfit {
 
 struct CalibrationCovariance {
-  std::vector<ProjectionCovariance> cameras;  // empty matrices where the corners determine nothing
+  std::vector<ProjectionCovariance> cameras;  // empty matrices where unknowns are undetermined
   Eigen::Vector2d warp_sigma_m = Eigen::Vector2d::Zero();
-  // Rotation vector (rad) and translation (m) of cam_from_rig, of its frame's axes; zero of the first.
+  // Rotation vector (rad) and translation (m) of cam_from_rig, in the camera's axes; zero for the first
+  // camera.
   std::vector<Eigen::Matrix<double, 6, 1>> cam_from_rig_sigma;
 };
 
+// Returns the covariances for noise of `noise_px` per axis in a corner of weight 1.
 CalibrationCovariance CovarianceOf(const CalibrationProblem& problem, const CalibrationState& state,
                                    const LinearizedState& linearized, double noise_px);
 

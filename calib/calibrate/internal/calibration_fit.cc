@@ -1,6 +1,5 @@
 #include "calib/calibrate/internal/calibration_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,15 +7,16 @@
 #include "calib/calibrate/internal/mrcal_calibration.h"
 #include "calib/calibrate/internal/opencv_calibration.h"
 #include "calib/calibrate/internal/target_adjustment.h"
+#include "calib/lens/lens_family.h"
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
 
 constexpr int kMostRounds = 12;
-constexpr int kMedianRounds = 2;                          // with the noise of the median
-constexpr double kMedianOfTwoAxes = 1.17741;              // median of |r| of two axes of sigma 1
-constexpr double kGateOfDiagonal = 0.02;                  // of the seed, whose lens has no distortion
-constexpr double kStereographicToEquidistant = 1.0 / 12;  // 2 tan(theta / 2) = theta + theta^3 / 12 + ...
+constexpr int kMedianRounds = 2;              // rounds that take the noise from the median
+constexpr double kMedianOfTwoAxes = 1.17741;  // median of |r| for two axes of sigma 1
+constexpr double kGateOfDiagonal = 0.02;      // gate of the seed, whose lens has no distortion
 
 double Weighted(const CalibrationProblem& problem, const Eigen::Matrix2Xd& residuals, std::size_t k) {
   return problem.corners[k].weight * residuals.col(static_cast<Eigen::Index>(k)).norm();
@@ -29,12 +29,10 @@ double MedianNoisePx(const CalibrationProblem& problem, const Eigen::Matrix2Xd& 
     const double length = Weighted(problem, residuals, k);
     lengths.push_back(std::isfinite(length) ? length : 1e9);
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle / kMedianOfTwoAxes;
+  return Quantile(std::move(lengths), 0.5) / kMedianOfTwoAxes;
 }
 
-// Free parameters of the adjustment, of corners that determine them at all.
+// Returns the number of free parameters of the adjustment, whether or not the corners determine them.
 double FreeParameters(const CalibrationProblem& problem, const CalibrationState& state, bool warp) {
   const int lens = ParameterCount(state.lens) - FirstFreeParameter(state.lens);
   const auto cameras = static_cast<int>(state.intrinsics.size());
@@ -49,11 +47,11 @@ double UsedNoisePx(const CalibrationProblem& problem, const Eigen::Matrix2Xd& re
     sum += length * length;
     count += 2;
   }
-  // Control points that no corner determines take no freedom: never more than half is granted to parameters.
+  // Control points that no corner determines take no freedom: parameters take at most half of the rows.
   return count > 0 ? std::sqrt(sum / (count - std::min(parameters, count / 2))) : 0;
 }
 
-// Whether any corner's use changed. A camera's set keeps at least as many corners as a pose needs, or none.
+// Marks the corners further off than `most_px` as outliers; returns whether any corner's use changed.
 bool MarkOutliers(CalibrationProblem& problem, const Eigen::Matrix2Xd& residuals, double most_px) {
   bool changed = false;
   for (std::size_t k = 0; k < problem.corners.size(); ++k) {
@@ -71,7 +69,7 @@ double DiagonalPx(const CalibrationProblem& problem) {
   return diagonal_px;
 }
 
-// The stereographic camera that sees as far as any of the rig's.
+// Returns the stereographic camera of the rig that sees the widest field.
 Camera WidestCamera(const CalibrationProblem& problem, const CalibrationState& wide) {
   Camera widest;
   double best = 0;
@@ -86,37 +84,21 @@ Camera WidestCamera(const CalibrationProblem& problem, const CalibrationState& w
   return widest;
 }
 
-// k1, k2 that bring a pinhole nearest to the stereographic lens, over the angles that it sees:
-//   tan(theta) (1 + k1 tan^2 + k2 tan^4) = 2 tan(theta / 2)
-Eigen::Vector2d StereographicDistortion(const Camera& wide) {
-  constexpr double kWidest = 1.1;  // rad: beyond, two coefficients cannot follow
-  constexpr int kSteps = 20;
-  const double half = std::hypot(wide.width_px, wide.height_px) / 2 / wide.fx_px;
-  const double most = std::min(kWidest, 2 * std::atan(half / 2));
-  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  for (int i = 1; i <= kSteps; ++i) {
-    const double theta = most * i / kSteps, r = std::tan(theta);
-    const Eigen::Vector2d d(r * r * r, std::pow(r, 5));
-    hessian += d * d.transpose();
-    gradient += d * (2 * std::tan(theta / 2) - r);
-  }
-  return hessian.inverse() * gradient;
-}
-
-// The start of a lens that a wide seed, fitted without distortion, gives.
+// Returns the start of a lens from a wide seed, which was fitted without distortion.
 CalibrationState FromWide(const CalibrationProblem& problem, const CalibrationState& wide,
                           const LensKind& kind) {
   CalibrationState start = wide;
   const Camera widest = WidestCamera(problem, wide);
-  const Eigen::Vector2d distortion = StereographicDistortion(widest);
+  const double half = std::hypot(widest.width_px, widest.height_px) / 2 / widest.fx_px;
+  const LensOps& ops = OpsOf(kind.lens);
+  const std::vector<double> distortion = ops.like_stereographic == nullptr
+                                             ? std::vector<double>{}
+                                             : ops.like_stereographic(2 * std::atan(half / 2));
   start.lens = MakeLensFunction(kind, widest);
   for (std::vector<double>& parameters : start.intrinsics) {
     parameters.resize(4);
     parameters.resize(static_cast<std::size_t>(ParameterCount(start.lens)), 0.0);
-    if (kind.lens == LensModel::kFisheye) parameters[4] = kStereographicToEquidistant;
-    if (kind.lens == LensModel::kOpenCv)
-      std::copy(distortion.begin(), distortion.end(), parameters.begin() + 4);
+    std::copy(distortion.begin(), distortion.end(), parameters.begin() + 4);
   }
   return start;
 }
@@ -172,14 +154,14 @@ LensFit FitFrom(CalibrationProblem problem, CalibrationState start, const LensFi
 
 LensFit FitLens(CalibrationProblem problem, const CalibrationSeed& seed, const LensKind& kind,
                 const LensFit* simpler, const LensFitOptions& options) {
-  if (simpler != nullptr && simpler->ok && simpler->state.lens.kind.lens == LensModel::kOpenCv &&
-      kind.lens == LensModel::kOpenCv) {
+  const LensOps& ops = OpsOf(kind.lens);
+  if (ops.is_nested && simpler != nullptr && simpler->ok && simpler->state.lens.kind.lens == kind.lens) {
     for (std::size_t k = 0; k < problem.corners.size(); ++k) problem.corners[k].used = simpler->used[k];
     return FitFrom(std::move(problem), FromSimpler(simpler->state, kind), options);
   }
   const CalibrationState& better = seed.is_wide ? seed.wide : seed.pinhole;
   MarkOutliers(problem, Residuals(problem, better), kGateOfDiagonal * DiagonalPx(problem));
-  const bool from_pinhole = kind.lens == LensModel::kOpenCv && !seed.is_wide;
+  const bool from_pinhole = ops.is_pinhole && !seed.is_wide;
   const CalibrationState& family = from_pinhole ? seed.pinhole : seed.wide;
   const SolvedState solved = SolveCalibration(problem, family, {false, false}, CalibrationBackEnd::kMrcal);
   const CalibrationState core = solved.ok ? solved.state : family;

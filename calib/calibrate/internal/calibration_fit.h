@@ -1,9 +1,9 @@
-// One lens fitted to all corners, outliers found on the way.
+// Fits one lens to all corners and finds the outliers.
 //
-// After each adjustment the noise is estimated from the residuals, corners further than `outlier_sigmas` of
-// it are left out (and come back where they fit again), until nothing changes. The noise is that of the
-// median first (sigma = median |r| / 1.177 for two axes), which stands 40 % of wrong corners, then that of
-// the corners in use.
+// Each round estimates the noise from the adjustment's residuals and leaves out corners further than
+// `outlier_sigmas` of it. Corners come back where they fit again. The rounds end when nothing changes. The
+// first rounds take the noise from the median (sigma = median |r| / 1.177 for two axes), which withstands 40
+// % of wrong corners. Later rounds take it from the corners in use.
 //
 // Source: Rousseeuw and Leroy (1987), "Robust regression and outlier detection".
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_FIT_H_
@@ -26,24 +26,25 @@ struct LensFitOptions {
 
 struct LensFit {
   bool ok = false;
-  std::string message;  // why not
+  std::string message;  // says why the fit failed
   CalibrationState state;
   std::vector<bool> used;      // by corner of the problem; false: an outlier
-  Eigen::Matrix2Xd residuals;  // px, of all corners
-  double noise_px = 0;         // per axis, of a corner of weight 1; from the residuals and their freedom
+  Eigen::Matrix2Xd residuals;  // px, for all corners
+  double noise_px = 0;         // per axis, for a corner of weight 1, over the degrees of freedom
 };
 
-// The adjustment alone, by whichever solver can do it.
+// Solve the adjustment alone, or return its derivatives, by whichever solver can do it.
 SolvedState SolveCalibration(const CalibrationProblem& problem, const CalibrationState& start,
                              const SolveSelection& selection, CalibrationBackEnd back_end);
 LinearizedState LinearizeCalibration(const CalibrationProblem& problem, const CalibrationState& state,
                                      const SolveSelection& selection);
 
-// `simpler`: a fit of fewer coefficients of the same family to start from, if there is one.
+// Fits a kind of lens from the seed, or from `simpler`: a fit of fewer coefficients of the same family, if
+// there is one.
 LensFit FitLens(CalibrationProblem problem, const CalibrationSeed& seed, const LensKind& kind,
                 const LensFit* simpler, const LensFitOptions& options);
 
-// The same from a state of that lens.
+// Fits a lens from a state of that lens.
 LensFit FitFrom(CalibrationProblem problem, CalibrationState start, const LensFitOptions& options);
 
 }  // namespace luxfit

@@ -13,15 +13,15 @@ namespace luxfit {
 namespace {
 
 constexpr double kFocalStep = 1.25;
-constexpr double kSeedGateOfDiagonal = 0.02;  // what distortion may amount to before it is fitted
-constexpr double kScaleOfDiagonal = 0.005;    // of the loss
+constexpr double kSeedGateOfDiagonal = 0.02;  // the most that distortion may amount to while it is not fitted
+constexpr double kScaleOfDiagonal = 0.005;    // scale of the loss
 constexpr std::size_t kImagesOfScan = 8;
 constexpr int kStepsOfScan = 8, kStepsOfPose = 30;
 constexpr int kLeastCorners = 6;
-// A wide lens must do that much better than a pinhole to be taken for one.
+// A wide lens is chosen only where its cost is below this share of a pinhole's.
 constexpr double kWideGain = 0.8;
 
-// The corners of one image, as the pose estimate takes them.
+// Holds the corners of one image in the form that the pose estimate takes.
 struct ImageCorners {
   int image = 0, camera = 0, set = 0;
   std::vector<SeenPoint> points;
@@ -45,7 +45,7 @@ LensKind KindOf(bool is_wide) {
   return is_wide ? LensKind{LensModel::kSplined, 0, 0} : LensKind{LensModel::kOpenCv, 4, 0};
 }
 
-// One camera with a guessed focal length.
+// Holds one camera with a guessed focal length.
 struct GuessedCamera {
   Camera camera;
   LensFunction lens;
@@ -60,7 +60,7 @@ GuessedCamera Guess(const CalibrationCamera& size, bool is_wide, double focal_px
   guess.camera.fx_px = guess.camera.fy_px = focal_px;
   guess.camera.cx_px = (size.width_px - 1) / 2.0;
   guess.camera.cy_px = (size.height_px - 1) / 2.0;
-  guess.camera.lens = is_wide ? LensModel::kSplined : LensModel::kOpenCv;
+  guess.camera.lens = KindOf(is_wide).lens;
   guess.lens = MakeLensFunction(KindOf(is_wide), guess.camera);
   guess.parameters = ParametersOf(guess.lens, guess.camera);
   const double diagonal_px = std::hypot(size.width_px, size.height_px);
@@ -82,12 +82,12 @@ PlacedImage Place(const GuessedCamera& guess, std::vector<SeenPoint> points, int
     const double cost_px2 = CappedCost(guess.lens, points, pose, guess.gate_px);
     if (cost_px2 < best.cost_px2) best = {pose, cost_px2};
   }
-  // No pose at all is as bad as all corners wrong.
+  // Finding no pose costs as much as a pose with all corners wrong.
   best.cost_px2 = std::min(best.cost_px2, guess.gate_px * guess.gate_px * static_cast<double>(points.size()));
   return best;
 }
 
-// Some of a camera's images, spread over all of them.
+// Returns some of a camera's images, spread evenly over all of them.
 std::vector<const ImageCorners*> ScanImages(const std::vector<ImageCorners>& images, int camera) {
   std::vector<const ImageCorners*> own;
   for (const ImageCorners& image : images) {
@@ -122,9 +122,9 @@ ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const Im
   return best;
 }
 
-// The poses of a camera relative to one that is placed, from the sets they share.
+// Holds the poses of a camera relative to one that is placed, from the sets that both share.
 struct SharedSets {
-  std::vector<std::pair<const ImageCorners*, Eigen::Isometry3d>> images;  // of the camera; pose of the other
+  std::vector<std::pair<const ImageCorners*, Eigen::Isometry3d>> images;  // the camera's; pose of the other
   std::vector<Eigen::Isometry3d> candidates;                              // camera from the other
 };
 
@@ -155,7 +155,7 @@ class RigJoiner {
     cam_from_rig_[0] = Eigen::Isometry3d::Identity();
   }
 
-  // Nothing where a camera shares no set with the others.
+  // Returns nothing where a camera shares no set with the others.
   std::optional<std::vector<Eigen::Isometry3d>> Join() {
     for (std::size_t joined = 1; joined < guesses_.size(); ++joined) {
       std::size_t next = 0;
@@ -204,7 +204,7 @@ class RigJoiner {
   std::vector<std::optional<Eigen::Isometry3d>> cam_from_rig_;
 };
 
-// Corners of an image that a pose explains.
+// Counts the corners of an image that a pose explains.
 std::size_t CornersNear(const GuessedCamera& guess, const ImageCorners& image,
                         const Eigen::Isometry3d& pose) {
   std::size_t near = 0;
@@ -216,8 +216,8 @@ std::size_t CornersNear(const GuessedCamera& guess, const ImageCorners& image,
   return near;
 }
 
-// Whether the rig explains the corners that each image's own pose does. Of two cameras one gave the set's
-// pose, so half of them prove nothing.
+// Returns whether the rig explains the corners that each image's own pose explains. Where two cameras share a
+// set, one of them gave the set's pose, so half of the corners prove nothing.
 bool IsBorneOut(const std::vector<GuessedCamera>& guesses, const std::vector<ImageCorners>& images,
                 const std::vector<PlacedImage>& placed, const CalibrationState& state) {
   constexpr double kLeastShare = 0.8;

@@ -1,11 +1,13 @@
-// A first guess of everything, from the corners alone: nobody has to know a focal length.
+// Makes a first guess of all unknowns from the corners alone, so that no focal length has to be given.
 //
-// Focal lengths from 0.2 to 8 image widths are tried, of a pinhole and of a plain stereographic lens, with
-// the centre of the image as the lens' centre. At each the target's pose in every image is found by itself;
-// the lens that leaves the smallest errors in all of a camera's images wins. Cameras of a rig are then joined
-// by the pair of images that most other pairs agree with.
+// The seed tries focal lengths of a pinhole and of a plain stereographic lens, with the lens' centre at the
+// image's. They range from 0.2 to 8 image widths for the pinhole, from 0.12 to 1.5 for the other. For each
+// focal length the seed finds the target's pose in every image separately. The lens with the smallest errors
+// in all of a camera's images is chosen. The cameras of a rig are then joined by the pair of images that most
+// other pairs agree with.
 //
-// What cannot be placed is named: images whose corners fit no pose, cameras without a set in common.
+// Returns `ok` false and names what cannot be placed: a camera without a usable image, cameras without a set
+// in common. Images whose corners fit no pose are marked in `image_found`.
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_SEED_H_
 #define LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_SEED_H_
 
@@ -18,14 +20,14 @@ namespace luxfit {
 
 struct CalibrationSeed {
   bool ok = false;
-  std::string message, remedy;    // why not
+  std::string message, remedy;    // say why the seed failed
   CalibrationState pinhole;       // OPENCV4 without distortion
   CalibrationState wide;          // SPLINED0
-  bool is_wide = false;           // which of the two fits better
+  bool is_wide = false;           // true where `wide` fits better
   std::vector<bool> image_found;  // by image of the input: false where no pose fits its corners
 };
 
-// `focal_start_px` > 0: only focal lengths within a factor of 2 of it are tried.
+// Returns the seed. `focal_start_px` > 0: only focal lengths within a factor of 2 of it are tried.
 CalibrationSeed SeedCalibration(const CalibrationProblem& problem, double focal_start_px);
 
 }  // namespace luxfit

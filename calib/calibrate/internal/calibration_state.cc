@@ -4,21 +4,21 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
+
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
 
-// Half of the corners are more certain than this.
+// Returns the median sigma of the corners, px.
 double MedianSigmaPx(const CalibrationInput& input) {
   std::vector<double> sigmas;
   for (const CalibrationImage& image : input.images) {
     for (const BoardCorner& corner : image.corners)
       if (corner.sigma_px > 0) sigmas.push_back(corner.sigma_px);
   }
-  if (sigmas.empty()) return 0;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle;
+  return sigmas.empty() ? 0 : Quantile(std::move(sigmas), 0.5);
 }
 
 }  // namespace

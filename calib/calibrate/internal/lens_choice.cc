@@ -8,6 +8,7 @@
 
 #include "calib/calibrate/internal/calibration_covariance.h"
 #include "calib/calibrate/internal/target_pose.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -16,9 +17,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLeastSets = 3;  // two to fit, one to hold out
 constexpr int kPoseSteps = 30;
-constexpr double kCornersPerParameter = 2;  // fewer, and a lens is not worth trying
+constexpr double kCornersPerParameter = 2;  // a lens with fewer is not worth trying
 
-// The problem without the sets of one fold, and which set of the whole each of its sets is.
+// Holds the problem without the sets of one fold, and the number of each of its sets in the whole problem.
 struct TrainingProblem {
   CalibrationProblem problem;
   std::vector<int> whole_set;
@@ -95,7 +96,7 @@ void ScoreFold(const CalibrationProblem& problem, const LensFit& fit, const std:
   }
 }
 
-// Corners that some candidate can explain.
+// Marks the corners that at least one candidate explains.
 std::vector<bool> CountedCorners(const std::vector<LensCandidate>& candidates, std::size_t corners) {
   std::vector<bool> counted(corners, false);
   for (const LensCandidate& candidate : candidates) {
@@ -105,7 +106,7 @@ std::vector<bool> CountedCorners(const std::vector<LensCandidate>& candidates, s
   return counted;
 }
 
-// Mean square of the lens' own projection uncertainty at its corners, per axis, px^2.
+// Returns the mean square of the lens' own projection uncertainty at its corners, per axis, px^2.
 double OwnUncertaintyPx2(const CalibrationProblem& problem, const LensFit& fit,
                          const LensFitOptions& options) {
   CalibrationProblem used = problem;
@@ -135,7 +136,7 @@ double OwnUncertaintyPx2(const CalibrationProblem& problem, const LensFit& fit,
   return count > 0 ? sum / count : 0;
 }
 
-// How much worse a is than b on held-out sets, px^2 per axis, and one standard error of that.
+// Holds how much worse a is than b on held-out sets, px^2 per axis, and the standard error of that.
 struct ScoreDifference {
   double px2 = kNaN, standard_error_px2 = 0;
 };
@@ -158,12 +159,8 @@ ScoreDifference Difference(const HeldOutScore& a, const HeldOutScore& b) {
 }
 
 bool IsWorthTrying(const CalibrationProblem& problem, const LensKind& kind) {
-  // A spline's control points cover the image alike along x and y.
   const CalibrationCamera& camera = problem.input->cameras.front();
-  const double parameters =
-      kind.lens == LensModel::kSplined
-          ? 2.0 * kind.knots * (kind.knots * static_cast<double>(camera.height_px) / camera.width_px + 2)
-          : 4.0 + kind.coefficients;
+  const double parameters = ParameterCount(kind, static_cast<double>(camera.height_px) / camera.width_px);
   const double per_camera =
       static_cast<double>(problem.corners.size()) / static_cast<double>(problem.input->cameras.size());
   return per_camera >= kCornersPerParameter * parameters;
@@ -181,11 +178,11 @@ void ScoreAll(const CalibrationProblem& problem, int folds, const LensFitOptions
 }
 
 bool IsRicherSpline(const LensKind& kind, const std::vector<LensCandidate>& candidates) {
-  return kind.lens == LensModel::kSplined && !candidates.empty() &&
-         candidates.back().kind.lens == LensModel::kSplined;
+  return OpsOf(kind.lens).has_control_points && !candidates.empty() &&
+         candidates.back().kind.lens == kind.lens;
 }
 
-// Splines take most of the time: a richer one is tried only where the one before it beat all others.
+// Splines take most of the time: a richer spline is tried only where the one before it beat all others.
 bool IsLastTheBest(const std::vector<LensCandidate>& candidates) {
   const double last_px = candidates.back().score.PerAxisPx();
   return std::isfinite(last_px) &&
@@ -260,7 +257,7 @@ LensChoice ChooseLens(const CalibrationProblem& problem, const CalibrationSeed& 
     }
     choice.candidates.push_back({kind, FitLens(problem, seed, kind, simpler, options), {}, {}});
     const LensFit& fit = choice.candidates.back().fit;
-    if (fit.ok && kind.lens == LensModel::kOpenCv) simpler = &fit;
+    if (fit.ok && OpsOf(kind.lens).is_nested) simpler = &fit;
   }
   ScoreAll(problem, folds, options, choice.candidates);
   choice.because = Decide(problem, options, choice);

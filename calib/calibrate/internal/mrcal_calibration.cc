@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
@@ -36,7 +38,7 @@ mrcal_problem_selections_t SelectionsOf(const LensFunction& lens, const SolveSel
   return out;
 }
 
-// The arguments that libmrcal's functions share.
+// Holds the arguments that libmrcal's functions share.
 struct MrcalArguments {
   bool is_grid = false;
   int cameras = 0, extrinsics = 0, frames = 0, points = 0;
@@ -52,7 +54,7 @@ struct MrcalArguments {
   std::vector<int> image_sizes;
   mrcal_lensmodel_t model{};
   mrcal_problem_selections_t selections{};
-  // Ranges of points beyond these would be penalised.
+  // libmrcal penalises points whose range lies outside these limits.
   mrcal_problem_constants_t constants{1e-6, 1e9};
 
   int board_count() const { return static_cast<int>(boards.size()); }
@@ -66,7 +68,7 @@ struct MrcalArguments {
   }
 };
 
-// Whether a set's pose hangs on fewer corners in use than determine it.
+// Marks the sets with fewer corners in use than determine a pose.
 std::vector<bool> StarvedSets(const CalibrationProblem& problem) {
   constexpr int kLeastCorners = 4;
   std::vector<int> used(static_cast<std::size_t>(problem.sets), 0);
@@ -78,8 +80,8 @@ std::vector<bool> StarvedSets(const CalibrationProblem& problem) {
   return starved;
 }
 
-// A corner's pixel and weight; mrcal takes weights below 0 as "not seen". A starved set's pose would make the
-// equations singular: its corners hold it by a thread.
+// Returns a corner's pixel and weight; mrcal takes weights below 0 as "not seen". The pose of a starved set
+// would make the equations singular, so its corners hold it with a small weight.
 mrcal_point3_t Seen(const CornerObservation& corner, const std::vector<bool>& starved) {
   constexpr double kThread = 1e-3;
   mrcal_point3_t seen{};
@@ -90,7 +92,7 @@ mrcal_point3_t Seen(const CornerObservation& corner, const std::vector<bool>& st
   return seen;
 }
 
-// One observation per (set, camera), in that order, each with every corner of the grid.
+// Adds one observation per (set, camera), in that order, each with every corner of the grid.
 void AddBoards(const CalibrationProblem& problem, MrcalArguments& arguments) {
   const CalibrationTarget& target = problem.input->target;
   arguments.columns = target.columns;
@@ -191,7 +193,8 @@ CalibrationState StateOf(const MrcalArguments& arguments, CalibrationState state
   return state;
 }
 
-// The Jacobian's transpose, as compressed columns; points' ranges fill a third row each that says nothing.
+// libmrcal gives the transpose of the Jacobian as compressed columns. The range of each point fills a third
+// row, which holds no information.
 Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
   const int states = arguments.states(), measurements = arguments.measurements();
   const int non_zeros = _mrcal_num_j_nonzero(
@@ -237,7 +240,7 @@ Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
 }  // namespace
 
 bool MrcalCanSolve(const CalibrationProblem& problem, const LensKind& kind) {
-  return kind.lens != LensModel::kFisheye &&
+  return OpsOf(kind.lens).is_in_mrcal &&
          (problem.input->target.IsGrid() || problem.input->cameras.size() == 1);
 }
 

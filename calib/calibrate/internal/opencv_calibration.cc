@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
@@ -14,7 +16,7 @@ struct ImagePoints {
   std::vector<std::size_t> sets;
 };
 
-// Sets with too few corners are left as they are.
+// Leaves out sets with too few corners: their poses stay as they are.
 ImagePoints PointsOf(const CalibrationProblem& problem) {
   ImagePoints out;
   for (std::size_t s = 0; s < static_cast<std::size_t>(problem.sets); ++s) {
@@ -43,7 +45,7 @@ int FlagsOf(int coefficients) {
                            : start | cv::CALIB_RATIONAL_MODEL | cv::CALIB_THIN_PRISM_MODEL;
 }
 
-// OpenCV's matrices, in doubles.
+// Holds OpenCV's matrices, in doubles.
 struct Estimate {
   cv::Mat matrix, distortion;
   std::vector<cv::Mat> rodrigues, translations;
@@ -84,7 +86,7 @@ CalibrationState StateOf(const ImagePoints& seen, const Estimate& estimate, Cali
 }  // namespace
 
 bool OpenCvCanSolve(const CalibrationProblem& problem, const LensKind& kind) {
-  return problem.input->cameras.size() == 1 && kind.lens != LensModel::kSplined;
+  return problem.input->cameras.size() == 1 && OpsOf(kind.lens).is_in_opencv;
 }
 
 SolvedState SolveByOpenCv(const CalibrationProblem& problem, const CalibrationState& start) {
@@ -98,7 +100,7 @@ SolvedState SolveByOpenCv(const CalibrationProblem& problem, const CalibrationSt
   estimate.distortion = cv::Mat(std::vector<double>(parameters.begin() + 4, parameters.end()), true);
   const cv::Size size(camera.width_px, camera.height_px);
   try {
-    if (start.lens.kind.lens == LensModel::kFisheye) {
+    if (!OpsOf(start.lens.kind.lens).is_pinhole) {
       CalibrateFisheye(seen, size, estimate);
     } else {
       cv::calibrateCamera(seen.points, seen.pixels, size, estimate.matrix, estimate.distortion,

@@ -1,7 +1,8 @@
-// The adjustment by OpenCV: cv::calibrateCamera and cv::fisheye::calibrate.
+// Solves the adjustment by OpenCV: cv::calibrateCamera and cv::fisheye::calibrate.
 //
-// For one camera; every image needs at least six corners in use. cv::calibrateCamera wants a plane (z = 0) or
-// the start that it is given here. Corners weigh alike, boards stay flat, nothing is held near anything.
+// Serves one camera and skips images with fewer than six corners in use. cv::calibrateCamera needs a plane
+// (z = 0) or the start that it gets here. All corners weigh alike, boards stay flat, and there is no
+// regularisation. Fails (`ok` false) where fewer than two images have six corners, or OpenCV refuses them.
 // Source: OpenCV 4.6, calib3d.
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_OPENCV_CALIBRATION_H_
 #define LUXFIT_CALIB_CALIBRATE_INTERNAL_OPENCV_CALIBRATION_H_

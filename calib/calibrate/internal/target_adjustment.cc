@@ -5,6 +5,8 @@
 #include <array>
 #include <memory>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
@@ -13,10 +15,11 @@ using RowMajor36 = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using RowMajor2N = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kCoefficientPx = 1e-3;  // of residual for a distortion coefficient of 1
-constexpr double kControlPointPx = 5;    // and for a control point of 1
+constexpr double kCoefficientPx = 1e-3;  // residual of a distortion coefficient of 1
+constexpr double kControlPointPx = 5;    // residual of a control point of 1
 
-// Parameters: lens, rig_from_target, and cam_from_rig of all but the first camera; two residuals.
+// Holds the cost of one corner. Parameters: lens, rig_from_target, and cam_from_rig for all but the first
+// camera; two residuals.
 class CornerCost : public ceres::CostFunction {
  public:
   CornerCost(const LensFunction& lens, const Eigen::Vector3d& point, const CornerObservation& corner)
@@ -79,7 +82,7 @@ class DistortionPrior : public ceres::CostFunction {
   double scale_;
 };
 
-// Parameter blocks and the problem over them.
+// Holds the parameter blocks and the problem over them.
 class Adjustment {
  public:
   Adjustment(const CalibrationProblem& problem, const CalibrationState& state,
@@ -170,7 +173,7 @@ class Adjustment {
       if (i < free || (i >= 4 && !selection.distortion)) held.push_back(i);
     }
     if (!held.empty()) problem_.SetManifold(parameters.data(), new ceres::SubsetManifold(count, held));
-    const bool is_splined = state_.lens.kind.lens == LensModel::kSplined;
+    const bool is_splined = OpsOf(state_.lens.kind.lens).has_control_points;
     problem_.AddResidualBlock(new DistortionPrior(count, is_splined ? kControlPointPx : kCoefficientPx),
                               nullptr, parameters.data());
   }

@@ -1,9 +1,11 @@
-// The adjustment by Ceres, with the derivatives of any lens function: for what libmrcal's optimiser cannot
-// pose, fisheye lenses and rigs before boards that are no uniform grid.
+// Solves the adjustment by Ceres, with the derivatives of any lens function.
 //
-// Unknowns and their order are those of libmrcal's: lens parameters, poses as Rodrigues vector and
-// translation. Distortion is held near zero so weakly (one pixel of residual for a coefficient of 1000, or a
-// control point 0.2 away) that only what no corner determines feels it.
+// Serves what libmrcal's optimiser cannot express: fisheye lenses, and rigs before targets that are no
+// uniform grid. Unknowns and their order are libmrcal's: lens parameters, then poses as Rodrigues vector and
+// translation.
+//
+// A weak prior holds distortion near zero: one pixel of residual for a coefficient of 1000, or for a control
+// point 0.2 away. Only unknowns that no corner determines feel it.
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_TARGET_ADJUSTMENT_H_
 #define LUXFIT_CALIB_CALIBRATE_INTERNAL_TARGET_ADJUSTMENT_H_
 

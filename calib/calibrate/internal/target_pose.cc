@@ -5,15 +5,17 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
 using Twist = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kMostTangent = 3.7;  // 75 degrees: further out a pinhole's image is worth little
+constexpr double kMostTangent = 3.7;  // 75 degrees: a pinhole's image further out is unreliable
 constexpr std::size_t kLeastPoints = 4;
 
-// A twist on the left: exp(rotation) * pose + translation.
+// Returns the pose moved by a twist on the left: exp(rotation) * pose + translation.
 Eigen::Isometry3d Moved(const Eigen::Isometry3d& pose, const Twist& twist) {
   Eigen::Isometry3d out = pose;
   const Eigen::Vector3d r = twist.head<3>();
@@ -62,11 +64,11 @@ NormalEquations Accumulate(const LensFunction& lens, const std::vector<SeenPoint
   return out;
 }
 
-// Points of an image ahead of the camera on the plane z = 1, with what they are images of.
+// Holds the points ahead of the camera, and their images on the plane z = 1.
 struct NormalizedPoints {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> images;
-  bool is_planar = true;  // in the target's plane z = 0
+  bool is_planar = true;  // all points lie in the target's plane z = 0
 };
 
 NormalizedPoints Normalized(const Camera& camera, const std::vector<SeenPoint>& points) {
@@ -74,7 +76,7 @@ NormalizedPoints Normalized(const Camera& camera, const std::vector<SeenPoint>& 
   for (const SeenPoint& seen : points) {
     Eigen::Vector2d u((seen.pixel.x() - camera.cx_px) / camera.fx_px,
                       (seen.pixel.y() - camera.cy_px) / camera.fy_px);
-    if (camera.lens == LensModel::kSplined) {
+    if (OpsOf(camera.lens).has_control_points) {
       const double ahead = 1 - u.squaredNorm() / 4;
       u = ahead > 0.05 ? Eigen::Vector2d(u / ahead) : Eigen::Vector2d::Constant(1e9);
     }

@@ -1,6 +1,6 @@
-// Little-endian values of COLMAP's binary files, one after the other.
+// Reads the little-endian values of COLMAP's binary files, one after the other.
 //
-// Throws std::runtime_error naming the file where it cannot be opened or ends early.
+// Throws std::runtime_error, naming the file, where it cannot be opened or ends early.
 #ifndef LUXFIT_CALIB_LENS_INTERNAL_COLMAP_BINARY_H_
 #define LUXFIT_CALIB_LENS_INTERNAL_COLMAP_BINARY_H_
 
@@ -24,7 +24,7 @@ class ColmapBinary {
     return value;
   }
 
-  // Up to a zero byte.
+  // Reads text up to a zero byte.
   std::string ReadText() {
     std::string text;
     while (const char c = Read<char>()) text += c;

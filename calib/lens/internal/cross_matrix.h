@@ -1,4 +1,4 @@
-// [v]x, the matrix of the cross product: [v]x w = v x w.
+// Returns [v]x, the matrix of the cross product: [v]x w = v x w.
 #ifndef LUXFIT_CALIB_LENS_INTERNAL_CROSS_MATRIX_H_
 #define LUXFIT_CALIB_LENS_INTERNAL_CROSS_MATRIX_H_
 

@@ -5,6 +5,8 @@
 namespace luxfit {
 namespace {
 
+constexpr int kCoefficients = 4;
+
 struct Radius {
   double value = 0, slope = 0;  // theta (1 + k1 theta^2 + ...) and its derivative
 };
@@ -15,13 +17,11 @@ Radius RadiusOf(const std::array<double, 12>& k, double theta) {
           1 + t2 * (3 * k[0] + t2 * (5 * k[1] + t2 * (7 * k[2] + t2 * 9 * k[3])))};
 }
 
-}  // namespace
-
-LensImage FisheyeLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+LensImage FisheyeImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   const Eigen::Vector2d across = p_in_cam.head<2>();
   const double r = across.norm(), z = p_in_cam.z(), length2 = p_in_cam.squaredNorm();
   LensImage out;
-  if (r <= 1e-9 * std::abs(z) || !(length2 > 0)) {  // on the axis every lens is a pinhole
+  if (r <= 1e-9 * std::abs(z) || !(length2 > 0)) {  // near the axis every lens is a pinhole
     const double inverse_z = z > 0 ? 1 / z : kNoImage;
     out.xy = across * inverse_z;
     out.d_point << inverse_z, 0, -out.xy.x() * inverse_z, 0, inverse_z, -out.xy.y() * inverse_z;
@@ -36,11 +36,11 @@ LensImage FisheyeLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam
   return out;
 }
 
-Eigen::Vector3d FisheyeLensDirection(const Camera& camera, const Eigen::Vector2d& xy) {
+Eigen::Vector3d FisheyeDirection(const Camera& camera, const Eigen::Vector2d& xy) {
   const double target = xy.norm();
   if (target < 1e-12) return {xy.x(), xy.y(), 1};
   Eigen::Vector3d none = Eigen::Vector3d::Constant(kNoImage);
-  // The first angle at which the radius reaches the target, while the radius still grows.
+  // Bracket the first angle at which the radius reaches the target, while the radius still grows.
   constexpr int kSteps = 64;
   double low = 0, high = kNoImage;
   for (int i = 1; i <= kSteps && !(high == high); ++i) {
@@ -67,6 +67,42 @@ Eigen::Vector3d FisheyeLensDirection(const Camera& camera, const Eigen::Vector2d
   }
   const Eigen::Vector2d across = std::sin(theta) / target * xy;
   return {across.x(), across.y(), std::cos(theta)};
+}
+
+Eigen::Matrix2Xd DCoefficients(const Camera&, const Eigen::Vector3d& p_in_cam) {
+  Eigen::Matrix2Xd out = Eigen::Matrix2Xd::Zero(2, kCoefficients);
+  const double r = p_in_cam.head<2>().norm();
+  if (r == 0) return out;
+  const double theta = std::atan2(r, p_in_cam.z());
+  double power = theta;
+  for (int i = 0; i < kCoefficients; ++i) {
+    power *= theta * theta;
+    out.col(i) = p_in_cam.head<2>() * (power / r);
+  }
+  return out;
+}
+
+std::vector<double> LikeStereographic(double) {
+  return {1.0 / 12};  // 2 tan(theta / 2) = theta + theta^3 / 12 + ...
+}
+
+}  // namespace
+
+LensOps FisheyeLens() {
+  LensOps ops;
+  ops.lens = LensModel::kFisheye;
+  ops.key = "fisheye";
+  ops.name = "FISHEYE";
+  ops.tried_sizes = {kCoefficients};
+  ops.is_tried_on_wide_fields_only = true;
+  ops.coefficients = kCoefficients;
+  ops.distortion_model = "equidistant";
+  ops.is_in_opencv = true;
+  ops.image = FisheyeImage;
+  ops.direction = FisheyeDirection;
+  ops.d_coefficients = DCoefficients;
+  ops.like_stereographic = LikeStereographic;
+  return ops;
 }
 
 }  // namespace luxfit

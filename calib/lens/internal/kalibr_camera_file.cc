@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "calib/lens/internal/camera_formats.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -61,13 +62,13 @@ class Chain {
     if (distortion != "radtan" && distortion != "equidistant")
       Fail(node["distortion_model"].Mark(), "distortion_model",
            "expected radtan, equidistant or none, got \"" + distortion + "\"");
-    if (distortion == "equidistant") camera.lens = LensModel::kFisheye;
+    camera.lens = LensOfDistortion(distortion);
     const std::vector<double> d = Numbers(node, "distortion_coeffs", 4);
     std::copy(d.begin(), d.end(), camera.distortion.begin());
     return camera;
   }
 
-  // Of this camera from the one before; nothing where the chain does not say.
+  // Reads the pose of this camera from the one before; nothing where the chain has none.
   std::optional<Eigen::Isometry3d> ReadStep(const YAML::Node& node) const {
     const std::string key = "T_cn_cnm1";
     if (!node[key]) return std::nullopt;
@@ -120,18 +121,18 @@ std::string KalibrCamchainYaml(const std::vector<FiledCamera>& cameras) {
   out << std::setprecision(17);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const Camera& camera = cameras[i].camera;
-    const bool is_fisheye = camera.lens == LensModel::kFisheye;
+    const LensOps& ops = OpsOf(camera.lens);
     const bool fits =
-        camera.lens != LensModel::kSplined &&
+        !ops.has_control_points &&
         std::all_of(camera.distortion.begin() + 4, camera.distortion.end(), [](double k) { return k == 0; });
     if (!fits)
       throw std::invalid_argument("a Kalibr camchain holds k1 k2 p1 p2 or a fisheye's k1 to k4 only");
     out << "cam" << i << ":\n  camera_model: pinhole\n  intrinsics: [" << camera.fx_px << ", " << camera.fy_px
         << ", " << camera.cx_px << ", " << camera.cy_px
-        << "]\n  distortion_model: " << (is_fisheye ? "equidistant" : "radtan") << "\n  distortion_coeffs: ["
-        << camera.distortion[0] << ", " << camera.distortion[1] << ", " << camera.distortion[2] << ", "
-        << camera.distortion[3] << "]\n  resolution: [" << camera.width_px << ", " << camera.height_px
-        << "]\n";
+        << "]\n  distortion_model: " << (ops.distortion_model != nullptr ? ops.distortion_model : "radtan")
+        << "\n  distortion_coeffs: [" << camera.distortion[0] << ", " << camera.distortion[1] << ", "
+        << camera.distortion[2] << ", " << camera.distortion[3] << "]\n  resolution: [" << camera.width_px
+        << ", " << camera.height_px << "]\n";
     if (i == 0) continue;
     if (!cameras[i].cam_from_reference || !cameras[i - 1].cam_from_reference)
       throw std::invalid_argument("a Kalibr camchain of several cameras needs the pose of each");

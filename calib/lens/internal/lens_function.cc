@@ -5,20 +5,22 @@
 #include <limits>
 #include <stdexcept>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
 constexpr int kCore = 4;
-constexpr int kSplineOrder = 3;  // cubic: curvature is continuous, as of glass
+constexpr int kSplineOrder = 3;  // cubic: its curvature is continuous, as that of glass
 
-// Half of the image in stereographic units, along x and y.
+// Returns half of the image in stereographic units, along x and y.
 Eigen::Vector2d HalfField(const Camera& wide) {
   const Eigen::Vector2d focal(wide.fx_px, wide.fy_px), center(wide.cx_px, wide.cy_px);
   const Eigen::Vector2d size(wide.width_px - 1, wide.height_px - 1);
   return center.cwiseMax(size - center).cwiseQuotient(focal);
 }
 
-// As many rows of knots as cover the image's height with one to spare.
+// Returns a model with as many rows of knots as cover the image's height, with one to spare.
 mrcal_lensmodel_t SplinedModel(int knots, const Camera& wide) {
   const Eigen::Vector2d half = HalfField(wide);
   mrcal_lensmodel_t model{};
@@ -41,48 +43,43 @@ mrcal_lensmodel_t SplinedModel(int knots, const Camera& wide) {
 }
 
 mrcal_lensmodel_t ModelOf(const LensKind& kind, const Camera& wide) {
-  if (kind.lens == LensModel::kSplined && kind.knots > 0) return SplinedModel(kind.knots, wide);
+  const bool is_splined = OpsOf(kind.lens).has_control_points;
+  if (is_splined && kind.knots > 0) return SplinedModel(kind.knots, wide);
   mrcal_lensmodel_t model{};
-  model.type = kind.lens == LensModel::kSplined ? MRCAL_LENSMODEL_STEREOGRAPHIC
-               : kind.coefficients == 4         ? MRCAL_LENSMODEL_OPENCV4
-               : kind.coefficients == 5         ? MRCAL_LENSMODEL_OPENCV5
-               : kind.coefficients == 8         ? MRCAL_LENSMODEL_OPENCV8
-                                                : MRCAL_LENSMODEL_OPENCV12;
+  model.type = is_splined               ? MRCAL_LENSMODEL_STEREOGRAPHIC
+               : kind.coefficients == 4 ? MRCAL_LENSMODEL_OPENCV4
+               : kind.coefficients == 5 ? MRCAL_LENSMODEL_OPENCV5
+               : kind.coefficients == 8 ? MRCAL_LENSMODEL_OPENCV8
+                                        : MRCAL_LENSMODEL_OPENCV12;
   return model;
 }
 
-Camera FisheyeCamera(const double* parameters) {
+Camera CoefficientCamera(const LensOps& ops, const double* parameters) {
   Camera camera;
-  camera.lens = LensModel::kFisheye;
+  camera.lens = ops.lens;
   camera.fx_px = parameters[0];
   camera.fy_px = parameters[1];
   camera.cx_px = parameters[2];
   camera.cy_px = parameters[3];
-  std::copy(parameters + kCore, parameters + kCore + 4, camera.distortion.begin());
+  std::copy(parameters + kCore, parameters + kCore + ops.coefficients, camera.distortion.begin());
   return camera;
 }
 
-LensPoint ProjectFisheye(const double* parameters, const Eigen::Vector3d& p_in_cam, bool with_parameters) {
-  const Camera camera = FisheyeCamera(parameters);
+LensPoint ProjectByOps(const LensOps& ops, const double* parameters, const Eigen::Vector3d& p_in_cam,
+                       bool with_parameters) {
+  const Camera camera = CoefficientCamera(ops, parameters);
   const Projection projection = ProjectWithJacobian(camera, p_in_cam);
   LensPoint out;
   out.pixel = projection.pixel;
   out.d_point = projection.d_pixel_d_point;
   if (!with_parameters) return out;
-  out.d_parameters.setZero(2, kCore + 4);
+  out.d_parameters.setZero(2, kCore + ops.coefficients);
   const Eigen::Vector2d focal(camera.fx_px, camera.fy_px), center(camera.cx_px, camera.cy_px);
   const Eigen::Vector2d xy = (out.pixel - center).cwiseQuotient(focal);
   out.d_parameters(0, 0) = xy.x();
   out.d_parameters(1, 1) = xy.y();
   out.d_parameters(0, 2) = out.d_parameters(1, 3) = 1;
-  const double r = p_in_cam.head<2>().norm();
-  if (r == 0) return out;
-  const double theta = std::atan2(r, p_in_cam.z());
-  double power = theta;
-  for (int i = 0; i < 4; ++i) {
-    power *= theta * theta;
-    out.d_parameters.col(kCore + i) = focal.cwiseProduct(p_in_cam.head<2>()) * (power / r);
-  }
+  out.d_parameters.rightCols(ops.coefficients) = focal.asDiagonal() * ops.d_coefficients(camera, p_in_cam);
   return out;
 }
 
@@ -91,16 +88,17 @@ LensPoint ProjectFisheye(const double* parameters, const Eigen::Vector3d& p_in_c
 LensFunction MakeLensFunction(const LensKind& kind, const Camera& wide) {
   LensFunction lens;
   lens.kind = kind;
-  if (kind.lens != LensModel::kFisheye) lens.model = ModelOf(kind, wide);
+  if (OpsOf(kind.lens).is_in_mrcal) lens.model = ModelOf(kind, wide);
   return lens;
 }
 
 int ParameterCount(const LensFunction& lens) {
-  return lens.kind.lens == LensModel::kFisheye ? kCore + 4 : mrcal_lensmodel_num_params(&lens.model);
+  const LensOps& ops = OpsOf(lens.kind.lens);
+  return ops.is_in_mrcal ? mrcal_lensmodel_num_params(&lens.model) : kCore + ops.coefficients;
 }
 
 int FirstFreeParameter(const LensFunction& lens) {
-  return lens.kind.lens == LensModel::kSplined && lens.kind.knots > 0 ? kCore : 0;
+  return OpsOf(lens.kind.lens).has_control_points && lens.kind.knots > 0 ? kCore : 0;
 }
 
 Camera CameraOf(const LensFunction& lens, const std::vector<double>& parameters, int width_px,
@@ -108,8 +106,9 @@ Camera CameraOf(const LensFunction& lens, const std::vector<double>& parameters,
   Camera size;
   size.width_px = width_px;
   size.height_px = height_px;
-  if (lens.kind.lens != LensModel::kFisheye) return FromMrcal({lens.model, parameters}, size);
-  Camera camera = FisheyeCamera(parameters.data());
+  const LensOps& ops = OpsOf(lens.kind.lens);
+  if (ops.is_in_mrcal) return FromMrcal({lens.model, parameters}, size);
+  Camera camera = CoefficientCamera(ops, parameters.data());
   camera.width_px = width_px;
   camera.height_px = height_px;
   return camera;
@@ -119,7 +118,7 @@ std::vector<double> ParametersOf(const LensFunction& lens, const Camera& camera)
   std::vector<double> parameters(static_cast<std::size_t>(ParameterCount(lens)), 0.0);
   const std::array<double, kCore> core = {camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px};
   std::copy(core.begin(), core.end(), parameters.begin());
-  const bool is_splined = lens.kind.lens == LensModel::kSplined;
+  const bool is_splined = OpsOf(lens.kind.lens).has_control_points;
   const std::size_t rest = parameters.size() - kCore;
   if (is_splined && camera.spline.control_points.size() == rest) {
     std::copy(camera.spline.control_points.begin(), camera.spline.control_points.end(),
@@ -132,11 +131,12 @@ std::vector<double> ParametersOf(const LensFunction& lens, const Camera& camera)
 
 LensPoint ProjectByLens(const LensFunction& lens, const double* parameters, const Eigen::Vector3d& p_in_cam,
                         bool with_parameters) {
-  if (lens.kind.lens == LensModel::kFisheye) return ProjectFisheye(parameters, p_in_cam, with_parameters);
+  const LensOps& ops = OpsOf(lens.kind.lens);
+  if (!ops.is_in_mrcal) return ProjectByOps(ops, parameters, p_in_cam, with_parameters);
   LensPoint out;
   out.pixel.setConstant(std::numeric_limits<double>::quiet_NaN());
-  // A pinhole's images of points behind it are mirrored ones, none that a camera sees.
-  if (!p_in_cam.allFinite() || (lens.kind.lens == LensModel::kOpenCv && !(p_in_cam.z() > 0))) return out;
+  // A pinhole's formula mirrors points behind the camera into the image, where no camera sees them.
+  if (!p_in_cam.allFinite() || (ops.is_pinhole && !(p_in_cam.z() > 0))) return out;
   if (with_parameters) out.d_parameters.resize(2, ParameterCount(lens));
   mrcal_point3_t p{};
   mrcal_point2_t q{};

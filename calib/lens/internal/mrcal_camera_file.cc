@@ -50,7 +50,7 @@ MrcalLens ReadLens(const Entries& entries, const std::string& path) {
   return lens;
 }
 
-// mrcal's rt: rotation vector and translation, p_in_cam = R(r) p + t.
+// Converts mrcal's rt, a rotation vector and a translation: p_in_cam = R(r) p + t.
 Eigen::Isometry3d ToIsometry(const double* rt) {
   const Eigen::Vector3d r(rt[0], rt[1], rt[2]);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -75,7 +75,7 @@ FiledCamera ReadMrcalCamera(const std::string& path) {
   const std::string place = path + ":" + std::to_string(imager.line) + ": imagersize";
   size.width_px = ImagePixels(imager.numbers[0], place);
   size.height_px = ImagePixels(imager.numbers[1], place);
-  // mrcal 2.4 and later call it rt_cam_ref.
+  // mrcal 2.4 and later name the entry rt_cam_ref.
   const std::string pose = entries.count("extrinsics") > 0 ? "extrinsics" : "rt_cam_ref";
   const std::vector<double>& rt = Numbers(entries, path, pose, 6).numbers;
   try {

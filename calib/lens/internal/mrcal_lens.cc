@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "calib/lens/lens_family.h"
+
 namespace luxfit {
 namespace {
 
@@ -38,9 +40,10 @@ MrcalLens SplinedToMrcal(const Camera& camera) {
 }  // namespace
 
 MrcalLens ToMrcal(const Camera& camera, int min_coefficients) {
-  if (camera.lens == LensModel::kFisheye)
-    throw std::invalid_argument("camera: libmrcal has no Kannala-Brandt fisheye lens");
-  if (camera.lens == LensModel::kSplined) return SplinedToMrcal(camera);
+  const LensOps& ops = OpsOf(camera.lens);
+  if (!ops.is_in_mrcal)
+    throw std::invalid_argument("camera: libmrcal has no lens of the family " + std::string(ops.name));
+  if (ops.has_control_points) return SplinedToMrcal(camera);
   int used = min_coefficients;
   for (int i = 0; i < 12; ++i) {
     if (camera.distortion[static_cast<std::size_t>(i)] != 0) used = std::max(used, i + 1);
@@ -83,7 +86,7 @@ Camera FromMrcal(const MrcalLens& lens, const Camera& size) {
   if (is_splined) {
     const auto& config = lens.model.LENSMODEL_SPLINED_STEREOGRAPHIC__config;
     camera.spline = {config.order, config.Nx, config.Ny, config.fov_x_deg, {in.begin() + 4, in.end()}};
-    ToMrcal(camera);  // throws where the numbers do not fit each other
+    ToMrcal(camera);  // throws where the numbers do not agree
   }
   return camera;
 }

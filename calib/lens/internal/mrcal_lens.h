@@ -1,10 +1,10 @@
-// A camera as libmrcal wants it: its lens model and its vector of intrinsics.
+// Converts a camera to libmrcal's form, a lens model and a vector of intrinsics, and back.
 //
-// libmrcal's header has no guard for C++ and must only be included here. Its functions abort the process on
-// models that they do not know: ToMrcal makes only such as they do.
+// libmrcal's header has no guard for C++: include it here only. libmrcal's functions abort the process on
+// models that they do not know, so ToMrcal makes only models that they know.
 //
-// Throws std::invalid_argument for a fisheye lens (mrcal has none of that kind) and a spline whose numbers do
-// not fit each other.
+// Throws std::invalid_argument for a fisheye lens, which mrcal does not have, and for a spline whose numbers
+// do not agree.
 #ifndef LUXFIT_CALIB_LENS_INTERNAL_MRCAL_LENS_H_
 #define LUXFIT_CALIB_LENS_INTERNAL_MRCAL_LENS_H_
 
@@ -23,12 +23,12 @@ struct MrcalLens {
   std::vector<double> intrinsics;  // fx fy cx cy, then the distortion coefficients or control points
 };
 
-// kOpenCv becomes the shortest of OPENCV4, 5, 8, 12 that holds all coefficients that are not 0, at least
-// `min_coefficients` of them.
+// Returns the lens for libmrcal. kOpenCv becomes the shortest of OPENCV4, 5, 8, 12 that holds all
+// coefficients other than 0, at least `min_coefficients` of them.
 MrcalLens ToMrcal(const Camera& camera, int min_coefficients = 4);
 
-// The inverse; `size` gives width and height only. Throws std::invalid_argument for models that Camera does
-// not have (CAHVOR, CAHVORE, LONLAT, LATLON).
+// Returns the camera of a libmrcal lens; `size` gives only width and height. Throws std::invalid_argument for
+// models that Camera does not have (CAHVOR, CAHVORE, LONLAT, LATLON).
 Camera FromMrcal(const MrcalLens& lens, const Camera& size);
 
 }  // namespace luxfit

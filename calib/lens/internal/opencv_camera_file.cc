@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "calib/lens/internal/camera_formats.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -61,14 +62,15 @@ void ReadDistortion(const cv::FileStorage& file, const std::string& path, Camera
   const int count = static_cast<int>(k.total());
   std::string model;
   if (!file["distortion_model"].empty()) file["distortion_model"] >> model;
-  if (model == "equidistant" || model == "fisheye") camera.lens = LensModel::kFisheye;
+  camera.lens = LensOfDistortion(model == "fisheye" ? "equidistant" : model);
   if ((k.rows != 1 && k.cols != 1) || (count != 4 && count != 5 && count != 8 && count != 12)) {
     Fail(path, key + ": expected 4, 5, 8 or 12 in one row or column, got " + std::to_string(k.rows) + " x " +
                    std::to_string(k.cols));
   }
-  if (camera.lens == LensModel::kFisheye && count != 4)
-    Fail(path,
-         key + ": expected 4 for a fisheye (distortion_model " + model + "), got " + std::to_string(count));
+  const LensOps& ops = OpsOf(camera.lens);
+  if (ops.size == nullptr && count != ops.coefficients)
+    Fail(path, key + ": expected " + std::to_string(ops.coefficients) + " for a " + ops.key +
+                   " (distortion_model " + model + "), got " + std::to_string(count));
   for (int i = 0; i < count; ++i) {
     camera.distortion[static_cast<std::size_t>(i)] = k.rows == 1 ? k.at<double>(0, i) : k.at<double>(i, 0);
   }
@@ -93,13 +95,14 @@ FiledCamera ReadOpenCvCamera(const std::string& path) {
 }
 
 std::string OpenCvCameraYaml(const Camera& camera) {
-  if (camera.lens == LensModel::kSplined)
+  const LensOps& ops = OpsOf(camera.lens);
+  if (ops.has_control_points)
     throw std::invalid_argument("OpenCV's calibration files cannot hold a splined lens");
   const cv::Mat k =
       (cv::Mat_<double>(3, 3) << camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1);
-  const bool is_fisheye = camera.lens == LensModel::kFisheye;
-  int used = is_fisheye ? 4 : 12;
-  while (!is_fisheye && used > 4 && camera.distortion[static_cast<std::size_t>(used - 1)] == 0) --used;
+  const bool has_sizes = ops.size != nullptr;
+  int used = ops.coefficients;
+  while (has_sizes && used > 4 && camera.distortion[static_cast<std::size_t>(used - 1)] == 0) --used;
   const int count = used > 8 ? 12 : used > 5 ? 8 : used;
   cv::Mat distortion(1, count, CV_64F);
   for (int i = 0; i < count; ++i)
@@ -107,7 +110,7 @@ std::string OpenCvCameraYaml(const Camera& camera) {
   cv::FileStorage file(".yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
   file << "image_width" << camera.width_px << "image_height" << camera.height_px << "camera_matrix" << k
        << "distortion_model"
-       << (is_fisheye  ? "equidistant"
+       << (!has_sizes  ? ops.distortion_model
            : count > 5 ? "rational_polynomial"
                        : "plumb_bob")
        << "distortion_coefficients" << distortion;

@@ -1,4 +1,5 @@
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "calib/lens/internal/lens.h"
@@ -33,7 +34,7 @@ Distorted Distort(const std::array<double, 12>& k, const Eigen::Vector2d& xy) {
   return out;
 }
 
-// Whether r d(r) grows from the axis out to xy, so that xy lies on the branch a lens really has.
+// Returns whether r d(r) grows from the axis out to xy, so that xy lies on the branch of a real lens.
 bool IsOnFirstBranch(const std::array<double, 12>& k, const Eigen::Vector2d& xy) {
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) {
@@ -42,9 +43,7 @@ bool IsOnFirstBranch(const std::array<double, 12>& k, const Eigen::Vector2d& xy)
   return true;
 }
 
-}  // namespace
-
-LensImage OpenCvLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+LensImage OpenCvImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   LensImage out;
   if (!(p_in_cam.z() > 0)) {
     out.xy.setConstant(kNoImage);
@@ -61,10 +60,10 @@ LensImage OpenCvLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam)
   return out;
 }
 
-Eigen::Vector3d OpenCvLensDirection(const Camera& camera, const Eigen::Vector2d& target) {
+Eigen::Vector3d OpenCvDirection(const Camera& camera, const Eigen::Vector2d& target) {
   Eigen::Vector3d none = Eigen::Vector3d::Constant(kNoImage);
-  // Two fixed-point steps (as if the distortion were the same at the target) put Newton's method near the
-  // root.
+  // Two fixed-point steps, which take the distortion at the target for that at the root, start Newton's
+  // method near the root.
   Eigen::Vector2d xy = target;
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector2d next = xy - (Distort(camera.distortion, xy).value - target);
@@ -72,7 +71,7 @@ Eigen::Vector3d OpenCvLensDirection(const Camera& camera, const Eigen::Vector2d&
     xy = next;
   }
   constexpr int kMaxIterations = 30;
-  constexpr double kTolerance = 1e-12;  // of the image plane at z = 1: 1e-9 px at most
+  constexpr double kTolerance = 1e-12;  // in the image plane z = 1: at most 1e-9 px
   bool converged = false;
   for (int i = 0; i < kMaxIterations && !converged; ++i) {
     const Distorted distorted = Distort(camera.distortion, xy);
@@ -85,6 +84,45 @@ Eigen::Vector3d OpenCvLensDirection(const Camera& camera, const Eigen::Vector2d&
   }
   if (!converged || !IsOnFirstBranch(camera.distortion, xy)) return none;
   return {xy.x(), xy.y(), 1};
+}
+
+// Returns the k1, k2 that bring a pinhole nearest to the stereographic lens, over the angles that it sees:
+//   tan(theta) (1 + k1 tan^2 + k2 tan^4) = 2 tan(theta / 2)
+std::vector<double> LikeStereographic(double half_field_rad) {
+  constexpr double kWidest = 1.1;  // rad: beyond, two coefficients cannot follow
+  constexpr int kSteps = 20;
+  const double most = std::min(kWidest, half_field_rad);
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  for (int i = 1; i <= kSteps; ++i) {
+    const double theta = most * i / kSteps, r = std::tan(theta);
+    const Eigen::Vector2d d(r * r * r, std::pow(r, 5));
+    hessian += d * d.transpose();
+    gradient += d * (2 * std::tan(theta / 2) - r);
+  }
+  const Eigen::Vector2d k = hessian.inverse() * gradient;
+  return {k[0], k[1]};
+}
+
+}  // namespace
+
+LensOps OpenCvLens() {
+  LensOps ops;
+  ops.lens = LensModel::kOpenCv;
+  ops.key = "opencv";
+  ops.name = "OPENCV";
+  ops.size = &LensKind::coefficients;
+  ops.has_size = [](int size) { return size == 4 || size == 5 || size == 8 || size == 12; };
+  ops.tried_sizes = {4, 5, 8, 12};
+  ops.coefficients = 12;
+  ops.is_pinhole = true;
+  ops.is_nested = true;
+  ops.is_in_mrcal = true;
+  ops.is_in_opencv = true;
+  ops.image = OpenCvImage;
+  ops.direction = OpenCvDirection;
+  ops.like_stereographic = LikeStereographic;
+  return ops;
 }
 
 }  // namespace luxfit

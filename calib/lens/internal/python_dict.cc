@@ -46,7 +46,7 @@ class Reader {
     }
   }
 
-  // The next character that counts; 0 at the end.
+  // Returns the next character that is neither space nor comment; 0 at the end.
   char Peek() {
     SkipBlank();
     return at_ < source_.size() ? source_[at_] : '\0';

@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-// The lens alone: focal lengths 1, centre 0.
+// Returns the lens alone: focal lengths 1, centre 0.
 MrcalLens UnitLens(const Camera& camera) {
   MrcalLens lens = ToMrcal(camera);
   lens.intrinsics[0] = lens.intrinsics[1] = 1;
@@ -16,13 +16,11 @@ MrcalLens UnitLens(const Camera& camera) {
   return lens;
 }
 
-}  // namespace
-
-LensImage SplinedLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+LensImage SplinedImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   LensImage out;
   out.xy.setConstant(kNoImage);
   out.d_point.setConstant(kNoImage);
-  // The axis behind the camera is the stereographic projection's one point without an image.
+  // The stereographic projection lacks an image of one direction only: the axis behind the camera.
   if (!p_in_cam.allFinite() || !(p_in_cam.norm() + p_in_cam.z() > 1e-9 * p_in_cam.norm())) return out;
   const MrcalLens lens = UnitLens(camera);
   mrcal_point3_t p{};
@@ -39,14 +37,14 @@ LensImage SplinedLensImage(const Camera& camera, const Eigen::Vector3d& p_in_cam
   return out;
 }
 
-Eigen::Vector3d SplinedLensDirection(const Camera& camera, const Eigen::Vector2d& xy) {
-  // From the plain stereographic lens (tan(theta / 2) = |xy| / 2), Newton's method on the unit sphere.
+Eigen::Vector3d SplinedDirection(const Camera& camera, const Eigen::Vector2d& xy) {
+  // Newton's method on the unit sphere starts from the plain stereographic lens: tan(theta / 2) = |xy| / 2.
   const double s = xy.squaredNorm() / 4;
   Eigen::Vector3d v = Eigen::Vector3d(xy.x(), xy.y(), 1 - s) / (1 + s);
   constexpr int kMaxIterations = 30;
   constexpr double kTolerance = 1e-12;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const LensImage image = SplinedLensImage(camera, v);
+    const LensImage image = SplinedImage(camera, v);
     if (!image.xy.allFinite()) break;
     const Eigen::Vector2d residual = image.xy - xy;
     if (residual.norm() < kTolerance) return v;
@@ -58,6 +56,24 @@ Eigen::Vector3d SplinedLensDirection(const Camera& camera, const Eigen::Vector2d
     v = (v - tangent * (jacobian.inverse() * residual)).normalized();
   }
   return Eigen::Vector3d::Constant(kNoImage);
+}
+
+}  // namespace
+
+LensOps SplinedLens() {
+  constexpr int kMostKnots = 64;  // one control point each half degree of a usual lens
+  LensOps ops;
+  ops.lens = LensModel::kSplined;
+  ops.key = "splined";
+  ops.name = "SPLINED";
+  ops.size = &LensKind::knots;
+  ops.has_size = [](int size) { return size == 0 || (size >= 4 && size <= kMostKnots); };
+  ops.tried_sizes = {8, 14};
+  ops.has_control_points = true;
+  ops.is_in_mrcal = true;
+  ops.image = SplinedImage;
+  ops.direction = SplinedDirection;
+  return ops;
 }
 
 }  // namespace luxfit

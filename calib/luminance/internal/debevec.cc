@@ -3,24 +3,25 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/luminance/estimate_response.h"
 #include "calib/luminance/internal/response_levels.h"
+#include "calib/luminance/response.h"
 
 namespace luxfit {
 namespace {
 
-// Of ln f from one knot to the next: what a curve is held to where it would fall.
+// Least increase of ln f from one knot to the next, at which a curve is held where it would fall.
 constexpr double kLeastStep = 1e-5;
 
-// Rounds of reweighting: the weights need the slope of the curve that they give.
+// Rounds of reweighting: the weights need the slope of the curve that they produce.
 constexpr int kDebevecRounds = 3;
 
-// The paper's hat, 1 at half scale and 0 at both ends: the weight of a first round.
+// Returns the paper's hat, 1 at half scale and 0 at both ends: the weight of the first round.
 double Hat(double counts, double full_scale_counts) {
   return 1 - std::abs(2 * counts / full_scale_counts - 1);
 }
 
-// Inverse variance of g for noise of one count everywhere: the slope of the curve, over some knots.
+// Returns the inverse variance of g for noise of one count everywhere, from the curve's slope over some
+// knots.
 Eigen::VectorXd InverseVariance(const Eigen::VectorXd& curve) {
   constexpr Eigen::Index kReach = 4;
   Eigen::VectorXd weight(kResponseLevels);
@@ -39,7 +40,7 @@ struct NormalEquations {
   double weight = 0;
 };
 
-// One pixel's rows, its ln E eliminated: what is left of each row is its difference from their weighted mean.
+// Adds one pixel's rows with its ln E eliminated: each row keeps its difference from the rows' weighted mean.
 void AddPixel(const Eigen::RowVectorXd& counts, const Eigen::VectorXd& log_exposure,
               const Eigen::VectorXd& weight_of_level, const ResponseOptions& options,
               NormalEquations& normal) {
@@ -77,8 +78,8 @@ void AddPixel(const Eigen::RowVectorXd& counts, const Eigen::VectorXd& log_expos
   }
 }
 
-// Of the curve against the logarithm of counts, in which every power law is straight:
-// lambda times the integral of its squared second derivative.
+// Adds lambda times the integral of the curve's squared second derivative against the logarithm of counts, in
+// which every power law is straight.
 void AddSmoothing(double lambda, NormalEquations& normal) {
   const auto position = [](Eigen::Index k) { return std::log(static_cast<double>(k) + 0.5); };
   for (Eigen::Index k = 1; k + 1 < kResponseLevels; ++k) {
@@ -89,7 +90,7 @@ void AddSmoothing(double lambda, NormalEquations& normal) {
   }
 }
 
-// Solves with increments held where they came out negative. Each round holds more, so it ends.
+// Solves, holding increments that came out negative at the least step. Each round holds more, so it ends.
 Eigen::VectorXd SolveMonotone(const NormalEquations& normal) {
   // Knots that a held step joins are one unknown plus a constant.
   std::vector<bool> held(static_cast<size_t>(kResponseLevels), false);
@@ -117,9 +118,10 @@ Eigen::VectorXd SolveMonotone(const NormalEquations& normal) {
       for (Eigen::Index m = 0; m < kResponseLevels; ++m)
         reduced(row, unknown_of[static_cast<size_t>(m)]) += normal.matrix(k, m);
     }
-    // The gauge: a common constant is free; the sum of unknowns is held.
+    // Gauge: a common constant is free, so the sum of the unknowns is held.
     reduced.array() += normal.weight / static_cast<double>(kResponseLevels * kResponseLevels);
-    // The blocked factorisation is several times as fast; the other takes what rounding makes indefinite.
+    // LLT, which is blocked, is several times as fast; LDLT serves where rounding makes the matrix
+    // indefinite.
     const Eigen::LLT<Eigen::MatrixXd> fast(reduced);
     const Eigen::VectorXd solution = fast.info() == Eigen::Success
                                          ? Eigen::VectorXd(fast.solve(right))

@@ -6,12 +6,12 @@
 namespace luxfit {
 namespace {
 
-constexpr double kSaturatedFraction = 0.97;  // of the plane's largest value: luminaires in view
-constexpr double kWhitePercentile = 0.99;    // of the pixels that are not saturated
-constexpr int kPercentileStride = 5;         // every fifth pixel of the plane is sample enough
+constexpr double kSaturatedFraction = 0.97;  // over the plane's largest value: luminaires in view
+constexpr double kWhitePercentile = 0.99;    // among the pixels that are not saturated
+constexpr int kPercentileStride = 5;         // every fifth pixel of the plane is enough
 
-// The value shown as white. Luminaires in view are hundreds of times as bright as walls: scaling to the
-// largest value would leave a tag a handful of grey levels.
+// Returns the value shown as white. Luminaires in view are hundreds of times as bright as walls: scaling to
+// the largest value would leave a tag a handful of grey levels.
 float WhiteLevel(const ImagePlane& grey) {
   float largest = 0;
   for (Eigen::Index i = 0; i < grey.size(); ++i) {

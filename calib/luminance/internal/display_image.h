@@ -1,6 +1,6 @@
-// Linear counts as 8-bit grey levels for detectors that want them.
+// Converts linear counts to 8-bit grey levels for detectors that need them.
 //
-//   level = 255 (value / white)^(1 / gamma), white: the brightest but the luminaires in view
+//   level = 255 (value / white)^(1 / gamma),   white: the brightest value except the luminaires in view
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_DISPLAY_IMAGE_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_DISPLAY_IMAGE_H_
 
@@ -11,7 +11,7 @@
 
 namespace luxfit {
 
-// Row by row, as many as the plane has pixels; NaN is white.
+// Returns the levels row by row, as many as the plane has pixels; NaN is white.
 std::vector<uint8_t> DisplayImage(const ImagePlane& grey, double gamma);
 
 }  // namespace luxfit

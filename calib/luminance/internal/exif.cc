@@ -17,7 +17,7 @@ Exiv2::ExifData ReadExif(const std::string& path) {
     image->readMetadata();
     return image->exifData();
   } catch (const std::exception&) {
-    // Not a format that carries EXIF (EXR, HDR, PFM), or broken: it says nothing.
+    // The file has a format without EXIF (EXR, HDR, PFM), or is broken: it states nothing.
     return {};
   }
 }

@@ -1,4 +1,4 @@
-// The EXIF part of a file, through Exiv2, from any thread.
+// Reads the EXIF part of a file through Exiv2, from any thread.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
 
@@ -7,7 +7,7 @@
 
 namespace luxfit {
 
-// Empty where the file carries none or cannot be read. Nothing is written on the terminal.
+// Returns the EXIF data; empty where the file carries none or cannot be read. Writes nothing on the terminal.
 Exiv2::ExifData ReadExif(const std::string& path);
 
 }  // namespace luxfit

@@ -23,8 +23,8 @@ BracketSamples WithoutExposure(const BracketSamples& bracket, Eigen::Index left_
   return rest;
 }
 
-// Mean absolute error in counts of one exposure predicted from the others; NaN where there is nothing to
-// predict.
+// Returns the mean absolute error, in counts, of one exposure predicted from the others; NaN where nothing
+// can be predicted.
 double PredictionError(const CameraResponse& response, const BracketSamples& bracket, Eigen::Index left_out,
                        const ResponseOptions& options) {
   double sum = 0, count = 0;
@@ -35,7 +35,7 @@ double PredictionError(const CameraResponse& response, const BracketSamples& bra
       double top = 0, bottom = 0;
       for (Eigen::Index j = 0; j < counts.cols(); ++j) {
         if (j == left_out || !IsInRange(counts(i, j), options)) continue;
-        // Equal noise of counts: the weight of ln E is the inverse square of d ln f / d count.
+        // With equal noise of counts, the weight of ln E is the inverse square of d ln f / d count.
         const double exposure = response.Exposure(c, counts(i, j));
         const double slope = response.Slope(c, counts(i, j)) / exposure;
         top += std::log(exposure / bracket.exposure_s[j]) / (slope * slope);
@@ -50,7 +50,8 @@ double PredictionError(const CameraResponse& response, const BracketSamples& bra
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Exposures between the shortest and the longest of a bracket; all where there are three.
+// Returns the exposures between the shortest and the longest of a bracket; all of them where there are at
+// most three.
 std::vector<Eigen::Index> InnerExposures(const BracketSamples& bracket) {
   Eigen::Index shortest = 0, longest = 0;
   bracket.exposure_s.minCoeff(&shortest);

@@ -1,4 +1,4 @@
-// How well a response predicts exposures that it was not estimated from.
+// Measures how well a response predicts exposures that were left out of its estimate.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_HELD_OUT_EXPOSURES_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_HELD_OUT_EXPOSURES_H_
 
@@ -6,23 +6,23 @@
 #include <functional>
 #include <vector>
 
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 
 namespace luxfit {
 
 using ResponseSolver = std::function<CameraResponse(const std::vector<BracketSamples>&)>;
 
-// Mean absolute error in counts, one for every bracket and exposure left out: each inner exposure in turn
-// (all where a bracket has three) is predicted from the others through the response of what is left of all
-// brackets. NaN where nothing can be predicted, whatever the solver.
+// Returns mean absolute errors in counts, one for every bracket and exposure left out. Each inner exposure in
+// turn (each one where a bracket has three) is predicted from the others. The prediction uses the response of
+// what is left of all brackets. NaN where nothing can be predicted, whatever the solver.
 Eigen::ArrayXd HeldOutErrors(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
                              const ResponseSolver& solve);
 
-// The first candidate within one standard error of the best: candidates stand in the order of what they
-// assume.
+// Returns the first candidate within one standard error of the best. Candidates are in the order of their
+// assumptions, the most first.
 size_t SimplestOfBest(const std::vector<Eigen::ArrayXd>& errors);
 
-// Without the NaN.
+// Returns the mean of the errors that are not NaN; 0 where there are none.
 double MeanError(const Eigen::ArrayXd& errors);
 
 }  // namespace luxfit

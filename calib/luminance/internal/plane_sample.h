@@ -1,4 +1,4 @@
-// Bilinear samples of a plane; pixel (0, 0) is the centre of the top-left pixel.
+// Samples a plane bilinearly; pixel (0, 0) is the centre of the top-left pixel.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_PLANE_SAMPLE_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_PLANE_SAMPLE_H_
 
@@ -8,10 +8,10 @@
 
 namespace luxfit {
 
-// NaN outside the plane, at pixels that are NaN, and for a place that is NaN.
+// Returns the sample; NaN outside the plane, at pixels that are NaN, and for a place that is NaN.
 double SampleBilinear(const ImagePlane& plane, const Eigen::Vector2d& pixel);
 
-// Whether every pixel of the square of that half-width about `pixel` lies in the plane.
+// Returns whether every pixel of the square of that half-width about `pixel` lies in the plane.
 bool Holds(const ImagePlane& plane, const Eigen::Vector2d& pixel, double half_width_px);
 
 }  // namespace luxfit

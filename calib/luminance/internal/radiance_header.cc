@@ -8,7 +8,7 @@
 namespace luxfit {
 namespace {
 
-// The text behind "KEY=", empty where the line is another.
+// Returns the text behind "KEY="; empty where the line has another key.
 std::optional<std::string> ValueOf(const std::string& line, const std::string& key) {
   if (line.rfind(key + "=", 0) != 0) return std::nullopt;
   return line.substr(key.size() + 1);

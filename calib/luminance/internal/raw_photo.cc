@@ -15,7 +15,7 @@
 namespace luxfit {
 namespace {
 
-// LibRaw's mark of Fuji's mosaic in `filters`.
+// The value of LibRaw's `filters` for Fuji's mosaic.
 constexpr unsigned kXTrans = 9;
 
 std::runtime_error RawError(const std::string& path, const std::string& detail) {
@@ -28,7 +28,7 @@ void ExpectDone(const std::string& path, int status) {
   if (status != LIBRAW_SUCCESS) throw RawError(path, libraw_strerror(status));
 }
 
-// Black of a site: common, per colour, and per place in a repeating pattern.
+// Returns the black level of a site: common, per colour, and per place in a repeating pattern.
 class BlackLevels {
  public:
   explicit BlackLevels(const libraw_colordata_t& color) : color_(color) {}
@@ -63,10 +63,10 @@ double WhiteLevel(const libraw_colordata_t& color) {
   return white;
 }
 
-// Red, green or blue of LibRaw's colour index, in which 3 is the second green.
+// Returns the channel, red, green or blue, of LibRaw's colour index, in which 3 is the second green.
 size_t ChannelOf(int colour) { return colour == 3 ? 1 : static_cast<size_t>(colour); }
 
-// The mosaic less its black; `channel` of every site.
+// Holds the mosaic less its black, and the `channel` of every site.
 struct Mosaic {
   ImagePlane counts;
   Eigen::Array<unsigned char, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> channel;
@@ -131,7 +131,7 @@ bool IsRawName(const std::string& path) {
 }
 
 Photo ReadRawPhoto(const std::string& path) {
-  // Not on the stack: LibRaw holds some hundred kilobytes.
+  // LibRaw holds some hundred kilobytes: too much for the stack.
   const auto raw = std::make_unique<LibRaw>();
   ExpectDone(path, raw->open_file(path.c_str()));
   ExpectDone(path, raw->unpack());

@@ -1,16 +1,17 @@
-// Photos as the sensor counted them: DNG, CR2, NEF, ARW and what else LibRaw decodes.
+// Reads photos as the sensor counted them: DNG, CR2, NEF, ARW and the other formats that LibRaw decodes.
 //
 //   counts_c(p) = sum_q k(|q - p|) (raw(q) - black(q)) / sum_q k(|q - p|)      over sites q of colour c
 //
-// with the tent k of 3 x 3 sites: bilinear interpolation on a Bayer mosaic, and counts of a site's own colour
-// stay as they are. (X-Trans, whose sites of one colour lie farther apart, takes 5 x 5.) Black levels of the
-// file are subtracted per colour and per place in the mosaic; no white balance, no colour matrix, no
-// brightening, no rotation, no cropping beyond the file's visible area.
+// k is the tent of 3 x 3 sites: bilinear interpolation on a Bayer mosaic; counts of a site's own colour stay
+// as they are. X-Trans, whose sites of one colour lie farther apart, takes 5 x 5. The file's black levels are
+// subtracted per colour and per place in the mosaic. There is no white balance, no colour matrix, no
+// brightening, no rotation, and no cropping beyond the file's visible area.
 //
 // full_scale_counts and saturation_counts are the file's white level (the maker's limit of linearity where
-// lower) less the largest black level. Counts below black stay negative: noise about zero must average to it.
+// lower) less the largest black level. Counts below black stay negative, so that noise about zero averages to
+// zero.
 //
-// Throws std::runtime_error naming the file where LibRaw cannot decode it and where there is no mosaic in it.
+// Throws std::runtime_error, naming the file, where LibRaw cannot decode it or it holds no mosaic.
 // Source: LibRaw 0.20, unpack(), without its own processing.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_RAW_PHOTO_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_RAW_PHOTO_H_
@@ -21,7 +22,7 @@
 
 namespace luxfit {
 
-// Whether the extension is one of a RAW format.
+// Returns whether the extension is that of a RAW format.
 bool IsRawName(const std::string& path);
 
 Photo ReadRawPhoto(const std::string& path);

@@ -1,4 +1,4 @@
-// The 256 knots that a response is estimated at, and which counts of a sample say something about it.
+// Defines the 256 knots at which a response is estimated, and the counts of a sample that determine it.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_RESPONSE_LEVELS_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_RESPONSE_LEVELS_H_
 
@@ -6,30 +6,31 @@
 #include <array>
 #include <vector>
 
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 
 namespace luxfit {
 
 constexpr Eigen::Index kResponseLevels = 256;
 
-// A count between two knots.
+// Holds the position of a count between two knots.
 struct LevelPosition {
   Eigen::Index below = 0;  // 0..254
-  double share = 0;        // of the knot above
+  double share = 0;        // weight of the knot above
 };
 LevelPosition PositionOf(double counts, double full_scale_counts);
 
-// Whether a count is neither dark nor saturated.
+// Returns whether a count is neither dark nor saturated.
 bool IsInRange(double counts, const ResponseOptions& options);
 
-// Throws std::invalid_argument as estimate_response.h says.
+// Throws std::invalid_argument as calib/luminance/response.h states.
 void CheckSamples(const std::vector<BracketSamples>& brackets);
 
-// ln f at the knots, one curve a channel, as a response in the gauge of response.h.
+// Returns the response with ln f at the knots, one curve for each channel, in the gauge of
+// calib/luminance/response.h.
 CameraResponse ResponseOf(std::array<Eigen::VectorXd, 3> log_exposure, double full_scale_counts);
 
-// The nearest sequence (least squares with these weights > 0) that does not decrease, then with steps of at
-// least `least_step`.
+// Returns the nearest sequence (least squares with these weights > 0) that does not decrease, then raised to
+// steps of at least `least_step`.
 Eigen::VectorXd Monotone(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, double least_step);
 
 }  // namespace luxfit

@@ -19,7 +19,7 @@ Eigen::Index BinOf(double counts, const ResponseOptions& options) {
   return std::clamp<Eigen::Index>(static_cast<Eigen::Index>(share * kBins), 0, kBins - 1);
 }
 
-// |r| and the variance of the mean it was taken from.
+// Holds |r| and the variance of the mean that r is relative to.
 struct AbsoluteResidual {
   double absolute, mean_variance;
 };
@@ -63,7 +63,7 @@ double SigmaOf(std::vector<AbsoluteResidual>& residuals) {
   double mean_variance = 0;
   for (const AbsoluteResidual& r : residuals)
     mean_variance += r.mean_variance / static_cast<double>(residuals.size());
-  // Where the others' noise explains all of it, a tenth is left: no count is perfect.
+  // Where the noise of the others explains all of it, a tenth is left: no count is perfect.
   return std::sqrt(std::max(total - mean_variance, 0.1 * total));
 }
 

@@ -2,30 +2,30 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/luminance/estimate_response.h"
 #include "calib/luminance/internal/response_levels.h"
+#include "calib/luminance/response.h"
 
 namespace luxfit {
 namespace {
 
 constexpr int kMaxRobertsonIterations = 200;
 constexpr double kTolerance = 1e-4;  // relative change of f, root mean square
-// Of ln f from one knot to the next.
+// Least increase of ln f from one knot to the next.
 constexpr double kLeastStep = 1e-5;
 
-// The paper's weight of a count: a Gaussian about half scale, shifted to 0 at both ends.
+// Returns the paper's weight of a count: a Gaussian about half scale, shifted to 0 at both ends.
 double Certainty(double counts, double full_scale_counts) {
   const double x = 2 * counts / full_scale_counts - 1;
   return (std::exp(-4 * x * x) - std::exp(-4.0)) / (1 - std::exp(-4.0));
 }
 
-// One count that says something.
+// Holds one count that is in range.
 struct Entry {
   LevelPosition at;
   double time, weight;
 };
 
-// Pixels with two such counts or more: one exposure alone fits any response.
+// Returns pixels with at least two such counts: one exposure alone fits any response.
 std::vector<std::vector<Entry>> EntriesOf(const std::vector<BracketSamples>& brackets, size_t channel,
                                           const ResponseOptions& options) {
   std::vector<std::vector<Entry>> pixels;
@@ -45,7 +45,7 @@ std::vector<std::vector<Entry>> EntriesOf(const std::vector<BracketSamples>& bra
   return pixels;
 }
 
-// f at the knots that occur; knots between them by interpolation, beyond them in proportion to the count.
+// Returns f at the knots that occur, interpolated between them and in proportion to the count beyond them.
 Eigen::VectorXd Filled(const Eigen::VectorXd& sum, const Eigen::VectorXd& weight,
                        const Eigen::VectorXd& before) {
   Eigen::VectorXd curve = before;
@@ -80,7 +80,7 @@ Eigen::VectorXd OneRound(const std::vector<std::vector<Entry>>& pixels, const Ei
     if (!(bottom > 0)) continue;
     for (const Entry& e : entries) {
       const double expected = e.time * top / bottom;
-      // A count between knots speaks for both, moved along the present curve to where each stands.
+      // A count between knots informs both, moved along the present curve to the place of each.
       const double here = (1 - e.at.share) * curve[e.at.below] + e.at.share * curve[e.at.below + 1];
       for (Eigen::Index side = 0; side < 2; ++side) {
         const double share = side == 0 ? 1 - e.at.share : e.at.share;
@@ -94,7 +94,7 @@ Eigen::VectorXd OneRound(const std::vector<std::vector<Entry>>& pixels, const Ei
 }
 
 Eigen::VectorXd SolveChannel(const std::vector<std::vector<Entry>>& pixels) {
-  // From a linear response, as the paper does.
+  // The iteration starts from a linear response, as in the paper.
   Eigen::VectorXd curve =
       (Eigen::VectorXd::LinSpaced(kResponseLevels, 0, kResponseLevels - 1).array() + 0.5) / kResponseLevels;
   for (int iteration = 0; iteration < kMaxRobertsonIterations; ++iteration) {

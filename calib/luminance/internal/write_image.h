@@ -1,6 +1,6 @@
-// An image file put in place whole or not at all, in the format of the path's ending.
+// Writes an image file whole or not at all, in the format of the path's ending.
 //
-// Throws std::runtime_error naming the path where it cannot be written.
+// Throws std::runtime_error, naming the path, where it cannot be written.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_WRITE_IMAGE_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_WRITE_IMAGE_H_
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kMedianOfTwo = 1.386;  // median of chi2 with two degrees of freedom, 2 ln 2
 
-// A point's residual and what the fit of the point itself leaves of its square: 2n - 3 of 2n for n views.
+// Holds a point's residual, and the share of its square that the fit of the point leaves: (2n - 3) / 2n for n
+// views.
 struct PointError {
   double squared_px = 0;
   double left = 1;
@@ -40,8 +41,9 @@ std::vector<PointError> PointErrors(const BundleContext& context, const BundleAd
   return errors;
 }
 
-// The median tells which residuals to count, the mean square of those the sigma. The fit takes 6 unknowns a
-// view out of the residuals besides, shared between points and corners as their numbers are.
+// Sets the sigma of points. The median selects the residuals that count, and their mean square gives the
+// sigma. The fit also takes 6 unknowns for each view, shared between points and corners in proportion to
+// their numbers.
 void RescalePoints(const BundleContext& context, BundleAdjustment& adjustment, double unknowns_of_views,
                    double corners) {
   const std::vector<PointError> errors = PointErrors(context, adjustment);
@@ -61,7 +63,7 @@ void RescalePoints(const BundleContext& context, BundleAdjustment& adjustment, d
     counted += 2 * error.left;
   }
   const double spare = counted * (1 - unknowns_of_views / (free + 2 * corners));
-  constexpr double kLeastSigmaPx = 0.02;  // rendered or imported without noise
+  constexpr double kLeastSigmaPx = 0.02;  // for points rendered or imported without noise
   adjustment.point_sigma_px = std::max(kLeastSigmaPx, std::sqrt(sum / std::max(1.0, spare)));
 }
 
@@ -79,7 +81,7 @@ void RescaleCorners(const BundleContext& context, BundleAdjustment& adjustment, 
   const double unknowns = unknowns_of_views * measured / std::max(1.0, measured + spare_of_points);
   const double spare = measured - unknowns;
   if (spare <= 0) return;
-  // What the fit has taken out of the residuals.
+  // Corrects for the freedom that the fit takes from the residuals.
   const double correction = measured / spare;
   adjustment.scale = std::sqrt(std::max(1.0, Median(squared) / kMedianOfTwo * correction));
   double sum = 0, count = 0;

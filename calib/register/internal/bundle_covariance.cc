@@ -14,13 +14,14 @@
 namespace luxfit {
 namespace {
 
-// The rows of one point in the normal equations: its own block, and its coupling to each other column.
+// Holds the rows of one point in the normal equations: its own block, and its coupling to each other column.
 struct PointRows {
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
   std::map<int, Eigen::Vector3d> coupling;
 };
 
-// B - E C^-1 E^T of a Jacobian whose first `kept` columns stay. Not finite where a point is undetermined.
+// Returns B - E C^-1 E^T of a Jacobian whose first `kept` columns stay. Not finite where a point is
+// undetermined.
 Eigen::MatrixXd ReducedNormalMatrix(const ceres::CRSMatrix& jacobian, int kept) {
   Eigen::MatrixXd reduced = Eigen::MatrixXd::Zero(kept, kept);
   std::vector<PointRows> points(static_cast<std::size_t>((jacobian.num_cols - kept) / 3));
@@ -60,12 +61,12 @@ Eigen::MatrixXd ReducedNormalMatrix(const ceres::CRSMatrix& jacobian, int kept) 
   return reduced;
 }
 
-// The inverse of a symmetric positive matrix, empty where it is singular to working precision.
+// Returns the inverse of a symmetric positive matrix; empty where it is singular to working precision.
 Eigen::MatrixXd InverseIfRegular(const Eigen::MatrixXd& normal) {
   if (!normal.allFinite() || normal.diagonal().minCoeff() <= 0) return {};
   const Eigen::VectorXd unit = normal.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factored(unit.asDiagonal() * normal * unit.asDiagonal());
-  constexpr double kSingular = 1e-13;  // pivots of a matrix with unit diagonal
+  constexpr double kSingular = 1e-13;  // least pivot of a matrix with unit diagonal
   if (factored.info() != Eigen::Success || factored.vectorD().minCoeff() < kSingular) return {};
   const Eigen::MatrixXd inverse = factored.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
   return unit.asDiagonal() * inverse * unit.asDiagonal();
@@ -93,7 +94,7 @@ BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdj
   if (has_frame_tag) {
     const auto first = static_cast<int>(6 * built.poses.size());
     const Eigen::MatrixXd rows = FrameRows(adjustment, built.tag_ids, first, kept);
-    constexpr double kHard = 1e3;  // against the best known unknown
+    constexpr double kHard = 1e3;  // relative to the best known unknown
     normal += kHard * normal.diagonal().maxCoeff() * rows.transpose() * rows;
   }
   const Eigen::MatrixXd inverse = InverseIfRegular(normal);

@@ -1,12 +1,12 @@
-// Covariance of a solved bundle adjustment: of every view's pose, with all else free beside it.
+// Returns the covariance of a solved bundle adjustment: of every view's pose, with all other unknowns free.
 //
 //   J^T J = [ B  E ; E^T  C ] with the points last,   Cov(poses, tags, size) = (B - E C^-1 E^T)^-1
 //
-// C is block-diagonal, 3 x 3 a point, so points cost no more than their observations; the dense inverse has 6
-// rows a view and 3 a tag. Without points the whole is scaled by the reduced chi2; with points, corners and
-// points have each been weighted by their own residuals already. Where no tag is surveyed the frame is that
-// of all tags together, see calib/register/internal/free_frame.h. Source: Triggs et al. (2000), "Bundle adjustment: a
-// modern synthesis", 6.1 and 9.
+// C is block-diagonal, 3 x 3 for each point, so points cost no more than their observations. The dense
+// inverse has 6 rows for each view and 3 for each tag. Without points the whole is scaled by the reduced
+// chi2. With points, corners and points have each been weighted by their own residuals already. Where no tag
+// is surveyed, the frame is that of all tags together (calib/register/internal/free_frame.h).
+// Source: Triggs et al. (2000), "Bundle adjustment: a modern synthesis", 6.1 and 9.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_BUNDLE_COVARIANCE_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_BUNDLE_COVARIANCE_H_
 
@@ -19,7 +19,7 @@ namespace luxfit {
 
 struct BundleCovariance {
   bool determined = false;  // false: the normal equations are singular, and the rest is empty
-  // (rotation vector in world axes, camera centre) of each active view.
+  // By active view: (rotation vector in world axes, camera centre).
   std::vector<Eigen::Matrix<double, 6, 6>> of_views;
   double size_error_sigma = 0;
 };

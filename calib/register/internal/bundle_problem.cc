@@ -32,8 +32,8 @@ void AddPoints(const BundleContext& context, BundleAdjustment& adjustment, Bundl
   }
 }
 
-// A surveyed tag may hang off its place but not turned; one that was not surveyed is where the photos put
-// it, but for the one that is the frame.
+// Frees or holds the tags. A surveyed tag may be off its place but not turned. An unsurveyed tag is where the
+// photos put it, except the one that is the frame.
 void SettleTags(const BundleContext& context, BundleAdjustment& adjustment, const std::set<int>& ids,
                 Frame frame, BundleProblem& built) {
   const bool is_surveyed = adjustment.fixed_tag < 0;

@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kAgreementFraction = 0.15;  // of a tag's side: reconstructions drift by centimetres
+constexpr double kAgreementFraction = 0.15;  // in tag sides: reconstructions drift by centimetres
 
 struct Sight {
   const BundleView* view = nullptr;
@@ -35,7 +35,7 @@ std::vector<Sight> SightsOf(const std::vector<BundleView>& views, const FeatureM
 
 double TolerancePx(const TagObservation& tag) { return 6 * tag.sigma_px + kAgreementFraction * tag.side_px; }
 
-// The point nearest to the rays of a pixel in several views; NaN where they are all but parallel.
+// Returns the point nearest to the rays of a pixel in several views; NaN where they are almost parallel.
 Eigen::Vector3d NearestToRays(const BundleContext& context, const std::vector<Sight>& sights,
                               std::size_t corner) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
@@ -48,7 +48,7 @@ Eigen::Vector3d NearestToRays(const BundleContext& context, const std::vector<Si
     normal += across;
     right += across * model_from_cam.translation();
   }
-  constexpr double kLeastParallax = 0.02;  // rad; below it depth is a guess
+  constexpr double kLeastParallax = 0.02;  // rad; below it depth is unreliable
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(normal);
   // Two rays at an angle a: the least eigenvalue is 1 - cos a.
   if (!normal.allFinite() || eigen.eigenvalues()[0] < kLeastParallax * kLeastParallax / 2) {
@@ -57,7 +57,7 @@ Eigen::Vector3d NearestToRays(const BundleContext& context, const std::vector<Si
   return normal.ldlt().solve(right);
 }
 
-// The worst of the sights' rms errors in units of their tolerance, and which one it is.
+// Returns the worst of the sights' rms errors, in units of their tolerance, and its index.
 std::pair<double, std::size_t> WorstSight(const BundleContext& context, const std::vector<Sight>& sights,
                                           const Eigen::Matrix<double, 3, 4>& corners_in_model) {
   std::pair<double, std::size_t> worst{-1, 0};
@@ -96,7 +96,7 @@ void Append(Eigen::Matrix3Xd& points, const Eigen::Matrix3Xd& more) {
 
 std::vector<Similarity> ProposalsOfTags(const std::vector<TriangulatedTag>& tags) {
   std::vector<Similarity> proposals;
-  constexpr std::size_t kMostPairs = 12;  // of a tag with those after it
+  constexpr std::size_t kMostPairs = 12;  // pairs of a tag with later ones
   for (std::size_t i = 0; i < tags.size(); ++i) {
     for (std::size_t j = i; j < std::min(tags.size(), i + kMostPairs); ++j) {
       Eigen::Matrix3Xd in_model(3, 0), in_world(3, 0);
@@ -111,7 +111,7 @@ std::vector<Similarity> ProposalsOfTags(const std::vector<TriangulatedTag>& tags
   return proposals;
 }
 
-// Two views give the scale by their distance, and each the rotation.
+// Returns the proposals of pairs of views: two views give the scale by their distance, and each the rotation.
 std::vector<Similarity> ProposalsOfViews(const std::vector<BundleView>& views, const FeatureModel& features,
                                          const std::vector<std::size_t>& view_of) {
   std::vector<std::size_t> posed;
@@ -153,7 +153,7 @@ std::vector<Sight> Agreeing(const BundleContext& context, const std::vector<Sigh
   return agreeing;
 }
 
-// One corner's part in the normal equations of (rotation vector, shift, log scale) of model_from_world.
+// Holds one corner's part in the normal equations of (rotation vector, shift, log scale) of model_from_world.
 struct Normal {
   Eigen::Matrix<double, 7, 7> left = Eigen::Matrix<double, 7, 7>::Zero();
   Eigen::Matrix<double, 7, 1> right = Eigen::Matrix<double, 7, 1>::Zero();

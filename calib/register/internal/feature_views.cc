@@ -28,7 +28,7 @@ RegistrationNote Disagrees(const BundleView& view) {
       "See whether the features matched repeated things (tiles, windows), or whether the tags were moved."};
 }
 
-// Poses of the model's views in world; false for those that keep the pose of their tags.
+// Takes the poses of the model's views in world; returns false for views that keep the pose of their tags.
 std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in_world,
                             const std::vector<std::size_t>& view_of, BundleAdjustment& adjustment,
                             std::vector<RegistrationNote>& notes) {
@@ -52,7 +52,8 @@ std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in
   return taken;
 }
 
-// Tag corners that were handed to COLMAP as features: the tag measures them already.
+// Returns whether the pixel is a tag corner that was given to COLMAP as a feature: the tag measures it
+// already.
 bool IsCornerOfTag(const BundleView& view, const Eigen::Vector2d& pixel) {
   constexpr double kSamePx = 0.02;  // pixels are rounded to floats on the way
   return std::any_of(view.tags.begin(), view.tags.end(), [&pixel](const TagObservation& tag) {

@@ -1,9 +1,12 @@
-// Features joined to the views that the tags have started: the reconstruction put into the survey's frame,
-// its views given poses and its points handed to the adjustment.
+// Joins features to the views that the tags have started.
 //
-// What the tags' start said of a view that now has a pose (no_tags, pose_ambiguous, view_disagrees) is taken
-// back. Named in `notes`: a reconstruction that cannot be placed (features_unaligned), views whose tags say
-// another pose than it (features_disagree; two tags and more that agree with each other are believed).
+// The reconstruction is put into the survey's frame, its views get poses, and its points enter the
+// adjustment.
+//
+// Notes that the tags' start made about a view that now has a pose (no_tags, pose_ambiguous, view_disagrees)
+// are withdrawn. `notes` names a reconstruction that cannot be placed (features_unaligned), and views whose
+// tags give another pose than it does (features_disagree). At least two tags that agree with each other
+// prevail.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_FEATURE_VIEWS_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_FEATURE_VIEWS_H_
 
@@ -14,7 +17,7 @@
 
 namespace luxfit {
 
-// Of each view of the model the index in `views`; those that are not there are dropped from the model.
+// Returns, for each view of the model, its index in `views`; drops from the model those that are not there.
 std::vector<std::size_t> MatchViews(const std::vector<BundleView>& views, FeatureModel& features);
 
 void JoinFeatures(const BundleContext& context, FeatureModel features, BundleAdjustment& adjustment,

@@ -11,8 +11,8 @@
 namespace luxfit {
 namespace {
 
-constexpr double kStep = 1e-3;  // of the scale: steps of poses are then far above the solver's tolerance
-constexpr int kMostSteps = 12;  // of 4 %, within a tag's tolerance of a twentieth of its side
+constexpr double kStep = 1e-3;  // in scale: steps of poses are far above the solver's tolerance
+constexpr int kMostSteps = 12;  // steps of 4 %, within a tag's tolerance of a twentieth of its side
 constexpr int kFewestTags = 4;  // fewer are no evidence against a lens
 
 std::vector<Camera> WithScale(std::vector<Camera> cameras, int camera, double scale) {
@@ -21,7 +21,7 @@ std::vector<Camera> WithScale(std::vector<Camera> cameras, int camera, double sc
   return cameras;
 }
 
-// The adjustment without features: views that see tags tell of focal lengths, and cost little.
+// Returns the adjustment without features: views that see tags determine focal lengths, and cost little.
 BundleAdjustment TagsOf(BundleAdjustment adjustment) {
   adjustment.points.clear();
   for (BundleView& view : adjustment.views) {
@@ -53,8 +53,9 @@ std::map<std::string, Eigen::Matrix<double, 6, 1>> PoseDerivatives(const BundleA
   return derivatives;
 }
 
-// Where the slope of a cost with one minimum changes its sign: Newton's step until the minimum is enclosed,
-// the secant from then on. (Far from it a robust cost is nearly linear, and Newton's steps overshoot.)
+// Brackets the place where the slope of a cost with one minimum changes its sign. Takes Newton's step until
+// the minimum is enclosed, the secant from then on. (Far from the minimum a robust cost is nearly linear, and
+// Newton's steps overshoot.)
 struct Bracket {
   std::optional<std::pair<double, double>> below, above;  // place and slope
 

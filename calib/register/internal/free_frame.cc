@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "calib/lens/internal/cross_matrix.h"
-#include "calib/register/similarity.h"
+#include "calib/register/feature_model.h"
 
 namespace luxfit {
 namespace {
 
-// One observation of each tag in use.
+// Returns one observation of each tag in use.
 std::map<int, const TagObservation*> TagsInUse(const BundleAdjustment& adjustment) {
   std::map<int, const TagObservation*> tags;
   for (const BundleView& view : adjustment.views) {

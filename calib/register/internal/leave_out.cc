@@ -10,15 +10,15 @@
 namespace luxfit {
 namespace {
 
-constexpr std::ptrdiff_t kEnoughPoints = 20;  // outvote a tag
-constexpr std::ptrdiff_t kFewestPoints = 6;   // hold a view that has no tags
+constexpr std::ptrdiff_t kEnoughPoints = 20;  // as many outvote a tag
+constexpr std::ptrdiff_t kFewestPoints = 6;   // as many hold a view that has no tags
 
 std::ptrdiff_t CountUsed(const std::vector<PointObservation>& points) {
   return std::count_if(points.begin(), points.end(), [](const PointObservation& seen) { return seen.used; });
 }
 
-// The worst tag that disagrees in every one of its views (two at least, or one where others outvote it), or
-// -1.
+// Returns the worst tag that disagrees in every one of its views (at least two, or one where others outvote
+// it); -1 where there is none.
 int WorstTag(const BundleContext& context, const BundleAdjustment& adjustment) {
   struct Record {
     double least_sigmas = std::numeric_limits<double>::infinity();
@@ -40,7 +40,7 @@ int WorstTag(const BundleContext& context, const BundleAdjustment& adjustment) {
   double worst_sigmas = context.options.max_view_rms_sigmas * adjustment.scale;
   for (const auto& [id, record] : records) {
     double sigmas = record.least_sigmas;
-    // A displacement of the survey that its own sigma cannot explain is as telling as a bad corner.
+    // A displacement that the survey's own sigma cannot explain counts as much as a bad corner.
     if (context.options.survey_sigma_m > 0 && adjustment.fixed_tag < 0) {
       sigmas =
           std::max(sigmas, adjustment.tags.at(id).displacement_m.norm() / context.options.survey_sigma_m);
@@ -67,7 +67,8 @@ BundleView* WorstView(const BundleContext& context, BundleAdjustment& adjustment
   return worst;
 }
 
-// A view with most of its points thrown out: the features put it elsewhere than its tags and the other views.
+// Returns a view with most of its points rejected: the features place it elsewhere than its tags and the
+// other views do.
 BundleView* AstrayView(BundleAdjustment& adjustment) {
   for (BundleView& view : adjustment.views) {
     if (!view.active || view.points.empty()) continue;
@@ -79,7 +80,7 @@ BundleView* AstrayView(BundleAdjustment& adjustment) {
   return nullptr;
 }
 
-// Its tags keep the view if it has any.
+// Leaves out the view's points; its tags keep the view if it has any.
 void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
   view.points.clear();
   view.active = std::count(view.used.begin(), view.used.end(), true) > 0;
@@ -89,7 +90,7 @@ void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
                    "See whether the view shows the same room, unchanged; hang a tag where it sees one."});
 }
 
-// Counts the observations of points that are within `sigmas`, and no others; whether that changed any.
+// Uses only the observations of points that are within `sigmas`; returns whether that changed any.
 bool SelectObservations(const BundleContext& context, BundleAdjustment& adjustment, double sigmas) {
   bool any = false;
   for (BundleView& view : adjustment.views) {
@@ -103,7 +104,7 @@ bool SelectObservations(const BundleContext& context, BundleAdjustment& adjustme
   return any;
 }
 
-// Beside points, corners and points each weigh as their own residuals say, which needs a solution to tell.
+// Solves with points. Corners and points each weigh by their own residuals, which needs a solution first.
 void SolveWithPoints(const BundleContext& context, BundleAdjustment& adjustment) {
   if (adjustment.points.empty()) {
     SolveBundle(context, adjustment);

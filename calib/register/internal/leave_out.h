@@ -1,4 +1,4 @@
-// Solving a bundle adjustment while leaving out what disagrees with the rest, and naming it.
+// Solves a bundle adjustment, and leaves out and names what disagrees with the rest.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_LEAVE_OUT_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_LEAVE_OUT_H_
 
@@ -8,6 +8,7 @@
 
 namespace luxfit {
 
+// Returns the note that a tag disagrees with the photos.
 RegistrationNote TagDisagrees(int id);
 
 // Solves, leaves out points' observations, then the worst tag or view, and solves again until nothing

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// What a corner may be off: its own error, the survey's seen from here, and the lens model's.
+// Returns the sigma of a corner: its own error, the survey's seen from here, and the lens model's.
 double CornerSigmaPx(const TagObservation& tag, const PoseStartOptions& options) {
   const double survey_px = options.survey_sigma_m / tag.size_m * tag.side_px;
   return std::sqrt(tag.sigma_px * tag.sigma_px + survey_px * survey_px +
@@ -28,8 +28,8 @@ double Chi2(const Camera& camera, const Eigen::Isometry3d& cam_from_world,
   return chi2;
 }
 
-// Directions of least to most extent (columns) and the mean squares along them, of points about their
-// centroid.
+// Returns the directions of least to most extent (columns) of points about their centroid, and the mean
+// squares along them.
 Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const std::vector<cv::Point3d>& points) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const cv::Point3d& p : points)
@@ -37,7 +37,8 @@ Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const std::vector<c
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter);
 }
 
-// On their best plane: OpenCV's IPPE refuses points that a survey put a millimetre off it.
+// Returns the points moved to their best plane: OpenCV's IPPE refuses points that a survey put a millimetre
+// off.
 std::vector<cv::Point3d> Flattened(std::vector<cv::Point3d> points) {
   const Eigen::Vector3d normal = PrincipalAxes(points).eigenvectors().col(0);
   for (cv::Point3d& p : points) {
@@ -47,8 +48,8 @@ std::vector<cv::Point3d> Flattened(std::vector<cv::Point3d> points) {
   return points;
 }
 
-// The methods that points of this flatness are fit for. Closer to a plane than 1/200 of their extent they
-// carry no more information across it than noise does; up to 1/20 the two poses of the plane are tried, too.
+// Returns the methods that suit points of this flatness. Closer to a plane than 1/200 of their extent, they
+// carry no more information across it than noise does. Up to 1/20 the two poses of the plane are tried, too.
 std::vector<cv::SolvePnPMethod> MethodsFor(const std::vector<cv::Point3d>& points) {
   const Eigen::Vector3d spread = PrincipalAxes(points).eigenvalues();
   const double flatness = std::sqrt(std::max(0.0, spread[0]) / spread[2]);
@@ -74,7 +75,7 @@ bool IsSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() < kSameAngle;
 }
 
-// The method's solutions, each refined; `centroid` is what the points were moved by.
+// Returns the method's solutions, each refined. `centroid` is the shift that was taken from the points.
 std::vector<Eigen::Isometry3d> Solve(const std::vector<cv::Point3d>& points,
                                      const std::vector<cv::Point2d>& rays, const Eigen::Vector3d& centroid,
                                      cv::SolvePnPMethod method) {
@@ -124,7 +125,7 @@ bool IsBetter(const Consensus& a, const Consensus& b) {
 Consensus BestPair(const Camera& camera, const std::vector<TagObservation>& tags,
                    const PoseStartOptions& options) {
   Consensus best;
-  // Where all agree no other pair can do better; the pose is fitted again to all of them anyway.
+  // Where all agree, no other pair can do better; the pose is fitted again to all of them anyway.
   const auto all = static_cast<int>(tags.size());
   for (std::size_t i = 0; i < tags.size() && best.count < all; ++i) {
     for (std::size_t j = i + 1; j < tags.size() && best.count < all; ++j) {
@@ -212,7 +213,7 @@ PoseStart EstimatePoseStart(const Camera& camera, const std::vector<TagObservati
   start.status = PoseStartStatus::kConflict;
   if (consensus.count < std::min<int>(2, static_cast<int>(tags.size()))) return start;
 
-  // The pose of a pair is too rough far from it: fit to all that agree, and see once more who does.
+  // The pose of a pair is too rough far from it: fit to all that agree, then find again which agree.
   std::vector<PoseCandidate> candidates;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {

@@ -1,11 +1,11 @@
-// A first pose of one view from its surveyed tags, proof against single wrong tags.
+// Estimates a first pose of one view from its surveyed tags, robust to single wrong tags.
 //
-// Every pair of tags proposes a pose (SQPNP, or both IPPE solutions where the pair is coplanar); the pose
-// that most tags agree with wins and is fitted again to those. A single tag proposes both IPPE solutions. Two
-// solutions are told apart only if their sums of squared normalised residuals differ by `ambiguity_chi2`.
+// Every pair of tags proposes a pose (SQPNP, or both IPPE solutions where the pair is coplanar). The pose
+// with which most tags agree is fitted again to those. A single tag proposes both IPPE solutions. Two
+// solutions are distinct only if their sums of squared normalised residuals differ by `ambiguity_chi2`.
 //
-// sigma^2 = corner's own^2 + survey's, as seen in pixels^2 + model_sigma_px^2. A tag agrees if the rms of its
-// corners is within 6 sigma + agreement_fraction * side_px.
+//   sigma^2 = corner's own^2 + survey's, as seen in pixels^2 + model_sigma_px^2
+// A tag agrees if the rms of its corners is within 6 sigma + agreement_fraction * side_px.
 //
 // Source: Terzakis and Lourakis (2020), "A consistently fast and globally optimal solution to the PnP
 // problem" (SQPNP); Collins and Bartoli (2014), "Infinitesimal plane-based pose estimation" (IPPE); Fischler
@@ -36,14 +36,14 @@ enum class PoseStartStatus { kOk, kNoTags, kAmbiguous, kConflict };
 struct PoseStart {
   PoseStartStatus status = PoseStartStatus::kNoTags;
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
-  std::vector<bool> agrees;  // of each tag; all false unless kOk
+  std::vector<bool> agrees;  // by tag; all false unless kOk
   double rival_chi2 = 0;     // how much worse the second solution fits; infinity if there is none
 };
 
 struct PoseStartOptions {
   double survey_sigma_m = 0;
   double model_sigma_px = 0.05;      // lens model; refined corners are better than it
-  double agreement_fraction = 0.05;  // of the tag's side: 1 cm of a 0.2 m tag
+  double agreement_fraction = 0.05;  // in tag sides: 1 cm for a 0.2 m tag
   double ambiguity_chi2 = 16;        // 4 sigma
 };
 
@@ -52,16 +52,18 @@ struct PoseCandidate {
   double chi2 = 0;
 };
 
-// Every distinct local solution for these tags, best first: two where one plane allows two.
+// Returns every distinct local solution for these tags, best first: two where one plane allows two.
 std::vector<PoseCandidate> PoseCandidates(const Camera& camera, const std::vector<TagObservation>& tags,
                                           const PoseStartOptions& options);
 
+// Estimates the pose; `status` says why there is none.
 PoseStart EstimatePoseStart(const Camera& camera, const std::vector<TagObservation>& tags,
                             const PoseStartOptions& options);
 
 Eigen::Vector3d TagCenter(const TagObservation& tag);  // in world
 
-// rms over the corners of |Project(pose * corner) - corner_px|, px; infinity if one is behind the camera.
+// Returns the rms over the corners of |Project(pose * corner) - corner_px|, px; infinity if one is behind the
+// camera.
 double TagRmsPx(const Camera& camera, const Eigen::Isometry3d& cam_from_world, const TagObservation& tag);
 
 }  // namespace luxfit

@@ -11,7 +11,7 @@ using RowMajor23 = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
 using RowMajor24 = Eigen::Matrix<double, 2, 4, Eigen::RowMajor>;
 using RowMajor27 = Eigen::Matrix<double, 2, 7, Eigen::RowMajor>;
 
-// d(value)/d(q) for a derivative by v of value(R(q) v'), v = R(q) v': exp(w) on the left of R moves v by
+// Returns d(value)/d(q) from a derivative d_v by v, for v = R(q) v'. exp(w) on the left of R moves v by
 // w x v = -[v]x w, w = 2 delta with delta the manifold's tangent. d q / d delta = (delta, 0) * q has
 // orthonormal columns, so its transpose carries the derivative to q.
 RowMajor24 ByRotation(const RowMajor23& d_v, const Eigen::Vector3d& v, const Eigen::Quaterniond& q) {
@@ -20,8 +20,8 @@ RowMajor24 ByRotation(const RowMajor23& d_v, const Eigen::Vector3d& v, const Eig
   return -2 * d_v * CrossMatrix(v) * d_q.transpose();
 }
 
-// Residual of a world point seen from a pose; its derivative by the point into `d_point`, by the pose into
-// `d_pose` where there is one. False where the point has no image.
+// Sets the residual of a world point seen from a pose. Writes its derivative by the point to `d_point`, by
+// the pose to `d_pose` where there is one. Returns false where the point has no image.
 bool Residual(const Camera& camera, const MeasuredPixel& measured, const double* pose,
               const Eigen::Vector3d& p_in_world, double* residuals, RowMajor23& d_point, double* d_pose) {
   const Eigen::Map<const Eigen::Quaterniond> world_from_cam(pose);

@@ -1,4 +1,4 @@
-// Costs of the bundle adjustment, with analytic derivatives.
+// Defines the costs of the bundle adjustment, with analytic derivatives.
 //
 //   p_in_cam = R(q)^T (p_in_world - c),   r = (Project(p_in_cam) - pixel) / sigma_px
 //   corner of a tag:  p_in_world = m + d + (1 + e) R(t) a
@@ -6,13 +6,13 @@
 //
 // (q, c): pose of the view: world_from_cam rotation, Eigen's coefficient order x y z w, then the camera
 // centre in world (m); seven numbers on PoseManifold. m: surveyed centre of the tag, a: the corner from
-// there, world axes; d: displacement of the tag (m); t: its turn, a quaternion as q; e: relative error of the
+// there, world axes. d: displacement of the tag (m). t: its turn, a quaternion as q. e: relative error of the
 // printed size, one for all tags. World coordinates throughout, so that the covariance of (q, c) is that of
 // the camera centre without further algebra. The manifold's tangent is *half* a rotation vector in world
 // axes.
 //
 // A point that is not in front of the camera has no projection: Evaluate fails and the solver shortens its
-// step. Cameras are referred to, not copied: they outlive the problem.
+// step. Cameras are referred to, not copied: they must outlive the problem.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_REPROJECTION_COST_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_REPROJECTION_COST_H_
 
@@ -28,7 +28,7 @@ namespace luxfit {
 
 using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 
-// A pixel and its standard deviation per axis.
+// Holds a pixel and its standard deviation per axis.
 struct MeasuredPixel {
   Eigen::Vector2d pixel;
   double sigma_px = 1;

@@ -21,7 +21,8 @@ int CountTags(const std::vector<BundleView>& views) {
   return tags;
 }
 
-// Tags that agree with two others' pose or more than that: any two tags of one plane nearly agree on some.
+// Counts the tags that agree, in views where at least three do (all, if fewer are seen): any two tags of one
+// plane nearly agree on some pose.
 int CountAgreeing(const BundleContext& context, const std::map<int, SurveyedTag>& survey,
                   const std::vector<BundleView>& views, const Change& change) {
   PoseStartOptions options;
@@ -90,11 +91,11 @@ std::vector<Hypothesis> Hypotheses() {
   return hypotheses;
 }
 
-// The factor on all sizes under which `needed` tags agree, from 1 outwards and among units taken for others;
-// the middle of those that do, a step apart.
+// Returns the factor on all sizes under which `needed` tags agree, searched from 1 outwards and among units
+// taken for others. The result is the middle of adjacent factors that agree.
 std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agreeing, int needed) {
   constexpr double kStep = 1.04;  // within a tag's tolerance of a twentieth of its side
-  constexpr double kMost = 3.2;   // past it sizes are wrong by a unit
+  constexpr double kMost = 3.2;   // beyond it sizes are wrong by a unit
   for (const double step : {kStep, 1 / kStep}) {
     double log_sum = 0, found = 0;
     for (double factor = step; factor < kMost && factor > 1 / kMost; factor *= step) {

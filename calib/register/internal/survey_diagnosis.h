@@ -1,9 +1,11 @@
-// What is wrong with a tag survey that the photos contradict as a whole.
+// Diagnoses a tag survey that the photos contradict as a whole.
 //
-// The survey is changed the ways in which surveys go wrong, and the change under which the views' tags agree
-// is the diagnosis: mirrored (a left-handed frame, two axes swapped), normals into the wall, every tag turned
-// in its plane (another library's idea of "up"), all sizes wrong by one factor (another printout, another
-// unit). A tag agrees if it does with the pose that its view's tags give, see calib/register/internal/pose_start.h.
+// The survey is changed in the ways in which surveys go wrong; the change under which the views' tags agree
+// is the diagnosis:
+//   mirrored (a left-handed frame, two axes swapped), normals into the wall,
+//   every tag turned in its plane (another library's convention of "up"),
+//   all sizes wrong by one factor (another printout, another unit).
+// A tag agrees if it agrees with the pose that its view's tags give (calib/register/internal/pose_start.h).
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_SURVEY_DIAGNOSIS_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_SURVEY_DIAGNOSIS_H_
 
@@ -15,7 +17,8 @@
 
 namespace luxfit {
 
-// Nothing where most tags agree with the survey as it is, or no change makes most of them agree.
+// Returns the diagnosis. Returns nothing where most tags agree with the survey as it is, or no change makes
+// most of them agree.
 std::optional<RegistrationNote> DiagnoseSurvey(const BundleContext& context,
                                                const std::map<int, SurveyedTag>& survey,
                                                const std::vector<BundleView>& views);

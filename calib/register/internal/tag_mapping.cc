@@ -21,7 +21,7 @@ SurveyedTag TagAtOrigin(int id, double size_m) {
   return {id, size_m, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()};
 }
 
-// Views with every tag at the origin of its own frame.
+// Returns views with every tag at the origin of its own frame.
 std::vector<BundleView> UnplacedViews(const BundleContext& context,
                                       const std::vector<ViewDetections>& detections) {
   std::map<int, SurveyedTag> survey;
@@ -33,8 +33,8 @@ std::vector<BundleView> UnplacedViews(const BundleContext& context,
   return ViewsOf(context, survey, detections, said_later);
 }
 
-// Chains of poses are off by millimetres before they are adjusted together, but not so the corners of one
-// tag.
+// Returns options for starts. Chains of poses are off by millimetres before they are adjusted together; the
+// corners of one tag are not.
 PoseStartOptions StartOptions(std::size_t tags) {
   PoseStartOptions options;
   options.survey_sigma_m = tags > 1 ? 0.005 : 0;
@@ -63,7 +63,7 @@ class Mapping {
   }
 
  private:
-  // The tag whose pose most views can tell by it alone; ties go to the lower id.
+  // Returns the tag whose pose most views determine by it alone; ties go to the lower id.
   int FrameTag() const {
     std::map<int, int> told;
     for (const BundleView& view : views_) {
@@ -102,7 +102,8 @@ class Mapping {
     return any;
   }
 
-  // How a placed tag fits the views that see it, each capped so that one bad detection cannot decide.
+  // Returns how badly a placed tag fits the views that see it, each capped so that no bad detection decides
+  // alone.
   double Cost(const SurveyedTag& tag) const {
     double cost = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
@@ -118,7 +119,7 @@ class Mapping {
     return cost;
   }
 
-  // The best place of an unplaced tag, if it is told from the second best.
+  // Returns the best place of an unplaced tag, if it is distinct from the second best.
   std::optional<SurveyedTag> Place(int id) const {
     std::vector<std::pair<double, SurveyedTag>> places;
     for (std::size_t v = 0; v < views_.size(); ++v) {
@@ -165,7 +166,7 @@ class Mapping {
     return any;
   }
 
-  // Chains bend: everything placed so far is adjusted together before more is hung on to it.
+  // Adjusts all that is placed so far together before more is added, since chains of poses bend.
   void Adjust() {
     BundleAdjustment adjustment;
     adjustment.fixed_tag = placed_.begin()->first;
@@ -191,7 +192,7 @@ class Mapping {
     }
   }
 
-  // More views may tell that a tag was taken for its other pose, or a view for its.
+  // Revises places: more views may show that a tag was taken in its other pose, or a view in its.
   void Revise() {
     for (auto& [id, tag] : placed_) {
       const std::optional<SurveyedTag> again = Place(id);
@@ -213,7 +214,7 @@ class Mapping {
   std::map<int, SurveyedTag> placed_;
 };
 
-// Tags triangulated between the views of a reconstruction, scaled by their size.
+// Returns tags triangulated between the views of a reconstruction, scaled by their size.
 TagMap MapByFeatures(const BundleContext& context, const std::vector<BundleView>& views,
                      FeatureModel features) {
   const std::vector<std::size_t> view_of = MatchViews(views, features);
@@ -251,7 +252,7 @@ SurveyedTag TagOfCorners(int id, const std::array<Eigen::Vector3d, 4>& corners) 
                         up = corners[0] + corners[1] - corners[2] - corners[3];
   tag.size_m = (right.norm() + up.norm()) / 4;
   tag.normal_in_world = right.cross(up).normalized();
-  // What is left of a skew is shared between right and up.
+  // The remaining skew is shared between right and up.
   tag.up_in_world = (up.normalized() + tag.normal_in_world.cross(right.normalized())).normalized();
   return tag;
 }

@@ -1,10 +1,11 @@
-// Where tags hang that nobody surveyed, from their size and the photos alone.
+// Finds the places of unsurveyed tags from their size and the photos alone.
 //
-// From tag to view to tag: a view is placed by the tags that are, a tag by the views that are (both poses
-// that one square allows, the one that all its views agree on). Where features are given, tags are
+// The map grows from tag to view to tag: placed tags place a view, placed views place a tag. One square
+// allows two poses; the one that all views of the tag agree on is taken. Where features are given, tags are
 // triangulated in their frame instead if that places more of them: features connect views that share no tag.
-// The frame is that of one tag, the one that most views can tell the pose of: origin at its centre, x along
-// its normal, z along its up. Scale is the tags' size.
+//
+// The frame is that of one tag, whose pose most views determine: origin at its centre, x along its normal, z
+// along its up. Scale is the tags' size.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_TAG_MAPPING_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_TAG_MAPPING_H_
 
@@ -20,17 +21,18 @@ namespace luxfit {
 struct TagMap {
   std::vector<SurveyedTag> tags;
   int frame_tag = -1;                                       // -1: no tag could be placed
-  std::map<std::string, Eigen::Isometry3d> cam_from_world;  // of the views that the tags place, by name
+  std::map<std::string, Eigen::Isometry3d> cam_from_world;  // views that the tags place, by name
 };
 
+// Returns the map of the tags; `frame_tag` -1 where no tag could be placed.
 TagMap MapTags(const BundleContext& context, const std::vector<ViewDetections>& detections,
                const FeatureModel& features);
 
-// Takes the tags that are not in the map out of the detections, and names them.
+// Removes from the detections the tags that are not in the map, and names them.
 std::vector<ViewDetections> OnlyPlaced(const TagMap& map, const std::vector<ViewDetections>& detections,
                                        std::vector<RegistrationNote>& notes);
 
-// The square nearest to four corners in the house's order, of the size of their mean side.
+// Returns the square nearest to four corners in the project's order, of the size of their mean side.
 SurveyedTag TagOfCorners(int id, const std::array<Eigen::Vector3d, 4>& corners);
 
 }  // namespace luxfit

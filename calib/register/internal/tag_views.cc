@@ -59,7 +59,7 @@ std::vector<TagObservation> Without(const std::vector<TagObservation>& tags, con
   return kept;
 }
 
-// The pose that each view's own tags give, all of them counted.
+// Returns the pose that each view's own tags give, with all of them counted.
 std::vector<PoseStart> StartsOf(const BundleContext& context, const std::vector<BundleView>& views,
                                 const PoseStartOptions& options) {
   std::vector<PoseStart> starts;
@@ -69,7 +69,8 @@ std::vector<PoseStart> StartsOf(const BundleContext& context, const std::vector<
   return starts;
 }
 
-// Tags that more views contradict than confirm, each view having agreed on a pose by two tags or more.
+// Returns the tags that more views contradict than confirm, by views in which at least two tags agree on a
+// pose.
 std::set<int> FindMovedTags(const std::vector<BundleView>& views, const std::vector<PoseStart>& starts) {
   std::map<int, int> balance;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -87,13 +88,13 @@ std::set<int> FindMovedTags(const std::vector<BundleView>& views, const std::vec
   return moved;
 }
 
-// Where a view whose other tags give its pose sees a tag, by its size alone.
+// Returns the place of a tag by its size alone, seen from a view whose other tags give its pose.
 Eigen::Vector3d PlaceSeen(const BundleContext& context, const BundleView& view, const PoseStart& start,
                           const TagObservation& tag, const PoseStartOptions& options) {
   TagObservation alone = tag;
   const Eigen::Vector3d center = TagCenter(tag);
   for (Eigen::Vector3d& corner : alone.corners_in_world) corner -= center;
-  // The two poses of a plane that may be confused have the same centre, all but.
+  // The two poses of a plane that may be confused have almost the same centre.
   const PoseStart of_tag = EstimatePoseStart(context.CameraOf(view), {alone}, options);
   return start.cam_from_world.inverse() * of_tag.cam_from_world.translation();
 }
@@ -104,7 +105,8 @@ struct Sighting {
   double distance_m = 0;
 };
 
-// The sightings of one tag that contradict its survey, from views that two other tags and more have placed.
+// Returns the sightings of each tag that contradict its survey, from views that at least two other tags
+// place.
 std::map<int, std::vector<Sighting>> Contradictions(const BundleContext& context,
                                                     const std::vector<BundleView>& views,
                                                     const std::vector<PoseStart>& starts,
@@ -126,12 +128,12 @@ std::map<int, std::vector<Sighting>> Contradictions(const BundleContext& context
   return sightings;
 }
 
-// The views of two sightings or more that see the tag in the same other place.
+// Returns the views of the sightings that see the tag where the first one does.
 std::vector<std::string> ViewsOfOnePlace(const std::vector<Sighting>& sightings) {
   std::vector<std::string> views{sightings.front().view};
   for (std::size_t i = 1; i < sightings.size(); ++i) {
     const double apart_m = (sightings[i].center_in_world - sightings.front().center_in_world).norm();
-    constexpr double kPart = 0.05;  // of the distance: what a tag's size tells of its place
+    constexpr double kPart = 0.05;  // error of a place from a tag's size, over the distance
     if (apart_m < kPart * (sightings[i].distance_m + sightings.front().distance_m))
       views.push_back(sightings[i].view);
   }
@@ -145,7 +147,7 @@ std::string PlaceText(const Eigen::Vector3d& place) {
   return text.str();
 }
 
-// Tags that hang where the survey says and in a second place too.
+// Names tags that hang where the survey says and also in a second place.
 void NameCopies(const BundleContext& context, const std::vector<BundleView>& views,
                 const std::vector<PoseStart>& starts, const std::set<int>& moved,
                 const PoseStartOptions& options, std::vector<RegistrationNote>& notes) {

@@ -1,7 +1,7 @@
-// Views as the adjustment takes them, started from the tags they show.
+// Makes the views of the adjustment, started from the tags that they show.
 //
-// Tags seen twice in a view, tags that the survey has not, tags that more views contradict than confirm and
-// views whose tags give no pose are named in `notes`.
+// `notes` names tags seen twice in a view, tags that the survey does not have, and tags that more views
+// contradict than confirm. It also names views whose tags give no pose.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_TAG_VIEWS_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_TAG_VIEWS_H_
 
@@ -13,20 +13,21 @@
 
 namespace luxfit {
 
-// By id. Throws std::invalid_argument for ids that appear twice and sizes that are not positive.
+// Returns the survey by id. Throws std::invalid_argument for ids that appear twice and sizes that are not
+// positive.
 std::map<int, SurveyedTag> IndexSurvey(const std::vector<SurveyedTag>& survey);
 
-// One inactive view per entry of `detections`, with the surveyed tags it shows.
+// Returns one inactive view for each entry of `detections`, with the surveyed tags it shows.
 std::vector<BundleView> ViewsOf(const BundleContext& context, const std::map<int, SurveyedTag>& survey,
                                 const std::vector<ViewDetections>& detections,
                                 std::vector<RegistrationNote>& notes);
 
-// A pose for every view whose tags give one; `used` says which agree with it. A tag that hangs in two places
-// (an id used twice) is used where it agrees with the survey.
+// Gives a pose to every view whose tags determine one; `used` marks those that agree with it. A tag that
+// hangs in two places (an id used twice) is used where it agrees with the survey.
 void StartViews(const BundleContext& context, std::vector<BundleView>& views,
                 std::vector<RegistrationNote>& notes);
 
-// Takes back what StartViews said of a view that has a pose after all.
+// Withdraws the notes of StartViews about a view that has a pose after all.
 void DropStartNotes(const std::string& view, std::vector<RegistrationNote>& notes);
 
 }  // namespace luxfit

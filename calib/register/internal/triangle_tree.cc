@@ -7,7 +7,7 @@
 namespace luxfit {
 namespace {
 
-// By the region of the triangle's plane that the point's foot falls into.
+// Returns the nearest point, by the region of the triangle's plane into which the point's foot falls.
 Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;

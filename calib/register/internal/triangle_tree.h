@@ -1,4 +1,5 @@
-// Nearest point on a set of triangles: a tree of boxes, halved at the median of the longest side.
+// Finds the nearest point on a set of triangles: a tree of boxes, halved at the median of the longest side.
+//
 // Source: Ericson (2005), "Real-time collision detection", 5.1.5 (point and triangle).
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_
@@ -17,16 +18,16 @@ struct NearestPoint {
 
 class TriangleTree {
  public:
-  // A column of `triangles` has the indices of three columns of `vertices`; there is one at least.
+  // A column of `triangles` has the indices of three columns of `vertices`. At least one triangle is needed.
   TriangleTree(const Eigen::Matrix3Xd& vertices, const Eigen::Matrix3Xi& triangles);
   NearestPoint Nearest(const Eigen::Vector3d& p) const;
-  Eigen::Vector3d Normal(int triangle) const;  // unit; zero of a triangle without area
+  Eigen::Vector3d Normal(int triangle) const;  // unit; zero for a triangle without area
 
  private:
   struct Node {
     Eigen::AlignedBox3d box;
     int left = -1, right = -1;  // nodes
-    int begin = 0, end = 0;     // of a leaf: order_[begin, end)
+    int begin = 0, end = 0;     // leaves: order_[begin, end)
   };
   int Build(int begin, int end);
   void Search(int node, const Eigen::Vector3d& p, NearestPoint& best) const;

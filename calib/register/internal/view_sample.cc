@@ -5,7 +5,7 @@
 namespace luxfit {
 
 std::vector<BundleView> SampleOf(const std::vector<BundleView>& views) {
-  // More would not change a verdict, and every change is tried on all of them.
+  // More would not change a verdict, and every hypothesis is tested on all of them.
   constexpr std::size_t kMostViews = 4, kMostTags = 4;
   std::vector<BundleView> sample;
   for (const BundleView& view : views) {

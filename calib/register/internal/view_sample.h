@@ -1,4 +1,4 @@
-// A few views and tags that stand for all, where one question after another is put to them.
+// Samples a few views and tags that represent all, where many hypotheses are tested.
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_VIEW_SAMPLE_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_VIEW_SAMPLE_H_
 
@@ -8,7 +8,7 @@
 
 namespace luxfit {
 
-// The four views with most tags (two or more), each with its four largest.
+// Returns the four views with most tags (at least two), each with its four largest.
 std::vector<BundleView> SampleOf(const std::vector<BundleView>& views);
 
 }  // namespace luxfit

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <opencv2/aruco.hpp>
+#include <utility>
 
+#include "calib/luminance/median.h"
 #include "calib/targets/internal/find_tags.h"
 #include "calib/targets/internal/grid_corners.h"
 #include "calib/targets/internal/homography.h"
@@ -16,14 +18,14 @@
 namespace luxfit {
 namespace {
 
-// Longer sides of the photo in which tags are looked for, the second only where the first shows less than
-// half of the board.
+// Longer sides of the photo in which tags are searched for. The second is used only where the first shows
+// less than half of the board.
 constexpr std::array<int, 2> kLongestPx = {1600, 3200};
 constexpr double kMostSpacingError = 0.04;  // tag sizes
-constexpr std::size_t kLeastGaps = 4;       // for a measured spacing to be believed
-constexpr double kLeastAgreeing = 0.6;      // of the tags found
+constexpr std::size_t kLeastGaps = 4;       // least count for a measured spacing
+constexpr double kLeastAgreeing = 0.6;      // share of the tags found
 
-// OpenCV's dictionary of a family; empty where it has none.
+// Returns OpenCV's dictionary of a family; empty where OpenCV has none.
 cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& family) {
   if (family == "tag36h11") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
   if (family == "tag36h10") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h10);
@@ -32,11 +34,11 @@ cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& family) {
   return {};
 }
 
-// How ids and tags may stand on a printed grid: the first id at any corner, rows first, tags turned by any
-// number of quarters.
+// Describes how ids and tags are placed on a printed grid: the first id at any corner, rows first, tags
+// turned by any number of quarters.
 struct Numbering {
   bool is_from_bottom = true, is_from_left = true;
-  std::size_t turn = 0;  // the tag's own top-left corner is that one of its square on the board
+  std::size_t turn = 0;  // corner of its square on the board at which the tag's own top-left lies
 };
 
 TagGrid Layout(const Board& board, const Numbering& numbering) {
@@ -64,7 +66,7 @@ struct SeenGrid {
   TagGrid grid;
   std::vector<SeenTag> tags;
   int border_bits = 1;
-  std::size_t found = 0;  // tags of the board's ids, at whatever place
+  std::size_t found = 0;  // tags with ids of the board, at any place
 };
 
 std::vector<SeenTag> TagsOfBoard(const std::vector<FoundTag>& found, const Board& board) {
@@ -76,7 +78,7 @@ std::vector<SeenTag> TagsOfBoard(const std::vector<FoundTag>& found, const Board
   return tags;
 }
 
-// The numbering in which most tags agree; Kalibr's where none does better.
+// Returns the numbering in which most tags agree; Kalibr's where no other does better.
 SeenGrid BestLayout(const std::vector<SeenTag>& found, const Board& board) {
   SeenGrid best;
   const std::vector<TagFrame> frames = FramesOf(found);
@@ -127,7 +129,8 @@ SeenGrid FindGrid(const ImagePlane& grey, const Board& board) {
   return best;
 }
 
-// The gap between black squares as the photo shows it, in tag sizes; NaN where too few neighbours are seen.
+// Returns the gap between black squares as the photo shows it, in tag sizes; NaN where too few neighbours are
+// seen.
 double MeasuredSpacing(const SeenGrid& seen, const Board& board) {
   std::vector<double> gaps;
   const double pitch_m = board.tag_size_m * (1 + board.spacing);
@@ -145,9 +148,7 @@ double MeasuredSpacing(const SeenGrid& seen, const Board& board) {
     }
   }
   if (gaps.size() < kLeastGaps) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return *middle;
+  return Quantile(std::move(gaps), 0.5);
 }
 
 std::string Text(double value) {
@@ -168,8 +169,8 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
   return "";
 }
 
-// Large tags in a lens that bends them look further apart, or nearer, than they are: its bending is taken
-// out.
+// Says why the photo contradicts the board's spacing; empty where it does not. Distortion makes large tags
+// look further apart, or nearer, than they are, so it is removed first.
 std::string WhyNotThisSpacing(const ImagePlane& grey, const SeenGrid& seen, const Board& board) {
   std::vector<Eigen::Vector2d> places_m, pixels;
   for (const SeenTag& tag : seen.tags) {

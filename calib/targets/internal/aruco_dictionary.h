@@ -1,4 +1,4 @@
-// OpenCV's marker dictionaries by name ("DICT_4X4_50").
+// Returns OpenCV's marker dictionaries by name ("DICT_4X4_50").
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_ARUCO_DICTIONARY_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_ARUCO_DICTIONARY_H_
 
@@ -7,7 +7,7 @@
 
 namespace luxfit {
 
-// Throws std::invalid_argument naming the known ones.
+// Throws std::invalid_argument, naming the known dictionaries, for an unknown name.
 cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name);
 
 }  // namespace luxfit

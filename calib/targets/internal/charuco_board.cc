@@ -14,17 +14,17 @@
 namespace luxfit {
 namespace {
 
-// Longer sides of the photo in which markers are looked for, the second only where the first shows less than
-// half of them.
+// Longer sides of the photo in which markers are searched for. The second is used only where the first shows
+// less than half of them.
 constexpr std::array<int, 2> kCharucoLongestPx = {1600, 3200};
 constexpr std::size_t kNearPoints = 12;
 constexpr double kReachSquares = 2.5;
 
-// Squares that hold markers: those whose column + row is odd (the top-left square is black, as everywhere
-// since OpenCV 4.7) or even (OpenCV 4.6 where the number of rows is even).
+// Holds the squares that carry markers: those whose column + row is odd (the top-left square is black, as
+// everywhere since OpenCV 4.7) or even (OpenCV 4.6 where the number of rows is even).
 struct CharucoLayout {
   TagGrid markers;
-  std::vector<Eigen::Vector2i> squares;  // of each marker: column, row
+  std::vector<Eigen::Vector2i> squares;  // by marker: column, row
   int parity = 1;
 };
 
@@ -75,7 +75,7 @@ SeenCharuco FindMarkers(const ImagePlane& grey, const Board& board) {
   return best;
 }
 
-// Everything that is known so far of where the board lies in the photo: corners of found markers and measured
+// Holds all that is known so far about the board's place in the photo: corners of found markers, and measured
 // inner corners.
 class CharucoTracer {
  public:
@@ -93,8 +93,8 @@ class CharucoTracer {
     }
   }
 
-  // Measures corners beside seen markers and looks for markers beside measured corners until neither finds
-  // more.
+  // Measures corners beside seen markers, and searches for markers beside measured corners, until neither
+  // adds any.
   const std::map<int, Saddle>& Trace() {
     while (MeasureCorners() && LookForMarkers()) {
     }
@@ -134,7 +134,7 @@ class CharucoTracer {
     pixels_.push_back(saddle->pixel);
   }
 
-  // Whether any new one was found.
+  // Returns whether any new one was found.
   bool MeasureCorners() {
     const std::size_t before = corners_.size();
     for (std::size_t i = 0; i < is_marker_seen_.size(); ++i) {

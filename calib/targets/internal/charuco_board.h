@@ -1,8 +1,8 @@
-// ChArUco boards in photos.
+// Finds ChArUco boards in photos.
 //
-// OpenCV 4.6 interpolates the inner corners half a pixel off; here markers only say where a corner must be,
-// and the saddle found there is the corner. Which squares hold the markers (it differs with OpenCV's version
-// on boards of an even number of rows) is what most markers agree on.
+// OpenCV 4.6 interpolates the inner corners half a pixel off. Here markers only tell where a corner must be,
+// and the saddle found there is the corner. Which squares hold the markers differs with OpenCV's version on
+// boards of an even number of rows; most markers decide.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_CHARUCO_BOARD_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_CHARUCO_BOARD_H_
 
@@ -10,7 +10,7 @@
 
 namespace luxfit {
 
-// The board must be a charuco that BoardCorners accepts, the plane not empty.
+// Detects the board, which must be a charuco that BoardCorners accepts. The plane must not be empty.
 BoardDetection DetectCharuco(const ImagePlane& grey, const Board& board);
 
 }  // namespace luxfit

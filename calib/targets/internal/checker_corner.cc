@@ -11,8 +11,8 @@ namespace luxfit {
 namespace {
 
 constexpr double kWindowShare = 0.9;
-constexpr double kMostWindowPx = 12;    // more pixels gain nothing, and lens and perspective bend edges
-constexpr double kLeastContrast = 0.1;  // of white: less is no ink on paper
+constexpr double kMostWindowPx = 12;    // more pixels add nothing; lens and perspective bend edges
+constexpr double kLeastContrast = 0.1;  // relative to white: less is no ink on paper
 
 bool HasItsColours(const ImagePlane& grey, const Eigen::Matrix3d& pixel_from_board,
                    const CheckerCorner& corner) {

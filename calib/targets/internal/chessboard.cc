@@ -11,12 +11,12 @@
 namespace luxfit {
 namespace {
 
-// Longer sides of the photo in which each of OpenCV's two detectors looks: the first is fast and finds most
-// boards, the second finds blurred and oblique ones.
+// Longer sides of the photo in which each of OpenCV's two detectors searches. The first is fast and finds
+// most boards; the second finds blurred and oblique ones.
 constexpr int kFastLongestPx = 800, kRobustLongestPx = 1200;
 constexpr double kClearSquares = 0.45;  // the outermost squares of some prints are half as wide
 
-// Rows of corners, as many as the board has; pixels of the full photo.
+// Holds rows of corners, as many as the board has; pixels of the full photo.
 struct CornerGrid {
   int columns = 0, rows = 0;
   std::vector<Eigen::Vector2d> pixels;  // row by row
@@ -27,7 +27,7 @@ struct CornerGrid {
   }
 };
 
-// The same corners numbered from another one of the four ends, or along columns first.
+// Returns the same corners numbered from another one of the four ends, or along columns first.
 CornerGrid Renumbered(const CornerGrid& grid, bool flip_columns, bool flip_rows, bool transpose) {
   CornerGrid other{grid.columns, grid.rows, {}};
   other.pixels.reserve(grid.pixels.size());
@@ -58,17 +58,18 @@ CornerGrid FindCorners(const ImagePlane& grey, const Board& board) {
   return grid;
 }
 
-// x along rows, y along columns: seen from the front these turn clockwise in the photo, as its own axes do.
+// Returns whether rows (x) and columns (y) turn clockwise in the photo, as its own axes do: the front is
+// seen.
 bool IsFromTheFront(const CornerGrid& grid) {
   const Eigen::Vector2d right = grid.At(grid.columns - 1, 0) - grid.At(0, 0);
   const Eigen::Vector2d down = grid.At(0, grid.rows - 1) - grid.At(0, 0);
   return right.x() * down.y() - right.y() * down.x() > 0;
 }
 
-// Grey of the square at the outside of the first corner, over the mean of its two neighbours'.
+// Returns whether the square outside the first corner is black, by the mean greys of both colours.
 bool IsFirstSquareBlack(const ImagePlane& grey, const CornerGrid& grid) {
   double black = 0, white = 0;
-  // Inside the corners, where the photo shows squares for certain: (1, 1) has the first one's colour.
+  // Only squares inside the corners are certain to be in the photo: (1, 1) has the first one's colour.
   for (int row = 0; row + 1 < grid.rows; ++row) {
     for (int column = 0; column + 1 < grid.columns; ++column) {
       const Eigen::Vector2d middle = (grid.At(column, row) + grid.At(column + 1, row) +
@@ -76,7 +77,7 @@ bool IsFirstSquareBlack(const ImagePlane& grey, const CornerGrid& grid) {
                                      4;
       const double value = SampleBilinear(grey, middle);
       if (!std::isfinite(value)) continue;
-      // Of both colours there are about as many; the difference of the sums decides.
+      // The squares divide about equally between the two colours, so the difference of the sums decides.
       ((column + row) % 2 == 0 ? black : white) += value;
     }
   }
@@ -85,7 +86,7 @@ bool IsFirstSquareBlack(const ImagePlane& grey, const CornerGrid& grid) {
   return black / blacks < white / whites;
 }
 
-// The numbering that the header promises.
+// Returns the numbering that the header states.
 CornerGrid Oriented(const ImagePlane& grey, const CornerGrid& grid) {
   CornerGrid best;
   double best_right = 0;
@@ -107,7 +108,7 @@ CornerGrid Oriented(const ImagePlane& grey, const CornerGrid& grid) {
   return best;
 }
 
-// Board to pixels about one corner, from it and its neighbours.
+// Returns the map from board to pixels about one corner, from it and its neighbours.
 std::optional<Eigen::Matrix3d> PixelFromBoardNear(const CornerGrid& grid, int column, int row,
                                                   double square_m) {
   std::vector<Eigen::Vector2d> from, to;

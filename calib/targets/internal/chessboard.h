@@ -1,9 +1,9 @@
-// Chessboards in photos, seen whole.
+// Finds chessboards in photos that show them whole.
 //
-// Corners are numbered so that the square at the outside of the first one is black, where that tells the
-// board from itself turned by 180 degrees (one count of inner corners odd, the other even). Where it does
-// not, the row that points right in the photo is taken: then all cameras of a rig must be upright, and photos
-// not turned by more than 90 degrees.
+// Corners are numbered so that the square outside the first one is black. That tells the board from itself
+// turned by 180 degrees where one count of inner corners is odd and the other even. Otherwise the row that
+// points right in the photo is chosen. Then all cameras of a rig must be upright, and photos not turned by
+// more than 90 degrees.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_CHESSBOARD_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_CHESSBOARD_H_
 
@@ -11,7 +11,7 @@
 
 namespace luxfit {
 
-// The board must be a chessboard that BoardCorners accepts, the plane not empty.
+// Detects the board, which must be a chessboard that BoardCorners accepts. The plane must not be empty.
 BoardDetection DetectChessboard(const ImagePlane& grey, const Board& board);
 
 }  // namespace luxfit

@@ -16,10 +16,10 @@ constexpr double kLeastStrayPx = 0.3, kMedians = 6;
 
 struct Placed {
   Eigen::Vector2d place_m;
-  int tag = 0;  // corners of one tag share it
+  int tag = 0;  // same for the corners of one tag
 };
 
-// By corner number.
+// Returns the places of the corners, by corner number.
 std::vector<Placed> PlacesOf(const Board& board) {
   const Eigen::Array2i counts = BoardCornerCounts(board);
   std::vector<Placed> places;
@@ -33,7 +33,7 @@ std::vector<Placed> PlacesOf(const Board& board) {
   return places;
 }
 
-// Distance of a corner from where its neighbours put it; 0 where there are too few to say.
+// Returns the distance of a corner from where its neighbours predict it; 0 where there are too few of them.
 double StrayPx(const std::vector<Placed>& places, const std::vector<BoardCorner>& corners, std::size_t i) {
   const Placed& own = places[static_cast<std::size_t>(corners[i].index)];
   std::vector<std::pair<double, std::size_t>> others;
@@ -55,7 +55,7 @@ double StrayPx(const std::vector<Placed>& places, const std::vector<BoardCorner>
   return std::isfinite(stray_px) ? stray_px : 0;
 }
 
-// The corners as a lens without distortion would show them.
+// Returns the corners as a lens without distortion would show them.
 std::vector<BoardCorner> WithoutLens(const std::vector<Placed>& places, int width_px, int height_px,
                                      std::vector<BoardCorner> corners) {
   std::vector<Eigen::Vector2d> places_m, pixels;

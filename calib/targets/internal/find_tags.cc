@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kDisplayGamma = 2.2;
 constexpr int kLeastSide_px = 16;  // a photo smaller than that shows no tag
-// Of a tag's perimeter, over the longer side of the reduced photo: 8 px a side at 1600 px, below which a cell
-// is a pixel.
+// Least ratio of a tag's perimeter to the longer side of the reduced photo: 8 px a side at 1600 px. A cell of
+// a smaller tag is a pixel.
 constexpr double kLeastPerimeter = 0.02;
 
 ImagePlane Reduced(const ImagePlane& grey, double scale) {
   const cv::Mat full(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
-                     const_cast<float*>(grey.data()));  // read only: cv::Mat knows no const
+                     const_cast<float*>(grey.data()));  // read only: cv::Mat has no const data
   ImagePlane small(static_cast<Eigen::Index>(std::lround(static_cast<double>(grey.rows()) / scale)),
                    static_cast<Eigen::Index>(std::lround(static_cast<double>(grey.cols()) / scale)));
   if (small.size() == 0) return small;

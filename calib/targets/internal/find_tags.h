@@ -1,7 +1,7 @@
-// Square tags with black borders found in a photo at reduced size, by OpenCV's aruco: it sees tags whose
-// corners touch other black squares, and borders of two bits, which libapriltag does not.
+// Finds square tags with black borders in a photo at reduced size, by OpenCV's aruco.
 //
-// Corners are good to a pixel of the reduced photo: a start for what measures them in the full one.
+// aruco sees tags whose corners touch other black squares, and borders of two bits; libapriltag sees neither.
+// Corners are good to a pixel of the reduced photo: a start for their measurement in the full one.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_FIND_TAGS_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_FIND_TAGS_H_
 
@@ -15,7 +15,7 @@
 
 namespace luxfit {
 
-// A photo in 8 bits with its longer side reduced; pixel = scale * (reduced pixel + 0.5) - 0.5.
+// Holds a photo in 8 bits with its longer side reduced; pixel = scale * (reduced pixel + 0.5) - 0.5.
 struct ReducedPhoto {
   cv::Mat grey;
   double scale = 1;
@@ -25,13 +25,13 @@ struct ReducedPhoto {
   }
 };
 
-// The longer side is at most `longest_px`. The photo must not be empty.
+// Reduces the photo so that its longer side is at most `longest_px`. The photo must not be empty.
 ReducedPhoto ReducePhoto(const ImagePlane& grey, int longest_px);
 
 struct FoundTag {
   int id = 0;
   std::array<Eigen::Vector2d, 4>
-      corners_px;  // of the full photo; as the dictionary draws the tag, from top-left
+      corners_px;  // in the full photo; as the dictionary draws the tag, from top-left
 };
 
 std::vector<FoundTag> FindTags(const ReducedPhoto& photo, const cv::Ptr<cv::aruco::Dictionary>& dictionary,

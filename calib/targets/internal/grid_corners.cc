@@ -15,14 +15,14 @@
 namespace luxfit {
 namespace {
 
-constexpr double kGridWindowShare = 0.9;  // of the fields about a corner
-constexpr double kMostGridWindowPx = 12;  // more pixels gain nothing, and lens and perspective bend edges
+constexpr double kGridWindowShare = 0.9;  // share of the fields about a corner
+constexpr double kMostGridWindowPx = 12;  // more pixels add nothing; lens and perspective bend edges
 constexpr double kDetectorSigmaPx = 1;
-constexpr int kPixelsAtFirst = 600, kPixels = 1000;  // of a tag that its fit looks at: a board has many tags
+constexpr int kPixelsAtFirst = 600, kPixels = 1000;  // that a tag's fit uses: a board has many tags
 
 constexpr std::array<std::array<double, 2>, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 
-// A place in tag sizes: `along` from the corner into the tag both ways.
+// Returns a place in tag sizes: `along` from the corner into the tag, both ways.
 Eigen::Vector2d FromCorner(std::size_t corner, double along_x, double along_y) {
   const double x = kSquare[corner][0], y = kSquare[corner][1];
   return {x + (x > 0 ? -along_x : along_x), y + (y > 0 ? -along_y : along_y)};
@@ -71,7 +71,7 @@ GridCornerMeasurer GridCornerMeasurer::Tuned(const TagGrid& grid, const std::vec
   return tuned;
 }
 
-// Nothing where the photo does not show the fields about the corner.
+// Returns nothing where the photo does not show the fields about the corner.
 std::optional<bool> GridCornerMeasurer::IsSaddle(const Eigen::Matrix3d& pixel_from_tag,
                                                  std::size_t corner) const {
   const double gap = spacing_ / 2, in = border_ / 2;
@@ -103,7 +103,7 @@ std::optional<TagDetection> GridCornerMeasurer::FitTag(const SeenTag& tag, doubl
     low = low.min(corner.array());
     high = high.max(corner.array());
   }
-  constexpr double kRim = 0.3;  // of the tag, for its white rim
+  constexpr double kRim = 0.3;  // in tag extents, for its white rim
   const Eigen::Array2d rim = kRim * (high - low) + 2;
   const Eigen::Array2i size(static_cast<int>(grey_.cols()), static_cast<int>(grey_.rows()));
   const Eigen::Array2i begin = (low - rim).floor().cast<int>().max(0);
@@ -126,7 +126,7 @@ std::optional<TagDetection> GridCornerMeasurer::FitTag(const SeenTag& tag, doubl
   camera.cx_px -= begin.x();
   camera.cy_px -= begin.y();
   TagDetection refined = RefineTagCorners(about, camera, {detection}, options).front();
-  if (refined.corner_sigma_px == kDetectorSigmaPx) return std::nullopt;  // as it came
+  if (refined.corner_sigma_px == kDetectorSigmaPx) return std::nullopt;  // returned as it came
   for (Eigen::Vector2d& corner : refined.corners_px) corner += begin.cast<double>().matrix();
   return refined;
 }
@@ -142,7 +142,7 @@ double GridCornerMeasurer::BestExponent(const std::vector<SeenTag>& tags) const 
   const std::size_t stride = std::max<std::size_t>(1, tags.size() / kTags);
   double best = 1, least = std::numeric_limits<double>::infinity();
   for (const double exponent : {1.0, 1.7, 2.2}) {
-    // The fit's own sigmas grow with what the model does not explain.
+    // The fit's own sigmas grow with the part of the photo that the model does not explain.
     double sum = 0;
     int fitted = 0;
     for (std::size_t i = stride / 2; i < tags.size(); i += stride) {
@@ -170,7 +170,7 @@ void GridCornerMeasurer::MeasurePlain(const std::array<bool, 4>& is_plain, SeenT
 
 std::optional<SeenTag> GridCornerMeasurer::Measure(const SeenTag& tag) const {
   SeenTag measured = tag;
-  measured.sigma_px = {0, 0, 0, 0};  // of an earlier measurement
+  measured.sigma_px = {0, 0, 0, 0};  // clears an earlier measurement
   const auto pixel_from_tag = UnitSquareTo(tag.corners_px);
   if (!pixel_from_tag) return std::nullopt;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -1,12 +1,11 @@
-// The corners of an AprilGrid's tags, measured in the full photo.
+// Measures the corners of an AprilGrid's tags in the full photo.
 //
-// A corner where a black square touches the tag's is a saddle (saddle.h). A plain corner has no such symmetry
-// (gradients of its two edges alone pull inwards by 0.2 px); there the picture of the whole tag is fitted
-// (tag_refine.h). Which it is, each corner shows itself: black or white diagonally outside of it.
+// A corner where a black square touches the tag's is a saddle (saddle.h). A plain corner has no such
+// symmetry: gradients of its two edges alone pull inwards by 0.2 px. There the picture of the whole tag is
+// fitted (tags.h). The photo tells the two apart: black or white diagonally outside the corner.
 //
-// That fit wants linear counts: a display curve (sRGB) moves edges towards the black by some tenths of a
-// pixel. Of a few exponents the one is taken with which the tags fit best, so that photos of either kind will
-// do.
+// That fit needs linear counts: a display curve (sRGB) moves edges towards the black by some tenths of a
+// pixel. Among a few exponents the one that fits the tags best is chosen, so photos of either kind serve.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_GRID_CORNERS_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_GRID_CORNERS_H_
 
@@ -16,7 +15,7 @@
 #include "calib/lens/camera.h"
 #include "calib/targets/board.h"
 #include "calib/targets/internal/tag_grid.h"
-#include "calib/targets/tag_refine.h"
+#include "calib/targets/tags.h"
 
 namespace luxfit {
 
@@ -25,11 +24,12 @@ class GridCornerMeasurer {
   // The plane must outlive the measurer.
   GridCornerMeasurer(const ImagePlane& grey, const Board& board, int border_bits);
 
-  // One that knows lens and encoding from these tags, measured by this one. Itself where no corner is plain:
-  // saddles need neither.
+  // Returns a measurer tuned to the lens and encoding of these tags, which this one measured. Returns this
+  // one where no corner is plain: saddles need neither.
   GridCornerMeasurer Tuned(const TagGrid& grid, const std::vector<SeenTag>& tags) const;
 
-  // Corners that could not be measured keep their place and the sigma 0; nothing where none could.
+  // Returns the tag with measured corners; corners that could not be measured keep their place and the sigma
+  // 0. Returns nothing where no corner could be measured.
   std::optional<SeenTag> Measure(const SeenTag& tag) const;
 
  private:
@@ -46,7 +46,7 @@ class GridCornerMeasurer {
   double border_ = 0;   // width of the black border, tag sizes
   int first_id_ = 0;
   RefineTagCornersOptions refine_;
-  Camera lens_;          // how lines bend; not a calibration
+  Camera lens_;          // describes how lines bend; not a calibration
   double exponent_ = 1;  // linear = counts^exponent
 };
 

@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-// Moves the mean to the origin and scales the mean distance from it to sqrt(2).
+// Returns the map that moves the mean to the origin and scales the mean distance from it to sqrt(2).
 Eigen::Matrix3d Normalisation(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2d& point : points) mean += point / static_cast<double>(points.size());
@@ -38,7 +38,7 @@ std::optional<Eigen::Matrix3d> FitHomography(const std::vector<Eigen::Vector2d>&
   }
   if (!a.allFinite()) return std::nullopt;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
-  constexpr double kLeastRank = 1e-6;  // of the eighth singular value, over the first
+  constexpr double kLeastRank = 1e-6;  // ratio of the eighth singular value to the first
   if (!(svd.singularValues()[7] > kLeastRank * svd.singularValues()[0])) return std::nullopt;
   const Eigen::Matrix<double, 9, 1> h = svd.matrixV().col(8);
   const Eigen::Matrix3d scaled = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());

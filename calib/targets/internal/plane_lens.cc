@@ -13,7 +13,7 @@ namespace luxfit {
 namespace {
 
 constexpr std::size_t kLeastCorners = 16;
-constexpr double kLeastGain = 0.8;  // of the rms without distortion
+constexpr double kLeastGain = 0.8;  // ratio to the rms without distortion
 constexpr double kHuberPx = 0.5;
 
 struct BentCorner {

@@ -11,17 +11,17 @@ namespace {
 
 constexpr int kMaxSaddleIterations = 30;
 constexpr double kSaddleConvergedPx = 1e-3;
-constexpr double kLeastCondition = 0.02;  // of the normal matrix: less is an edge, not a corner
-constexpr double kMostAsymmetry = 0.15;   // of the patch's variance: an occluder, or all noise
+constexpr double kLeastCondition = 0.02;  // conditioning of the normal matrix: less is an edge, not a corner
+constexpr double kMostAsymmetry = 0.15;   // share of the patch's variance: more is an occluder, or only noise
 constexpr double kFloorPx = 0.02;         // aliasing, print, flatness
 
-// The sums over the window, offsets relative to its middle, and what the gradients mean for them.
+// Holds the sums over the window of w g g^T and w g g^T p, with offsets relative to its middle.
 struct WindowSums {
   Eigen::Matrix2d gg = Eigen::Matrix2d::Zero();
   Eigen::Vector2d ggp = Eigen::Vector2d::Zero();
 };
 
-// Of a patch one pixel wider than the window on each side.
+// Evaluates a patch one pixel wider than the window on each side.
 class Window {
  public:
   Window(const Eigen::MatrixXd& patch, int half) : patch_(patch), half_(half) {}
@@ -35,11 +35,11 @@ class Window {
     return normal;
   }
 
-  // Covariance of ggp under white noise of standard deviation 1 in every pixel of the patch.
+  // Returns the covariance of ggp under white noise of standard deviation 1 in every pixel of the patch.
   Eigen::Matrix2d NoiseOfSums() const {
     Eigen::MatrixXd d_x = Eigen::MatrixXd::Zero(patch_.rows(), patch_.cols()), d_y = d_x;
     ForEach([&](const Eigen::Vector2d& p, const Eigen::Vector2d& g, double weight) {
-      // d ggp / d g; each gradient holds four pixels.
+      // d ggp / d g; each gradient involves four pixels.
       const Eigen::Matrix2d d_g = weight * (g.dot(p) * Eigen::Matrix2d::Identity() + g * p.transpose());
       const Eigen::Index row = static_cast<Eigen::Index>(p.y()) + half_ + 1;
       const Eigen::Index column = static_cast<Eigen::Index>(p.x()) + half_ + 1;
@@ -61,7 +61,8 @@ class Window {
 
   double Variance() const { return (patch_.array() - patch_.mean()).square().mean(); }
 
-  // Variance of a pixel about the picture that looks the same turned by 180 degrees, as every saddle does.
+  // Returns the variance of a pixel about the picture that looks the same turned by 180 degrees, as a saddle
+  // does.
   double Asymmetry() const {
     const Eigen::MatrixXd difference = patch_ - patch_.reverse();
     return difference.squaredNorm() / (2 * static_cast<double>(difference.size()));

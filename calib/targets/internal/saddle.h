@@ -1,12 +1,12 @@
-// Where two black and two white fields meet: found from the gradients about it.
+// Finds where two black and two white fields meet, from the gradients about it.
 //
 // Every gradient g at p near the corner q is perpendicular to p - q (it is zero inside fields):
 //   q = argmin sum w (g . (p - q))^2 = (sum w g g^T)^-1 sum w g g^T p
-// with Gaussian weights w over a window that holds nothing but the four fields. Blur and a monotonic curve of
-// the grey values leave q where it is, for they act on both sides of the corner alike.
+// w are Gaussian weights over a window that holds nothing but the four fields. Blur and a monotonic curve of
+// the grey values leave q where it is, since they act on both sides of the corner alike.
 //
-// sigma: the picture about a saddle looks the same turned by 180 degrees; what does not is noise (or print,
-// texture, a shadow), propagated through the equation above to q, and a floor for aliasing and flatness.
+// sigma: the picture about a saddle looks the same turned by 180 degrees. The rest is noise (or print,
+// texture, a shadow), which the equation above propagates to q. A floor allows for aliasing and flatness.
 //
 // Source: Foerstner and Guelch (1987), "A fast operator for detection and precise location of distinct
 // points".
@@ -25,8 +25,8 @@ struct Saddle {
   double sigma_px = 0;  // per axis
 };
 
-// Nothing where the window leaves the plane, holds pixels that are not finite or no saddle, or the corner
-// wanders off.
+// Returns the saddle near `start`. Returns nothing where the window leaves the plane, holds pixels that are
+// not finite or no saddle, or the corner drifts away.
 std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d& start,
                                    double half_window_px);
 

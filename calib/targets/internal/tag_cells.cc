@@ -11,8 +11,8 @@ namespace luxfit {
 namespace {
 
 constexpr double kLeastCorrelation = 0.7;
-constexpr double kLeastBorder = 0.85;  // of the border's cells are dark
-constexpr double kLeastSeen = 0.5;     // of the cells lie in the photo
+constexpr double kLeastBorder = 0.85;  // least share of the border's cells that are dark
+constexpr double kLeastSeen = 0.5;     // least share of the cells that lie in the photo
 
 struct Moments {
   double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;

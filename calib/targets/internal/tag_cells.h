@@ -1,4 +1,4 @@
-// The cells of a tag, and whether a photo shows them.
+// Lists the cells of a tag, and tells whether a photo shows them.
 //
 // Places are in tag sizes from the top-left corner of the black square: (0, 0) to (1, 1) is the square.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_TAG_CELLS_H_
@@ -17,7 +17,7 @@ namespace luxfit {
 struct TagCell {
   Eigen::Vector2d middle;
   bool is_white = false;
-  bool is_bit = false;  // of the code; else of the black border
+  bool is_bit = false;  // part of the code; else of the black border
 };
 
 struct TagCells {
@@ -25,13 +25,15 @@ struct TagCells {
   double border = 0;  // width of the black border, in tag sizes
 };
 
-// Throws std::invalid_argument as DrawTag does. Kalibr prints tag36h11 with border_bits = 2.
+// Return the cells of a tag of either family. Throws std::invalid_argument as DrawTag does. Kalibr prints
+// tag36h11 with border_bits = 2.
 TagCells CellsOf(const apriltag_family_t& family, int id, int border_bits);
 TagCells CellsOf(const cv::aruco::Dictionary& dictionary, int id);
 
-// Whether the cells, mapped to the photo, are there: the correlation of the grey values with the code, and
-// the border darker than half way from black to white. Cells outside the photo do not count, but half of them
-// must be inside. A code that differs in 11 of 36 bits correlates with 0.4, noise with 0 +- 0.17.
+// Returns whether the cells, mapped to the photo, are there. The grey values must correlate with the code,
+// and the border must be darker than half way from black to white. Cells outside the photo do not count, but
+// half of them must be inside. A code that differs in 11 of 36 bits correlates with 0.4, noise with 0 +-
+// 0.17.
 bool ShowsTag(const ImagePlane& grey, const Eigen::Matrix3d& pixel_from_tag, const TagCells& cells);
 
 }  // namespace luxfit

@@ -1,4 +1,4 @@
-// A tag family of libapriltag, owned, and the picture of each of its tags.
+// Makes a tag family of libapriltag, owned, and draws the picture of each of its tags.
 //
 // The picture is `total_cells` x `total_cells` cells, row t down, column s right, 1 white and 0 black, as
 // AprilTag's own images show it. The black square (whose corners are detected) spans cells [border_begin,

@@ -10,7 +10,7 @@ namespace luxfit {
 namespace {
 
 constexpr std::size_t kNearTags = 4;
-constexpr double kReachTags = 3.5;  // diagonals; further away a prediction is a guess
+constexpr double kReachTags = 3.5;  // tag diagonals: a prediction from further away is unreliable
 
 Eigen::Vector2d Middle(const GridTag& tag) {
   return (tag.corners_m[0] + tag.corners_m[1] + tag.corners_m[2] + tag.corners_m[3]) / 4;
@@ -22,7 +22,7 @@ const GridTag& TagOf(const TagGrid& grid, const SeenTag& seen) {
   return grid[static_cast<std::size_t>(seen.number)];
 }
 
-// Indices into `seen`, nearest first, at most `count`.
+// Returns indices into `seen`, nearest first, at most `count`.
 std::vector<std::size_t> NearestTags(const TagGrid& grid, const std::vector<SeenTag>& seen,
                                      const Eigen::Vector2d& place_m, std::size_t count) {
   std::vector<std::size_t> order(seen.size());
@@ -51,7 +51,7 @@ std::array<Eigen::Vector2d, 4> Mapped(const Eigen::Matrix3d& homography, const G
   return pixels;
 }
 
-// Whether `a`, looked at alone, puts `b` where it is.
+// Returns whether `a` alone predicts `b` where it is.
 bool Predicts(const TagGrid& grid, const SeenTag& a, const TagFrame& frame, const SeenTag& b) {
   if (!frame) return false;
   const std::array<Eigen::Vector2d, 4>& from = TagOf(grid, a).corners_m;
@@ -65,13 +65,13 @@ bool Predicts(const TagGrid& grid, const SeenTag& a, const TagFrame& frame, cons
     error_px += (expected - b.corners_px[i]).norm() / 4;
     side_px += (b.corners_px[(i + 1) % 4] - b.corners_px[i]).norm() / 4;
   }
-  // A tag's own corners extrapolate worse the further the other is.
+  // The further the other tag is, the worse a tag's own corners extrapolate.
   const double tags_away =
       (Middle(TagOf(grid, a)) - Middle(TagOf(grid, b))).norm() / Diagonal(TagOf(grid, a));
   return error_px < 0.25 * side_px * std::max(1.0, tags_away);
 }
 
-// Whether the corners go round clockwise and enclose something.
+// Returns whether the corners go round clockwise and enclose an area.
 bool IsProper(const std::array<Eigen::Vector2d, 4>& corners_px) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d a = corners_px[(i + 1) % 4] - corners_px[i];

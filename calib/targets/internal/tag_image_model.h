@@ -1,9 +1,9 @@
-// The picture of a tag averaged over small boxes, with derivatives.
+// Returns the picture of a tag averaged over small boxes, with derivatives.
 //
 //   Mean(s, t, w_s, w_t) = 1 / (w_s w_t) * integral of the picture over the box centred at (s, t), in cells
 //
-// From the picture's double integral F, which is bilinear inside cells, hence exact for boxes along the
-// cells. Outside the picture its outermost cells go on for kMargin cells.
+// The mean comes from the picture's double integral F, which is bilinear inside cells and so exact for boxes
+// along the cells. The picture's outermost cells extend for kMargin cells beyond it.
 //
 // Source: Crow (1984), "Summed-area tables for texture mapping".
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_TAG_IMAGE_MODEL_H_

@@ -9,9 +9,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kEdgeReachPx = 3;  // what the corners may be off, and blur
+constexpr double kEdgeReachPx = 3;  // error of the corners, and blur
 constexpr double kCandidatesPerPixel = 8;
-constexpr double kShareAtEdges = 0.85;  // of the pixels chosen
+constexpr double kShareAtEdges = 0.85;  // share of the pixels chosen
 
 bool IsOfShare(const Eigen::Array2i& pixel, double share) {
   uint32_t hash =
@@ -27,7 +27,7 @@ double CellAt(const TagPicture& picture, const Eigen::Vector2d& st) {
                        std::clamp(static_cast<int>(std::floor(st.x())), 0, last));
 }
 
-// Whether the picture changes within `reach` cells of the place.
+// Returns whether the picture changes within `reach` cells of the place.
 bool IsAtEdge(const TagPicture& picture, const Eigen::Vector2d& st, double reach) {
   const double own = CellAt(picture, st);
   return CellAt(picture, st + Eigen::Vector2d(reach, 0)) != own ||
@@ -52,7 +52,7 @@ std::vector<Eigen::Array2i> ChooseTagPixels(const ImagePlane& grey, const TagPic
   const auto pixel_from_cell =
       FitHomography({{a, a}, {b, a}, {b, b}, {a, b}}, {corners_px.begin(), corners_px.end()});
   if (!cell_from_pixel || !pixel_from_cell) return {};
-  // The picture's rim lies outside of the corners.
+  // The picture's rim lies outside the corners.
   Eigen::Array2d low = corners_px[0], high = low;
   double side_px = 0;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -68,7 +68,7 @@ std::vector<Eigen::Array2i> ChooseTagPixels(const ImagePlane& grey, const TagPic
   const Eigen::Array2i begin = low.max(0).min(last).cast<int>(),
                        end = (high + 1).max(0).min(last).cast<int>();
   const double reach = kEdgeReachPx * (b - a) / side_px;
-  // Of a very large tag not even all candidates are looked at.
+  // A very large tag has more candidates than are worth visiting: a share of them is skipped.
   const double area_px = 1.0 * (end - begin + 1).prod();
   const double looked_at = std::min(1.0, kCandidatesPerPixel * max_pixels / area_px);
   std::vector<Candidate> candidates;

@@ -1,6 +1,7 @@
-// Which pixels of a photo tell where a tag is: those about the edges between its cells, and some others for
-// its shading. Of a large tag a share, chosen at random (the same in every run): a lattice would miss edges
-// that run along its rows.
+// Chooses the pixels of a photo that determine where a tag is.
+//
+// They lie about the edges between its cells; some others determine its shading. A large tag gives a random
+// share of them, the same in every run: a lattice would miss edges that run along its rows.
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_TAG_PIXELS_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_TAG_PIXELS_H_
 
@@ -13,8 +14,8 @@
 
 namespace luxfit {
 
-// (u, v) of at most about `max_pixels` finite pixels of the tag's picture, row by row. Corners as
-// TagDetection has them; they may be off by a pixel.
+// Returns (u, v) of at most about `max_pixels` finite pixels of the tag's picture, row by row. Corners are in
+// TagDetection's order and may be off by a pixel.
 std::vector<Eigen::Array2i> ChooseTagPixels(const ImagePlane& grey, const TagPicture& picture,
                                             const std::array<Eigen::Vector2d, 4>& corners_px, int max_pixels);
 

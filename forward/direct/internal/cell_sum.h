@@ -1,5 +1,7 @@
-// Light of a rectangle with uneven emission: the sum over its cells, which move with it, turn with it and are
-// parts of its size.
+// Sums the light of a rectangle with uneven emission over its cells.
+//
+// The cells move and turn with the luminaire, and their size is a part of its size. The result is per lm of
+// the whole.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_CELL_SUM_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_CELL_SUM_H_
 
@@ -13,7 +15,7 @@ inline bool HasUnevenEmission(const Luminaire& luminaire) {
   return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
 }
 
-// `light(cell)`: DirectIlluminance per lm of one cell.
+// Sums `light(cell)`, the DirectIlluminance per lm of one cell.
 template <typename Light>
 DirectIlluminance SumOverCells(Luminaire luminaire, const Light& light) {
   luminaire.flux_lm = 1;

@@ -1,6 +1,6 @@
 // Checks sensors: finite numbers and a normal.
 //
-// Throws std::invalid_argument that names it, and what is wrong with it.
+// Throws std::invalid_argument that names the sensor and what is wrong with it.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_EXPECT_SENSOR_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_EXPECT_SENSOR_H_
 

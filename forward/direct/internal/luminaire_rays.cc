@@ -7,6 +7,7 @@
 
 #include "forward/direct/internal/cell_sum.h"
 #include "forward/direct/internal/luminous_surface.h"
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
 #include "forward/luminaire/internal/tabulated.h"
 #include "forward/room/internal/sampling.h"
@@ -14,24 +15,24 @@
 namespace luxfit {
 namespace {
 
-// Unit vector at gamma from the aim and C from the heading.
+// Returns the unit vector at gamma from the aim and C from the heading.
 Eigen::Vector3d DirectionAt(const Luminaire& luminaire, const LuminaireAxes& axes, double gamma, double c) {
   return std::cos(gamma) * luminaire.aim +
          std::sin(gamma) * (std::cos(c) * axes.along + std::sin(c) * axes.across);
 }
 
-// Mean of the intensity around the aim.
+// Returns the mean of the intensity around the aim.
 double MeanIntensity(const Luminaire& luminaire, const LuminaireAxes& axes, double gamma) {
-  const int turns = luminaire.distribution == Distribution::kMeasured ? 72 : 1;
+  const DistributionOps& ops = OpsOf(luminaire.distribution);
+  const int turns = ops.about_aim == nullptr ? 72 : 1;
   double sum = 0;
   for (int k = 0; k < turns; ++k)
-    sum +=
-        IntensityPerLumen(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * M_PI * (k + 0.5) / turns))
-            .cd_per_lm;
+    sum += ops.towards(luminaire, axes, DirectionAt(luminaire, axes, gamma, 2 * M_PI * (k + 0.5) / turns))
+               .cd_per_lm;
   return sum / turns;
 }
 
-// The unit square mapped onto the surface with the density of its emission.
+// Maps the unit square onto the surface with the density of its emission.
 Eigen::Vector2d EmittingPlaceAt(const LuminousSurface& surface, Eigen::Vector2d unit) {
   const Eigen::ArrayXXd& emission = surface.luminaire().emission;
   if (!HasUnevenEmission(surface.luminaire())) return surface.PlaceAt(unit);

@@ -13,15 +13,15 @@
 namespace luxfit {
 namespace {
 
-// The luminaire within a square or its rectangle, on the side that the patch lies on. A point is a square so
-// small that it lies between all that can be told apart.
+// Encloses the luminaire in a square or its rectangle, on the side that the patch lies on. A point is a
+// square so small that it lies between all that can be told apart.
 struct Outline {
   ConvexPolygon polygon;
   Eigen::Vector3d normal;
 };
 constexpr double kPointM = 1e-5;
 
-// Nothing where the patch lies on both sides of the luminaire's plane.
+// Returns nothing where the patch lies on both sides of the luminaire's plane.
 std::optional<Outline> OutlineTowards(const Luminaire& luminaire, const ConvexPolygon& patch) {
   const LuminousSurface surface(luminaire);
   Eigen::Vector3d along = surface.sides()[0] * surface.axes().along,
@@ -49,7 +49,7 @@ std::optional<Outline> OutlineTowards(const Luminaire& luminaire, const ConvexPo
       normal};
 }
 
-// Points of a luminaire that are looked for.
+// Holds the points of a luminaire that rays aim at.
 struct Targets {
   std::vector<Eigen::Vector3f> point;
   std::vector<float> weight;
@@ -65,7 +65,7 @@ Targets TargetsOn(const Luminaire& luminaire, int order) {
   return targets;
 }
 
-// The mean over the probes of the share that each sees.
+// Returns the mean over the probes of the share that each sees.
 float ProbedShare(const RayScene& rays, const std::vector<Eigen::Vector3d>& probes,
                   const Eigen::Vector3d& normal, const Targets& targets) {
   std::array<float, 4> seen{}, in_front{};
@@ -97,7 +97,7 @@ float ProbedShare(const RayScene& rays, const std::vector<Eigen::Vector3d>& prob
   return sum / static_cast<float>(probes.size());
 }
 
-// Of the patches that hold any of the elements, patches x luminaires.
+// Returns the sight of the patches that hold any of the elements, patches x luminaires.
 Eigen::Array<Sight, Eigen::Dynamic, Eigen::Dynamic> SightOfPatches(const Patches& patches,
                                                                    const std::vector<int>& elements,
                                                                    const std::vector<Luminaire>& luminaires) {
@@ -172,7 +172,7 @@ Eigen::MatrixXf ElementVisibility(const RayScene& rays, const Patches& patches,
         of = patch_sees == Sight::kFree ? 1.0F : 0.0F;
         continue;
       }
-      // Most elements see all of a luminaire or nothing, and its outer points tell.
+      // Most elements see all of a luminaire or nothing, and its outer points show which.
       of = ProbedShare(rays, probes, element.normal, rough[k]);
       if (order > 2 && of != 0 && of != 1) of = ProbedShare(rays, probes, element.normal, fine[k]);
     }

@@ -1,8 +1,8 @@
-// Share of each luminaire that the elements of a room see.
+// Returns the share of each luminaire that the elements of a room see.
 //
-// Patch by patch a shaft to the luminaire's outline tells what is wholly seen or wholly hidden
-// (forward/factors/internal/shaft.h); only elements of the other patches are probed with rays, at ProbesOf's points,
-// eight rays at a time.
+// For each patch a shaft to the luminaire's outline finds the luminaires that are wholly seen or wholly
+// hidden (forward/factors/internal/shaft.h). Only elements of the other patches are probed with rays, at the
+// points of ProbesOf, eight rays at a time.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_LUMINAIRE_SIGHT_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_LUMINAIRE_SIGHT_H_
 
@@ -16,13 +16,14 @@
 
 namespace luxfit {
 
-// elements x luminaires, in [0, 1]: of `order` points a side of the luminaire, those in front of the element
-// that it sees; of 2 a side where those agree.
+// Returns elements x luminaires, in [0, 1]: the share of the luminaire's points in front of the element
+// (`order` a side) that the element sees. Where 2 points a side are all seen or all hidden, no more are
+// tested.
 Eigen::MatrixXf ElementVisibility(const RayScene& rays, const Patches& patches,
                                   const std::vector<int>& elements, const std::vector<Luminaire>& luminaires,
                                   int order);
 
-// What one patch sees of a luminaire, with that standing around.
+// Returns how one patch sees a luminaire among the blockers.
 Sight PatchSightOf(const Patches& patches, int patch, const Luminaire& luminaire,
                    const std::vector<Blocker>& blockers);
 

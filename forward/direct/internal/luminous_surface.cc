@@ -13,7 +13,10 @@ Eigen::Vector2d SidesOf(const Luminaire& luminaire) {
 }  // namespace
 
 LuminousSurface::LuminousSurface(const Luminaire& luminaire)
-    : luminaire_(&luminaire), axes_(AxesOf(luminaire)), sides_(SidesOf(luminaire)) {}
+    : luminaire_(&luminaire),
+      towards_(OpsOf(luminaire.distribution).towards),
+      axes_(AxesOf(luminaire)),
+      sides_(SidesOf(luminaire)) {}
 
 Eigen::Vector2d LuminousSurface::PlaceAt(const Eigen::Vector2d& unit) const {
   if (!is_disc()) return unit.array() - 0.5;
@@ -40,7 +43,7 @@ void LuminousSurface::AddMotion(const Eigen::Vector2d& place, const Eigen::Vecto
   const double along = gradient.dot(axes_.along), across = gradient.dot(axes_.across);
   const double x = place[0] * sides_[0], y = place[1] * sides_[1];
   sum.d_position += gradient;
-  // Turning about w moves the point by w x offset; tilts are about across and -along, the heading is about
+  // A turn about w moves the point by w x offset; tilts are about across and -along, the heading is about
   // aim.
   sum.d_tilt -= gradient.dot(luminaire_->aim) * Eigen::Vector2d(x, y);
   sum.d_heading += x * across - y * along;

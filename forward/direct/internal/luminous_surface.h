@@ -1,7 +1,7 @@
-// A luminaire's luminous surface: its points, its outline, and what moves them.
+// Describes a luminaire's luminous surface: its points, its outline, and how they move with the luminaire.
 //
-// A place on it is (a, b) in [-1/2, 1/2]^2, in units of the luminaire's sides along heading and across; a
-// disc's sides are both its diameter, those of a point and of a sphere, which are their centre, are 0.
+// A place on it is (a, b) in [-1/2, 1/2]^2, in units of the luminaire's sides along heading and across. Both
+// sides of a disc are its diameter. A point and a sphere are their centre: their sides are 0.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_LUMINOUS_SURFACE_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_LUMINOUS_SURFACE_H_
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "forward/direct/direct_light.h"
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire.h"
 
 namespace luxfit {
@@ -18,9 +19,9 @@ class LuminousSurface {
  public:
   explicit LuminousSurface(const Luminaire& luminaire);
 
-  // The unit square mapped onto the surface with even density, for random or low-discrepancy sampling.
+  // Maps the unit square onto the surface with even density, for random or low-discrepancy sampling.
   Eigen::Vector2d PlaceAt(const Eigen::Vector2d& unit) const;
-  // From the luminaire's position, m.
+  // Returns the vector from the luminaire's position, m.
   Eigen::Vector3d OffsetOf(const Eigen::Vector2d& place) const {
     return place[0] * sides_[0] * axes_.along + place[1] * sides_[1] * axes_.across;
   }
@@ -29,23 +30,29 @@ class LuminousSurface {
   }
   Eigen::Vector3d PointAt(const Eigen::Vector2d& unit) const { return PointOf(PlaceAt(unit)); }
 
-  // Corners of the outline as a polygon, counter-clockwise about the aim: so many pieces a side of a
-  // rectangle or an eighth of a disc's rim.
+  // Returns the corners of the outline as a polygon, counter-clockwise about the aim. A side of a rectangle,
+  // or an eighth of a disc's rim, has `pieces_a_side` pieces.
   std::vector<Eigen::Vector2d> Outline(int pieces_a_side) const;
 
-  // Adds what an illuminance that changes by gradient . dx as the point at a place moves by dx, changes as
-  // the luminaire moves, turns and grows. What turning does to the lobe is not in it.
+  // Adds an illuminance's derivatives with respect to the luminaire's position, turns and size. The
+  // illuminance changes by gradient . dx as the point at a place moves by dx. The effect of a turn on the
+  // lobe is left out.
   void AddMotion(const Eigen::Vector2d& place, const Eigen::Vector3d& gradient, DirectIlluminance& sum) const;
 
   const Luminaire& luminaire() const { return *luminaire_; }
   const LuminaireAxes& axes() const { return axes_; }
   const Eigen::Vector2d& sides() const { return sides_; }
   bool is_disc() const { return luminaire_->shape == LuminaireShape::kDisc; }
+  // Looks the distribution up once a surface: sums over its points call this.
+  DirectedIntensity IntensityTowards(const Eigen::Vector3d& direction) const {
+    return towards_(*luminaire_, axes_, direction);
+  }
   bool has_extent() const { return is_disc() || luminaire_->shape == LuminaireShape::kRectangle; }
   double area_m2() const;
 
  private:
   const Luminaire* luminaire_;
+  decltype(DistributionOps::towards) towards_;
   LuminaireAxes axes_;
   Eigen::Vector2d sides_;
 };

@@ -40,7 +40,7 @@ Eigen::VectorXd PartLight::At(const Sensor& place) const {
   return light;
 }
 
-// What a surface point sends belongs to the two nodes about its gamma.
+// The light of a surface point belongs to the two nodes about its gamma.
 void PartLight::AddNodes(const Luminaire& cell, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                          Eigen::VectorXd& sum) const {
   const LuminousSurface surface(cell);

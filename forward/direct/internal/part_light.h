@@ -1,7 +1,7 @@
-// Light of every part of a luminaire alone (forward/luminaire/luminaire_parts.h), all parts in one pass over its
-// surface: as much work as the light of the whole.
+// Returns the light of every part of a luminaire alone, all parts in one pass over its surface.
 //
-// lx per lm of each part alone; surface points are those that the whole is summed over.
+// The parts are those of forward/luminaire/luminaire_parts.h. The work is that of the light of the whole.
+// Results are lx per lm of each part alone; the surface points are those that the whole is summed over.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_PART_LIGHT_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_PART_LIGHT_H_
 
@@ -26,7 +26,7 @@ class PartLight {
 
   Luminaire whole_;
   PartKind kind_;
-  std::vector<Luminaire> cells_;  // of kCell: each with 1 lm; of kGammaNode: each with its share as flux
+  std::vector<Luminaire> cells_;  // kCell: each with 1 lm; kGammaNode: each with its share as flux
   Eigen::VectorXd node_flux_;
 };
 

@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-// Visible shares of the cells of a grid over the surface, refined where the corners disagree.
+// Holds the visible shares of the cells of a grid over the surface, refined where the corners disagree.
 class VisibleCells {
  public:
   struct Cell {
@@ -30,7 +30,7 @@ class VisibleCells {
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
-  // Cell with its lower corner at (i, j), `size` finest cells wide.
+  // Adds the cell with its lower corner at (i, j), `size` finest cells wide.
   void Add(int i, int j, int size) {
     const int seen = Sees(i, j) + Sees(i + size, j) + Sees(i, j + size) + Sees(i + size, j + size);
     const bool agree = seen == 0 || seen == 4;
@@ -48,7 +48,7 @@ class VisibleCells {
     const int key = i * (finest_ + 1) + j;
     const auto known = seen_.find(key);
     if (known != seen_.end()) return known->second;
-    // Never at the very rim, which may touch what the luminaire hangs on.
+    // Rays avoid the very rim, which may touch what the luminaire hangs on.
     const auto inside = [&](int k) { return 1e-6 + (1 - 2e-6) * k / finest_; };
     return seen_[key] = rays_.Occluded(start_, surface_.PointAt({inside(i), inside(j)})) ? 0 : 1;
   }
@@ -61,7 +61,7 @@ class VisibleCells {
   std::vector<Cell> cells_;
 };
 
-// The integrand at one point of the surface: E per lm of the whole surface if all of it were here.
+// Holds the integrand at one point of the surface: E per lm of the whole surface if all of it were here.
 struct Sample {
   Eigen::Vector3d direction;   // from the luminaire to the receiver
   double r = 0, geometry = 0;  // m, cos(theta) / r^2
@@ -76,7 +76,7 @@ Sample SampleAt(const LuminousSurface& surface, const Eigen::Vector3d& point, co
   if (height <= 0 || sample.r < 1e-6) return sample;
   sample.direction = -to_lamp / sample.r;
   sample.geometry = height / (sample.r * sample.r * sample.r);
-  sample.intensity = IntensityPerLumen(surface.luminaire(), surface.axes(), sample.direction);
+  sample.intensity = surface.IntensityTowards(sample.direction);
   return sample;
 }
 
@@ -92,7 +92,7 @@ double ShareOf(const VisibleCells& visible, const LuminousSurface& surface, cons
   return all == 0 ? 0 : seen / all;
 }
 
-// What the luminance of fixed directions changes, over the visible part of the surface.
+// Adds the change of the luminance of fixed directions, over the visible part of the surface.
 void AddLobeDerivatives(const VisibleCells& visible, const LuminousSurface& surface, const Eigen::Vector3d& p,
                         const Eigen::Vector3d& normal, DirectIlluminance& sum) {
   const Eigen::Vector3d& aim = surface.luminaire().aim;
@@ -112,8 +112,8 @@ void AddLobeDerivatives(const VisibleCells& visible, const LuminousSurface& surf
   sum.d_heading += turn.dot(aim);
 }
 
-// Visible shares of the pieces of an outline: where a piece's ends disagree, the edge of the shadow between
-// them is found by halving.
+// Holds the visible shares of the pieces of an outline. Where a piece's ends disagree, the edge of the shadow
+// between them is found by halving.
 class VisibleOutline {
  public:
   VisibleOutline(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& start,
@@ -152,7 +152,7 @@ class VisibleOutline {
   std::vector<double> shares_;
 };
 
-// What the visible part of the outline sweeps.
+// Adds the light that the visible part of the outline sweeps.
 void AddOutlineDerivatives(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& p,
                            const Eigen::Vector3d& normal, int pieces, DirectIlluminance& sum) {
   const Eigen::Vector3d& aim = surface.luminaire().aim;
@@ -185,7 +185,7 @@ double VisibleShare(const RayScene& rays, const Luminaire& luminaire, const Eige
   const LuminousSurface surface(luminaire);
   if (!surface.has_extent()) return height > 0 && !rays.Occluded(start, luminaire.position) ? 1 : 0;
   const double share = ShareOf(VisibleCells(rays, surface, start, options), surface, p_in_world, normal);
-  // Seen whole or not at all it does not matter where the light comes from.
+  // For a surface seen whole or not at all it does not matter where the light comes from.
   if (!HasUnevenEmission(luminaire) || share == 0 || share == 1) return share;
   const double unoccluded = DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
   return VisibleIlluminancePerLumen(rays, luminaire, p_in_world, normal, options) / unoccluded;

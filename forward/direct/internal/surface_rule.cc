@@ -4,31 +4,18 @@
 #include <array>
 #include <cmath>
 
-#include "forward/luminaire/photometry.h"
+#include "forward/luminaire/distribution_ops.h"
 
 namespace luxfit {
 namespace {
 
 constexpr int kMaxOrder = 24;
 
-// Exponent of the cosine-power lobe that is as narrow.
-double SharpnessOf(const Luminaire& luminaire) {
-  switch (luminaire.distribution) {
-    case Distribution::kIsotropic:
-    case Distribution::kLambertian:
-      break;
-    case Distribution::kCosinePower:
-      return std::max(luminaire.cosine_exponent, 1.0);
-    case Distribution::kMeasured:
-      if (luminaire.table) return std::max(2 * M_PI * luminaire.table->peak_cd_per_lm - 1, 1.0);
-  }
-  return 1;
-}
-
 // A lobe cos^m is 1 / sqrt(m) wide. Where the receiver's plane cuts the surface, the integrand has a kink.
 int OrderFor(const LuminousSurface& surface, const Eigen::Vector3d& p, bool is_cut) {
   const double distance = std::max((p - surface.luminaire().position).norm(), 1e-3);
-  const double order = std::ceil(2 + 2 * std::sqrt(SharpnessOf(surface.luminaire()) + 3) *
+  const Luminaire& luminaire = surface.luminaire();
+  const double order = std::ceil(2 + 2 * std::sqrt(OpsOf(luminaire.distribution).sharpness(luminaire) + 3) *
                                          surface.sides().maxCoeff() / distance) *
                        (is_cut ? 3 : 1);
   return order < kMaxOrder ? static_cast<int>(order) : kMaxOrder;  // NaN too

@@ -1,25 +1,26 @@
-// Sets of directions over a hemisphere with the form factor that each stands for.
-//
-// Local frame: z along the receiver's normal. Weights add up to the share of the hemisphere that the set
-// covers: 1, but for the single plane, which leaves out the horizon, and the hemicube's small quadrature
-// error. Sources: see forward/factors/form_factors.h.
+// Collects a set of directions over a hemisphere, one by one.
 #ifndef LUXFIT_FORWARD_FACTORS_INTERNAL_DIRECTIONS_H_
 #define LUXFIT_FORWARD_FACTORS_INTERNAL_DIRECTIONS_H_
 
 #include <Eigen/Core>
-#include <cstdint>
+#include <vector>
 
 #include "forward/factors/form_factors.h"
 
 namespace luxfit {
 
-struct Directions {
-  Eigen::Matrix3Xf unit;
-  Eigen::VectorXf weight;
-};
+class DirectionCollector {
+ public:
+  // A direction of any length.
+  void Add(const Eigen::Vector3d& direction, double weight);
+  // A point of the unit disc, lifted by Malley's method (LiftedFromDisc in forward/room/internal/sampling.h).
+  void AddLifted(double radius2, double turns, double weight);
+  Directions Get() const;
 
-// About `count` directions of a ray method; `variant` seeds the random ones.
-Directions MakeDirections(FormFactorMethod method, int count, uint64_t variant);
+ private:
+  std::vector<Eigen::Vector3f> unit_;
+  std::vector<float> weight_;
+};
 
 }  // namespace luxfit
 

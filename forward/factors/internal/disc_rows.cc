@@ -1,15 +1,22 @@
-#include "forward/factors/internal/disc_rows.h"
-
+// Form factors by Wallace's disc approximation, cast from the receiver.
+//
+//   F_ej = sum_k V_k cos cos' A_k / (pi r_k^2 + A_k)
+//
+// from the element's centre to pieces of patch j, each taken for a disc of its area A_k, a shadow ray to its
+// centre. The rays of an element are shared out evenly over the patches, one a patch at least.
+//
+// Source: Wallace, Elmquist, Haines (1989), "A ray tracing algorithm for progressive radiosity", eq. 9.
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "forward/factors/internal/methods.h"
 #include "forward/room/internal/quadrature.h"
 
 namespace luxfit {
-namespace {}  // namespace
+namespace {
 
 FormFactors DiscFormFactors(const RayScene& rays, const Patches& patches, int rays_per_element) {
   const size_t n = patches.patches.size();
@@ -42,6 +49,17 @@ FormFactors DiscFormFactors(const RayScene& rays, const Patches& patches, int ra
   });
   result.rays = static_cast<int64_t>(patches.elements.size()) * static_cast<int64_t>(n) * order * order;
   return result;
+}
+
+}  // namespace
+
+FormFactorOps WallaceMethod() {
+  FormFactorOps ops;
+  ops.method = FormFactorMethod::kWallace;
+  ops.name = "wallace";
+  ops.is_from_center = true;
+  ops.by_pairs = DiscFormFactors;
+  return ops;
 }
 
 }  // namespace luxfit

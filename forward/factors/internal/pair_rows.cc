@@ -1,5 +1,15 @@
-#include "forward/factors/internal/pair_rows.h"
-
+// Form-factor rows pair by pair: closed form or quadrature of what would be seen, times the share that is
+// visible.
+//
+// Pairs that shaft culling proves free need no ray. Unoccluded factors, by distance d against the larger
+// radius R of the two:
+//   d > 4 R      Gauss 2 x 2 points on the patch, 1 (small elements) or 2 x 2 on the element: relative error
+//                < 2e-3, typically 3e-4
+//   d > 2.2 R    Gauss 3 x 3 on the patch, 2 x 2 or 3 x 3 on the element: < 6e-4
+//   nearer       closed form, point to polygon from Gauss points of a small element, or the double contour
+// Partly hidden pairs get rays between points spread over both, one at least and as many as their share of
+// the hemisphere asks for; four times as many where those disagree. Elements that are partly inside a solid
+// cast rays over the hemisphere.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -7,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forward/factors/internal/methods.h"
 #include "forward/factors/internal/patch_sight.h"
 #include "forward/factors/internal/ray_rows.h"
 #include "forward/factors/internal/unoccluded.h"
@@ -17,7 +28,9 @@ namespace {
 
 constexpr int kProbeRays = 8;  // per element, to learn whether the room is closed
 constexpr int kPartlyBuriedFactor =
-    16;                           // rays for elements that are partly inside a solid, in units of the others'
+    16;  // rays for elements that are partly inside a solid, in units of the others'
+// Shaft culling compares pairs of facets with each other facet: beyond this many, rays cost less.
+constexpr size_t kMaxFacetsForHybrid = 400;
 constexpr double kClosed = 1e-5;  // escaped share of the probes below which a room counts as closed
 
 // What receivers on one patch have in common.
@@ -155,8 +168,7 @@ class PairRows {
   bool is_closed_ = false;
 };
 
-}  // namespace
-
+// `method`: kHybrid, or kAnalytic (the double contour for every pair).
 FormFactors PairFormFactors(const RayScene& rays, const Patches& patches, FormFactorMethod method,
                             int rays_per_element) {
   const PairRows rows(rays, patches, method == FormFactorMethod::kAnalytic, rays_per_element);
@@ -180,6 +192,37 @@ FormFactors PairFormFactors(const RayScene& rays, const Patches& patches, FormFa
   result.escaped_fraction = rows.IsClosed() ? probe.escaped : missing;
   result.closure_error = rows.IsClosed() ? std::sqrt(squares) : 0;
   return result;
+}
+
+FormFactors HybridFormFactors(const RayScene& rays, const Patches& patches, int rays_per_element) {
+  if (patches.facets.size() <= kMaxFacetsForHybrid)
+    return PairFormFactors(rays, patches, FormFactorMethod::kHybrid, rays_per_element);
+  FormFactors result = RayFormFactors(rays, patches, FormFactorMethod::kMalley, rays_per_element);
+  result.because =
+      "hybrid compares facets pair by pair, and there are more than " + std::to_string(kMaxFacetsForHybrid);
+  return result;
+}
+
+FormFactors AnalyticFormFactors(const RayScene& rays, const Patches& patches, int rays_per_element) {
+  return PairFormFactors(rays, patches, FormFactorMethod::kAnalytic, rays_per_element);
+}
+
+}  // namespace
+
+FormFactorOps HybridMethod() {
+  FormFactorOps ops;
+  ops.method = FormFactorMethod::kHybrid;
+  ops.name = "hybrid";
+  ops.by_pairs = HybridFormFactors;
+  return ops;
+}
+
+FormFactorOps AnalyticMethod() {
+  FormFactorOps ops;
+  ops.method = FormFactorMethod::kAnalytic;
+  ops.name = "analytic";
+  ops.by_pairs = AnalyticFormFactors;
+  return ops;
 }
 
 }  // namespace luxfit

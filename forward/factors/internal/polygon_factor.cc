@@ -2,10 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
 namespace luxfit {
 namespace {
+
+using Kronrod = boost::math::quadrature::gauss_kronrod<double, 15>;
+using Gauss = boost::math::quadrature::gauss<double, 7>;
 
 constexpr double kPlaneTolerance = 1e-9;  // m: what lies this near a plane lies in it
 
@@ -26,29 +31,20 @@ double LogDistanceToEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, con
   return LogDistanceIntegral(length - foot, h) - LogDistanceIntegral(-foot, h);
 }
 
-// Nodes and weights of the 15-point Kronrod rule and the 7-point Gauss rule in it, on [-1, 1] (QUADPACK,
-// 1983).
-constexpr double kNodes[8] = {0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
-                              0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
-                              0.586087235467691130294144058458,    0.405845151377397166906606412076961,
-                              0.207784955007898467600689403773245, 0};
-constexpr double kKronrod[8] = {0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
-                                0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
-                                0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-                                0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
-constexpr double kGauss[4] = {0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
-                              0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
-
-// Integral of f over [a, b] by halving where the two rules differ by more than `tolerance`.
+// Integral of f over [a, b] by halving where the 15-point Kronrod rule and the 7-point Gauss rule in it differ
+// by more than `tolerance`. Not Boost's own integrate(): its tolerance is relative, and these integrals cancel.
 template <typename Function>
 double AdaptiveIntegral(const Function& f, double a, double b, double tolerance, int depth) {
   const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+  // From the centre outwards on [-1, 1]; every other node is one of Gauss's.
+  const auto &nodes = Kronrod::abscissa(), &weights = Kronrod::weights();
+  const auto& gauss_weights = Gauss::weights();
   const double center = f(middle);
-  double kronrod = kKronrod[7] * center, gauss = kGauss[3] * center;
-  for (int k = 0; k < 7; ++k) {
-    const double sum = f(middle - half * kNodes[k]) + f(middle + half * kNodes[k]);
-    kronrod += kKronrod[k] * sum;
-    if (k % 2 == 1) gauss += kGauss[k / 2] * sum;
+  double kronrod = weights[0] * center, gauss = gauss_weights[0] * center;
+  for (size_t k = nodes.size() - 1; k > 0; --k) {
+    const double sum = f(middle - half * nodes[k]) + f(middle + half * nodes[k]);
+    kronrod += weights[k] * sum;
+    if (k % 2 == 0) gauss += gauss_weights[k / 2] * sum;
   }
   if (depth == 0 || std::abs(kronrod - gauss) * half < tolerance) return kronrod * half;
   return AdaptiveIntegral(f, a, middle, 0.5 * tolerance, depth - 1) +

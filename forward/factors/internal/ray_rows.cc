@@ -6,18 +6,12 @@
 #include <Eigen/Geometry>
 #include <atomic>
 #include <cmath>
+#include <stdexcept>
 
 #include "forward/room/internal/sampling.h"
 
 namespace luxfit {
 namespace {
-
-// Shifted copies of a sequence, one picked per receiver, which also turns it by an angle of its own.
-constexpr uint64_t kVariants = 64;
-
-bool IsFixedToReceiver(FormFactorMethod method) {
-  return method == FormFactorMethod::kHemicube || method == FormFactorMethod::kSinglePlane;
-}
 
 // Columns: two tangents, turned about the normal, and the normal.
 Eigen::Matrix3f FrameOf(const Element& receiver, double turn) {
@@ -30,7 +24,7 @@ Eigen::Matrix3f FrameOf(const Element& receiver, double turn) {
   return frame.cast<float>();
 }
 
-// Points spread over a receiver: dimensions 3 and 4 of the sequence in directions.cc, shifted per receiver.
+// Points spread over a receiver: dimensions 3 and 4 of the sequence in malley.cc, shifted per receiver.
 class Origins {
  public:
   Origins(const Element& receiver, bool triangle, bool center, uint64_t hash)
@@ -61,17 +55,12 @@ class Origins {
 }  // namespace
 
 RayRows::RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod method, int count)
-    : rays_(rays),
-      patches_(patches),
-      method_(method),
-      count_(count),
-      from_center_(IsFixedToReceiver(method)) {
+    : rays_(rays), patches_(patches), ops_(OpsOf(method)), count_(count) {
+  if (!ops_.directions)
+    throw std::invalid_argument("RayRows: " + ToString(method) + " casts no rays over a hemisphere");
   for (const Element& element : patches.elements) patch_of_element_.push_back(element.patch);
-  if (method == FormFactorMethod::kMonteCarlo) return;  // random afresh for every receiver
-  const bool random = method == FormFactorMethod::kMalley || method == FormFactorMethod::kMalleyStratified;
-  for (uint64_t variant = 0; variant < (random ? kVariants : 1); ++variant) {
-    variants_.push_back(MakeDirections(method, count, variant));
-  }
+  for (int set = 0; set < ops_.direction_sets; ++set)
+    sets_.push_back(ops_.directions(count, static_cast<uint64_t>(set)));
 }
 
 RayTally RayRows::Cast(const Element& receiver, uint64_t index, float* row) const {
@@ -91,11 +80,11 @@ template <typename Add>
 RayTally RayRows::Trace(const Element& receiver, uint64_t index, const Add& add) const {
   const uint64_t hash = Mix(index);
   Directions fresh;
-  if (variants_.empty()) fresh = MakeDirections(method_, count_, hash);
-  const Directions& set = variants_.empty() ? fresh : variants_[hash % variants_.size()];
-  const Eigen::Matrix3f frame = FrameOf(receiver, from_center_ ? 0 : UnitFrom(Mix(hash + 2)));
+  if (sets_.empty()) fresh = ops_.directions(count_, hash);
+  const Directions& set = sets_.empty() ? fresh : sets_[hash % sets_.size()];
+  const Eigen::Matrix3f frame = FrameOf(receiver, ops_.is_from_center ? 0 : UnitFrom(Mix(hash + 2)));
   const bool triangle = receiver.patch >= 0 && patches_.IsTriangle(receiver.patch);
-  Origins origins(receiver, triangle, from_center_, hash);
+  Origins origins(receiver, triangle, ops_.is_from_center, hash);
   RayTally tally;
   for (Eigen::Index first = 0; first < set.unit.cols(); first += RayPacket::kSize) {
     RayPacket packet;

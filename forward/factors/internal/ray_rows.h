@@ -1,7 +1,7 @@
 // Form-factor rows by rays over the receivers' hemispheres.
 //
-// Methods with a grid fixed to the receiver (hemicube, single plane) start at its centre, all others on
-// points spread over it.
+// Methods with a grid fixed to the receiver (FormFactorOps::is_from_center) start at its centre, all others
+// on points spread over it.
 #ifndef LUXFIT_FORWARD_FACTORS_INTERNAL_RAY_ROWS_H_
 #define LUXFIT_FORWARD_FACTORS_INTERNAL_RAY_ROWS_H_
 
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "forward/factors/form_factors.h"
-#include "forward/factors/internal/directions.h"
 
 namespace luxfit {
 
@@ -27,6 +26,7 @@ RayTally Summarise(const std::vector<RayTally>& tallies);
 
 class RayRows {
  public:
+  // Throws std::invalid_argument for a method that casts no rays over a hemisphere.
   RayRows(const RayScene& rays, const Patches& patches, FormFactorMethod method, int count);
 
   // Calls add(patch, weight) for every ray that meets a patch; weights are still to be scaled by tally.scale.
@@ -42,10 +42,9 @@ class RayRows {
   const RayScene& rays_;
   const Patches& patches_;
   std::vector<int> patch_of_element_;  // apart from the elements, which are many times its size
-  FormFactorMethod method_;
+  const FormFactorOps& ops_;
   int count_;
-  bool from_center_;
-  std::vector<Directions> variants_;
+  std::vector<Directions> sets_;
 };
 
 // All rows.

@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-// What is known of the light before the patches are cut.
+// Holds the light that is known before the patches are cut.
 struct KnownLight {
   Scene scene;
   RayScene rays;

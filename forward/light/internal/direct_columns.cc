@@ -41,7 +41,8 @@ double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity)
   return 0;
 }
 
-// One place: its light is measured at `place`, its shadows at the probes of `element`, if it is one.
+// Describes one place. Its light is measured at `place`, its shadows at the probes of `element`, if it is
+// one.
 struct Spot {
   Sensor place;
   const Element* element = nullptr;
@@ -62,7 +63,7 @@ class ColumnFiller {
     }
   }
 
-  // Columns for the luminaires, then for the parameters.
+  // Fills the columns of the luminaires, then those of the parameters.
   template <typename Row, typename Shares>
   void Fill(const Spot& spot, const Shares& visible, Row&& row) const {
     std::vector<DirectIlluminance> direct(luminaires_.size());
@@ -96,7 +97,7 @@ class ColumnFiller {
  private:
   using PartsOf = std::pair<int, LuminaireQuantity>;
 
-  // Of every part, times what the place sees of the whole.
+  // Fills the light of every part, times the share of the whole that the place sees.
   template <typename Shares>
   std::map<PartsOf, Eigen::VectorXd> LightOfParts(const Sensor& place, const Shares& visible) const {
     std::map<PartsOf, Eigen::VectorXd> light;

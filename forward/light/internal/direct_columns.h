@@ -1,7 +1,10 @@
-// Direct light of all luminaires at all places, and its derivatives, as columns.
+// Returns the direct light of all luminaires at all places, and its derivatives, as columns.
 //
-// rows x (luminaires + parameters), lx per lm. Derivatives hold visibility fixed unless moving shadows are
-// asked for: then places that see a part of a luminaire get those of forward/direct/internal/shadowed_light.h.
+// Shapes are rows x (luminaires + parameters), lx per lm. Derivatives hold visibility fixed unless moving
+// shadows are requested. Then places that see a part of a luminaire get those of
+// forward/direct/internal/shadowed_light.h.
+//
+// Throws std::invalid_argument for luminaires that are not valid.
 #ifndef LUXFIT_FORWARD_LIGHT_INTERNAL_DIRECT_COLUMNS_H_
 #define LUXFIT_FORWARD_LIGHT_INTERNAL_DIRECT_COLUMNS_H_
 
@@ -13,7 +16,7 @@
 namespace luxfit {
 
 struct DirectColumns {
-  Eigen::MatrixXf elements;  // of the room
+  Eigen::MatrixXf elements;  // all elements of the room
   Eigen::MatrixXf receivers;
 };
 DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
@@ -21,7 +24,7 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives);
 
-// Of the receivers alone; `visibility` needs no more.
+// Returns the columns of the receivers alone; `visibility` needs no more.
 Eigen::MatrixXf ComputeReceiverColumns(const Room& room, const Receivers& receivers,
                                        const LuminaireVisibility& visibility,
                                        const std::vector<Luminaire>& luminaires,

@@ -1,4 +1,4 @@
-// Indirect light at receivers, from that at the elements of the room.
+// Returns the indirect light at receivers, from that at the elements of the room.
 //
 //   element:  E = F M                          M: exitance of patches
 //   sensor:   E = G M_e,  M_e = rho (D + F M)  G: Receivers::sensor_to_element, D: direct light of elements
@@ -13,10 +13,10 @@
 
 namespace luxfit {
 
-// Reflectance of every element, from that of materials.
+// Returns the reflectance of every element, from that of materials.
 Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo);
 
-// Receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
+// Returns receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,
                                   const Eigen::MatrixXf& element_exitance);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/room/internal/expect_valid.h"
 
 namespace luxfit {
@@ -15,11 +16,8 @@ void ExpectLuminaire(const Luminaire& luminaire, const std::string& name) {
   ExpectThat(luminaire.size_m.allFinite() && (luminaire.size_m.array() >= 0).all(), name,
              "a finite size >= 0");
   ExpectThat(std::isfinite(luminaire.flux_lm), name, "a finite flux");
-  ExpectThat(luminaire.distribution != Distribution::kCosinePower ||
-                 (luminaire.cosine_exponent > 0 && std::isfinite(luminaire.cosine_exponent)),
-             name, "a finite exponent above 0");
-  ExpectThat(luminaire.distribution != Distribution::kMeasured || luminaire.table != nullptr, name,
-             "a table of intensities");
+  const char* const missing = OpsOf(luminaire.distribution).missing(luminaire);
+  ExpectThat(missing == nullptr, name, missing);
   ExpectThat(luminaire.emission.size() == 0 ||
                  ((luminaire.emission >= 0).all() && std::abs(luminaire.emission.sum() - 1) < 1e-6),
              name, "shares of cells >= 0 that sum to 1");

@@ -50,7 +50,7 @@ struct IesFile {
   std::vector<std::string> notes;  // what the reader passed over
 };
 
-// Throw std::runtime_error("NAME:LINE: field: expected X, got Y; mend"). ReadIes also reads the TILT file, by
+// Throw std::runtime_error("NAME:LINE: field: expected X, got Y; remedy"). ReadIes also reads the TILT file, by
 // its name, beside the .ies.
 IesFile ParseIes(const std::string& text, const std::string& name);
 IesFile ReadIes(const std::string& path);

@@ -49,7 +49,7 @@ struct LdtFile {
   std::vector<std::string> notes;  // what the reader passed over
 };
 
-// Throw std::runtime_error("NAME:LINE: field: expected X, got Y; mend").
+// Throw std::runtime_error("NAME:LINE: field: expected X, got Y; remedy").
 LdtFile ParseLdt(const std::string& text, const std::string& name);
 LdtFile ReadLdt(const std::string& path);
 

@@ -2,7 +2,7 @@
 //
 // Lines end in LF, CRLF or CR; a byte-order mark and the ^Z of DOS are dropped. Every number is finite and at
 // most 1e9 in magnitude. Counts are held against what is left of the text before anything is allocated.
-// Throws std::runtime_error("FILE:LINE: field: expected X, got Y; mend").
+// Throws std::runtime_error("FILE:LINE: field: expected X, got Y; remedy").
 #ifndef LUXFIT_FORWARD_LUMINAIRE_INTERNAL_PHOTOMETRY_TEXT_H_
 #define LUXFIT_FORWARD_LUMINAIRE_INTERNAL_PHOTOMETRY_TEXT_H_
 

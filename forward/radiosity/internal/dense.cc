@@ -7,14 +7,14 @@
 
 #include <vector>
 
-#include "forward/factors/dense_product.h"
+#include "forward/factors/form_factors.h"
 
 namespace luxfit {
 namespace {
 
 // OpenBLAS's own threads wait by yielding, which on a busy machine costs a scheduler's turn at every barrier:
-// minutes instead of seconds. So it computes on the calling thread, and the parallel loops here share out
-// rows and columns.
+// minutes instead of seconds. It therefore computes on the calling thread, and the parallel loops here divide
+// rows and columns among the threads.
 void KeepBlasOnCallingThread() {
   static const bool once = [] {
     openblas_set_num_threads(1);

@@ -1,4 +1,4 @@
-// Directional light in nine coefficients: real spherical harmonics up to second order.
+// Describes directional light by nine coefficients: real spherical harmonics up to second order.
 //
 //   max(0, n . w) ~ ClampedCosine(n) . Harmonics(w),      within 0.1 for all n, w
 //

@@ -1,4 +1,4 @@
-// Conjugate gradients and BiCGSTAB, all columns at once so that each pass over K serves them all.
+// Solves by conjugate gradients and BiCGSTAB, all columns at once so that each pass over K serves them all.
 //
 // Scalars are sums in double: in float those of 10^5 patches would lose the digits that orthogonality needs.
 #include <cmath>
@@ -16,17 +16,17 @@ Scalars Dot(const Eigen::MatrixXf& a, const Eigen::MatrixXf& b) {
   return dots;
 }
 
-// A column that is solved has nothing left to divide: 0.
+// Returns 0 for a column that is solved: it has nothing left to divide.
 Scalars Ratio(const Scalars& a, const Scalars& b) { return (b.abs() > 1e-300).select(a / b, 0.0); }
 
-// x + y * s, column by column.
+// Returns x + y * s, column by column.
 Eigen::MatrixXf Plus(const Eigen::MatrixXf& x, const Eigen::MatrixXf& y, const Scalars& s) {
   return x + y * s.matrix().transpose().cast<float>().asDiagonal();
 }
 
 }  // namespace
 
-// S x = R g, S = I - R K R, R = sqrt(rho), z = R x: then the residual of z is R times that of x.
+// Solves S x = R g, S = I - R K R, R = sqrt(rho), z = R x: the residual of z is R times that of x.
 RadiosityIterate SolveConjugateGradient(const RadiositySystem& system) {
   const Eigen::VectorXf root_rho = system.rho.cwiseSqrt();
   const auto times_root = [&](const Eigen::MatrixXf& x) -> Eigen::MatrixXf {
@@ -51,7 +51,7 @@ RadiosityIterate SolveConjugateGradient(const RadiositySystem& system) {
   return iterate;
 }
 
-// (I - rho K) z = rho g.
+// Solves (I - rho K) z = rho g.
 RadiosityIterate SolveBicgstab(const RadiositySystem& system) {
   const auto image_of = [&](const Eigen::MatrixXf& x) -> Eigen::MatrixXf {
     return x - system.rho.asDiagonal() * system.coupling.Times(x);

@@ -10,8 +10,8 @@ namespace luxfit {
 namespace {
 
 struct PointState {
-  bool free = false;   // in no solid
-  bool lands = false;  // light that leaves from it, along one random ray
+  bool free = false;   // the point lies in no solid
+  bool lands = false;  // light that leaves it along one random ray meets a front
 };
 
 PointState StateAt(const Scene& scene, const RayScene& rays, const Eigen::Vector3d& p,
@@ -28,7 +28,7 @@ LeafLight EvaluateLeaf(const LightTree& tree, const Scene& scene, const RayScene
                        const DirectLight& direct_lx, int leaf) {
   const LightNode& node = tree[leaf];
   const Probes probes = ProbesOf(node);
-  constexpr int kPoints = 4;  // a probe
+  constexpr int kPoints = 4;  // per probe
   uint64_t hash = Mix(static_cast<uint64_t>(leaf));
   double free = 0, sum = 0, square = 0;
   int points = 0, landing = 0;

@@ -1,9 +1,8 @@
-// What a leaf of hierarchical radiosity has by itself: direct light, how much of it lies in solids, and how
-// much of its own light lands.
+// Evaluates a leaf of hierarchical radiosity alone: its direct light, free share and landing share.
 #ifndef LUXFIT_FORWARD_RADIOSITY_INTERNAL_LEAF_LIGHT_H_
 #define LUXFIT_FORWARD_RADIOSITY_INTERNAL_LEAF_LIGHT_H_
 
-#include "forward/radiosity/hierarchical.h"
+#include "forward/radiosity/internal/hierarchical.h"
 #include "forward/radiosity/internal/light_tree.h"
 #include "forward/room/visibility.h"
 
@@ -15,7 +14,7 @@ struct LeafLight {
   float landing = 0;                         // share of the light leaving from there that meets a front
 };
 
-// Four points of a parallelogram, three of a triangle, for direct light; 16 or 12 for the shares.
+// Uses four points of a parallelogram, three of a triangle, for direct light; 16 or 12 for the shares.
 LeafLight EvaluateLeaf(const LightTree& tree, const Scene& scene, const RayScene& rays,
                        const DirectLight& direct_lx, int leaf);
 

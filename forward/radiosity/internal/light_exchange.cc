@@ -10,7 +10,7 @@ namespace luxfit {
 namespace {
 
 constexpr float kPi = 3.14159265f;
-// Illuminance anywhere in a field whose one coefficient is the zeroth, 1.
+// The illuminance anywhere in a field whose one coefficient is the zeroth, 1.
 constexpr float kUniform = kPi * 0.282095f;
 
 }  // namespace
@@ -70,7 +70,7 @@ double LightExchange::Gather(const std::vector<LightLink>& links) {
   std::fill(field_.begin(), field_.end(), DirectionalLight::Zero());
   tbb::parallel_for(
       tbb::blocked_range<size_t>(0, links.size(), 16384), [&](const tbb::blocked_range<size_t>& range) {
-        // Whole receivers: from the first that begins in the range to the end of the last.
+        // The range covers whole receivers: from the first that begins in it to the end of the last.
         size_t i = range.begin();
         while (i > 0 && i < links.size() && links[i].receiver == links[i - 1].receiver) ++i;
         while (i < range.end()) {

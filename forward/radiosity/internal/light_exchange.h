@@ -1,5 +1,7 @@
-// Light on the tree of hierarchical radiosity: gathered over links, pushed to the leaves, reflected, pulled
-// up.
+// Exchanges light on the tree of hierarchical radiosity.
+//
+// Light is gathered over links, pushed to the leaves, reflected and pulled up. Illuminances are in lx,
+// exitances in lm/m2.
 #ifndef LUXFIT_FORWARD_RADIOSITY_INTERNAL_LIGHT_EXCHANGE_H_
 #define LUXFIT_FORWARD_RADIOSITY_INTERNAL_LIGHT_EXCHANGE_H_
 
@@ -15,21 +17,21 @@ class LightExchange {
  public:
   LightExchange(const LightTree& tree, const std::vector<float>& albedo_by_facet);
 
-  // Room for the tree's new nodes; the children of a leaf just cut start with its light.
+  // Makes room for the tree's new nodes; the children of a leaf just cut start with its light.
   void Grow();
   void Inherit(int parent);
-  // `direct_lx`: mean over the share `free` (0 to 1) of the leaf that lies in no solid; `landing`: the share
-  // of the light leaving from there that meets a reflecting side.
+  // Sets the light of a leaf. `direct_lx` is the mean over the share `free` (0 to 1) of the leaf that lies in
+  // no solid. `landing` is the share of the light leaving from there that meets a reflecting side.
   void SetDirect(int leaf, float direct_lx, float free, float landing) {
     direct_lx_[static_cast<size_t>(leaf)] = direct_lx;
     free_[static_cast<size_t>(leaf)] = free;
     landing_[static_cast<size_t>(leaf)] = landing;
   }
-  // Reflects the direct light, and `ambient_lx` besides: a first guess of what links will bring.
+  // Reflects the direct light, and `ambient_lx` besides, a first guess of the light that links will bring.
   void Start(float ambient_lx);
-  // One pass over the links (sorted by receiver), then all that was received is scaled to the flux that left
-  // and landed: links know a source as even, so that what they lose of its brighter or dimmer parts does not
-  // cancel over all receivers. Returns the area mean of |change of exitance|, lm/m2.
+  // Makes one pass over the links (sorted by receiver), then scales all that was received to the flux that
+  // left and landed. Links treat a source as even: the light that they lose from its brighter or dimmer parts
+  // does not cancel over all receivers. Returns the area mean of |change of exitance|, lm/m2.
   double Gather(const std::vector<LightLink>& links);
 
   float direct_lx(int leaf) const { return direct_lx_[static_cast<size_t>(leaf)]; }
@@ -37,7 +39,7 @@ class LightExchange {
     const size_t n = static_cast<size_t>(leaf);
     return free_[n] > 0 ? direct_lx_[n] + received_lx_[n] : 0;
   }
-  // Area mean of the exitance, and its rms deviation (elements only).
+  // Return the area mean of the exitance, and its rms deviation (elements only).
   float exitance(int node) const { return exitance_[static_cast<size_t>(node)]; }
   float spread(int node) const { return spread_[static_cast<size_t>(node)]; }
   double MeanIlluminance() const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPlaneTolerance = 1e-9;  // m
 
-// Whether all of `node` lies behind the plane of `element`.
+// Tells whether all of `node` lies behind the plane of `element`.
 bool IsBehind(const LightNode& node, const LightNode& element) {
   const double height = element.normal.dot(node.center - element.center);
   if (height < -node.radius_m) return true;
@@ -24,14 +24,15 @@ bool IsBehind(const LightNode& node, const LightNode& element) {
          (node.kind == FacetKind::kTriangle || below(node.origin + node.edge_u + node.edge_v));
 }
 
-// Points of the unit cube, different for every link: an additive sequence (x^4 = x + 1) with a hashed start.
+// Generates points of the unit cube, different for every link: an additive sequence (x^4 = x + 1) with a
+// hashed start.
 class UnitPoints {
  public:
   UnitPoints(int receiver, int source) {
     uint64_t hash = Mix(Mix(static_cast<uint64_t>(receiver)) + static_cast<uint64_t>(source));
     for (double& x : start_) x = UnitFrom(hash = Mix(hash));
   }
-  // The first for the receiver's end, the second for the source's.
+  // Returns the point of the receiver's end and that of the source's end.
   std::pair<Eigen::Vector3d, Eigen::Vector3d> At(int i) const {
     static constexpr double kStep[6] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703,
                                         0.7548776662466927, 0.5698402909980532, 0.6180339887498949};
@@ -57,7 +58,7 @@ RayTest TestRay(const RayScene& rays, const LightTree::Place& from, const LightT
   return {true, !rays.Occluded(LiftedOff(from.point, from.normal), LiftedOff(to.point, to.normal))};
 }
 
-// Of the source, seen from around each probe of the receiver.
+// Holds the visibility of the source from around each probe of the receiver.
 struct ProbeVisibility {
   std::array<int, 4> facing{}, visible{};
 
@@ -68,7 +69,7 @@ struct ProbeVisibility {
   double Mean() const { return FacingSum() > 0 ? static_cast<double>(VisibleSum()) / FacingSum() : 1; }
 };
 
-// `sum` and rays `begin` to `end` of each probe.
+// Adds rays `begin` to `end` of each probe to `sum`.
 ProbeVisibility CastFromProbes(const LightTree& tree, const RayScene& rays, int receiver, int source,
                                int begin, int end, ProbeVisibility sum) {
   const LightNode& p = tree[receiver];
@@ -86,7 +87,7 @@ ProbeVisibility CastFromProbes(const LightTree& tree, const RayScene& rays, int 
   return sum;
 }
 
-// (u, v) of the point of the element's plane below `point`: origin + u edge_u + v edge_v.
+// Returns (u, v) of the point of the element's plane below `point`: origin + u edge_u + v edge_v.
 Eigen::Vector2d PlaceOf(const LightNode& element, const Eigen::Vector3d& point) {
   const Eigen::Vector3d d = point - element.origin;
   Eigen::Matrix2d gram;
@@ -95,8 +96,8 @@ Eigen::Vector2d PlaceOf(const LightNode& element, const Eigen::Vector3d& point) 
   return gram.inverse() * Eigen::Vector2d(element.edge_u.dot(d), element.edge_v.dot(d));
 }
 
-// The point of an element that is nearest to another, or nearly; off its border, where form factors of
-// touching polygons jump.
+// Returns the point of an element that is nearest to another, or nearly. It lies off the border, where form
+// factors of touching polygons jump.
 Eigen::Vector3d NearestPoint(const LightNode& element, const Eigen::Vector3d& to) {
   constexpr double kMargin = 0.02;
   Eigen::Vector2d uv = PlaceOf(element, to);
@@ -105,8 +106,8 @@ Eigen::Vector3d NearestPoint(const LightNode& element, const Eigen::Vector3d& to
   return element.origin + uv[0] * element.edge_u + uv[1] * element.edge_v;
 }
 
-// Rms deviation over an element, in units of the mean, of what only its part before another's plane has
-// evenly: where an element runs on below a solid.
+// Returns the rms deviation over an element, in units of the mean, of light that only its part before
+// another's plane receives, evenly: an element may run on below a solid.
 double CutOffBy(const ConvexPolygon& polygon, const LightNode& plane) {
   bool above = false, below = false;
   for (int i = 0; i < polygon.count; ++i) {
@@ -119,10 +120,11 @@ double CutOffBy(const ConvexPolygon& polygon, const LightNode& plane) {
   return before_m2 > 0 ? std::sqrt(std::max(0.0, polygon.AreaM2() / before_m2 - 1)) : 0;
 }
 
-// Unoccluded: the mean over the receiver, from the smaller of the two, over which the kernel varies less
-// (A_p F_pq = A_q F_qp), or the closed form where only a part of one is before the other, which points may
-// miss; and its rms deviation over the receiver, which its probes may miss if the source is small and near:
-// then with the largest value x and mean m at most sqrt(m x), or half of x - m where that is little.
+// Holds the unoccluded factor: its mean over the receiver and its rms deviation there. The mean is taken from
+// the smaller of the two, over which the kernel varies less (A_p F_pq = A_q F_qp). Where only a part of one
+// is before the other, which points may miss, the mean is the closed form. Probes of the receiver may miss
+// the deviation if the source is small and near. With the largest value x and mean m it is then at most
+// sqrt(m x), or half of x - m where that is little.
 struct UnoccludedFactor {
   double mean = 0, deviation = 0;
   double over_source = 0;  // rms deviation over the source, where only a part of it is before the receiver
@@ -160,14 +162,14 @@ LinkEvaluation BetweenElements(const LightTree& tree, const RayScene& rays, int 
     share[k] = PointToPolygon(probes.points[k], p.normal, polygon);
   const UnoccludedFactor unoccluded = Unoccluded(p, q, share, probes.count, polygon);
   if (unoccluded.mean == 0) return {};
-  constexpr int kMostRays = 16;  // a probe
+  constexpr int kMostRays = 16;  // per probe
   const int first = std::clamp(static_cast<int>(0.5 * unoccluded.mean / tolerance), 1, kMostRays);
   ProbeVisibility judged = CastFromProbes(tree, rays, receiver, source, 0, first, {});
   const bool partial = judged.IsPartial();
   const int count = partial && unoccluded.mean > tolerance ? kMostRays : first;
   judged = CastFromProbes(tree, rays, receiver, source, first, count, judged);
-  // Other rays than those that decide whether to cut: a source of which these happen to see all would stay
-  // whole, and count as seen whole.
+  // Other rays measure than those that decide whether to cut. A source of which the deciding rays happen to
+  // see all would stay whole, and count as seen whole.
   const ProbeVisibility measured = CastFromProbes(tree, rays, receiver, source, count, 2 * count, {});
   std::array<double, 4> open{};
   double weight = 0, weighted = 0;
@@ -188,8 +190,8 @@ LinkEvaluation BetweenElements(const LightTree& tree, const RayScene& rays, int 
            static_cast<float>(partial || count == kMostRays ? 0 : unoccluded.mean / (probes.count * count))}};
 }
 
-// Share of the facing pairs of points of both ends, `begin` to `end` of the link's sequence, that see each
-// other; 1 if none face.
+// Returns the share of the facing pairs of points of both ends, `begin` to `end` of the link's sequence, that
+// see each other; 1 if none face.
 double SeenShare(const LightTree& tree, const RayScene& rays, int receiver, int source, int begin, int end) {
   const UnitPoints points(receiver, source);
   int facing = 0, visible = 0;
@@ -202,7 +204,7 @@ double SeenShare(const LightTree& tree, const RayScene& rays, int receiver, int 
   return facing > 0 ? static_cast<double>(visible) / facing : 1;
 }
 
-// Whether a node holds a point of a facet.
+// Tells whether a node holds a point of a facet.
 bool Holds(const LightTree& tree, int index, int facet, const Eigen::Vector3d& point) {
   const LightNode& node = tree[index];
   if (node.IsCluster()) {
@@ -214,7 +216,7 @@ bool Holds(const LightTree& tree, int index, int facet, const Eigen::Vector3d& p
   return uv.minCoeff() >= 0 && (node.kind == FacetKind::kTriangle ? uv.sum() : uv.maxCoeff()) <= 1;
 }
 
-// Share of the receiver's rays, by the cosine, that meet the front of the source.
+// Returns the share of the receiver's rays, by the cosine, that meet the front of the source.
 double MeetingShare(const LightTree& tree, const RayScene& rays, int receiver, int source, int count) {
   const UnitPoints points(receiver, source);
   int meeting = 0;
@@ -230,11 +232,11 @@ double MeetingShare(const LightTree& tree, const RayScene& rays, int receiver, i
   return static_cast<double>(meeting) / count;
 }
 
-// Light in a crowd: members of both lie anywhere in their spheres, and face anywhere.
+// Links nodes that are near each other: members of both lie anywhere in their spheres, and face anywhere.
 LinkEvaluation BetweenNear(const LightTree& tree, const RayScene& rays, int receiver, int source,
                            double tolerance) {
   const LightNode &p = tree[receiver], &q = tree[source];
-  // Mean of 1 / r^2 between points of one sphere: 9 / 4 over its radius squared.
+  // The mean of 1 / r^2 between points of one sphere is 9 / 4 over its radius squared.
   const double reach = p.radius_m + q.radius_m;
   const double share =
       std::min(1.0, q.area_m2 / (4 * M_PI) / ((q.center - p.center).squaredNorm() + reach * reach / 9));
@@ -254,19 +256,19 @@ LinkEvaluation BetweenDistant(const LightTree& tree, const RayScene& rays, int r
   const double cos_p = p.IsCluster() ? 1 : std::max(0.0, p.normal.dot(d) / r);
   const double cos_q = q.IsCluster() ? 1 : std::max(0.0, -q.normal.dot(d) / r);
   const double factor = cos_p * cos_q * (q.IsCluster() ? 1 : q.area_m2 / M_PI) / (r * r);
-  // The same in units of mean exitance; members of clusters face the other end with half their area, on
-  // average.
+  // `share` is the factor in units of mean exitance: members of clusters face the other end with half their
+  // area, on average.
   const double share =
       std::min(1.0, (q.IsCluster() ? 0.5 * q.area_m2 / M_PI : 1) * (p.IsCluster() ? 0.5 : 1) * factor);
   constexpr int kMostRays = 32;
   const int count = std::clamp(static_cast<int>(2 * share / tolerance), 4, kMostRays);
-  // Rays that decide whether to cut, and others that measure: see BetweenElements.
+  // Some rays decide whether to cut, others measure: see BetweenElements.
   const double judged = SeenShare(tree, rays, receiver, source, 0, count);
   const double measured = SeenShare(tree, rays, receiver, source, count, 2 * count);
   const bool agreed = judged == 0 || judged == 1;
-  // Harmonics, extent, and shadows within or between.
+  // The error is that of harmonics, extent, and shadows within or between.
   constexpr double kHarmonics = 0.1;
-  // Of 1 / r^2, rms over balls evenly filled.
+  // Rms deviation of 1 / r^2 over balls evenly filled.
   const double extent = 2 / std::sqrt(5.0) * std::hypot(p.radius_m, q.radius_m) / r;
   const double error = share * std::sqrt(judged * judged * (kHarmonics * kHarmonics + extent * extent) +
                                          judged * (1 - judged));

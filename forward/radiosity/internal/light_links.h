@@ -1,7 +1,6 @@
-// Links of hierarchical radiosity: how much of a source's exitance a receiver sees, and how uncertain that
-// is.
+// Evaluates links of hierarchical radiosity: the light a receiver gets from a source, and its uncertainty.
 //
-// What factor times light of the source is, by kind of receiver <- source (d: unit direction to the source):
+// The factor times the source's light is, by kind of receiver <- source (d: unit direction to the source):
 //   element <- element   F V          times M                                   = illuminance
 //   element <- cluster   V cos / r^2  times intensity I(-d)                     = illuminance
 //   cluster <- element   V A cos / (pi r^2)  times M          } illuminance perpendicular to d, which the
@@ -22,18 +21,19 @@ namespace luxfit {
 struct LightLink {
   int32_t receiver = 0, source = 0;
   float factor = 0;
-  // Of the receiver's illuminance over the source's mean exitance, rms over the receiver; negative where
-  // cutting the source mends more.
+  // Error of the receiver's illuminance over the source's mean exitance, rms over the receiver; negative
+  // where to cut the source gains more.
   float error = 0;
-  // Rms over the source of what of each of its points is seen, times the factor that nothing would hide: an
-  // uneven source may show the receiver its bright part only.
+  // Rms over the source of the visible share of each of its points, times the unoccluded factor: an uneven
+  // source may show the receiver its bright part only.
   float shadow = 0;
-  // What one more ray might change: the factor that nothing would hide over the rays that were cast, where
-  // they agreed and more would help; else 0. A smaller tolerance asks for more rays before it trusts them.
+  // Change that one more ray might bring: the unoccluded factor over the number of rays cast, where they
+  // agreed and more would help; else 0. A smaller tolerance asks for more rays before it trusts them.
   float doubt = 0;
 };
 
-// At least one a cluster, so near that light between them has no one direction or distance.
+// Tells whether two nodes, at least one of them a cluster, are so near that light between them has no one
+// direction or distance.
 bool AreNear(const LightNode& p, const LightNode& q);
 
 struct LinkEvaluation {
@@ -42,7 +42,8 @@ struct LinkEvaluation {
   LightLink link;
 };
 
-// `tolerance`: error that needs no further rays or cuts, in illuminance over the source's mean exitance.
+// Evaluates a link. `tolerance` is the error that needs no further rays or cuts, in illuminance over the
+// source's mean exitance.
 LinkEvaluation EvaluateLink(const LightTree& tree, const RayScene& rays, int receiver, int source,
                             double tolerance);
 

@@ -156,7 +156,7 @@ Eigen::Vector3d PointAroundProbe(const LightNode& element, int k, double u, doub
     u = 1 - u;
     v = 1 - v;
   }
-  // The third nearest to corner k: where its barycentric coordinate is the greatest.
+  // The third nearest to corner k is where its barycentric coordinate is the greatest.
   std::array<double, 3> share{1 - u - v, u, v};
   std::swap(share[static_cast<size_t>(k)], *std::max_element(share.begin(), share.end()));
   return element.origin + share[1] * element.edge_u + share[2] * element.edge_v;

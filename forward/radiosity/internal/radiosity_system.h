@@ -1,14 +1,14 @@
-// The radiosity system in the unknown z = sqrt(A) M, in which its matrix is the symmetric coupling K itself:
+// Describes the radiosity system that every iterative solver solves, and when it may stop.
 //
-//   z = rho (g + K z),   g = sqrt(A) D
+//   z = rho (g + K z),   z = sqrt(A) M,   g = sqrt(A) D
 //
-// and what every iterative solver needs to know when to stop.
+// In the unknown z the matrix is the symmetric coupling K itself.
 #ifndef LUXFIT_FORWARD_RADIOSITY_INTERNAL_RADIOSITY_SYSTEM_H_
 #define LUXFIT_FORWARD_RADIOSITY_INTERNAL_RADIOSITY_SYSTEM_H_
 
 #include <Eigen/Core>
 
-#include "forward/radiosity/linear_transport.h"
+#include "forward/radiosity/internal/linear_transport.h"
 
 namespace luxfit {
 
@@ -23,7 +23,7 @@ struct RadiositySystem {
 
   Eigen::Index patches() const { return source.rows(); }
   Eigen::Index columns() const { return source.cols(); }
-  // Greatest magnitude in column c of a residual given as sqrt(A) r, in lm/m2.
+  // Returns the greatest magnitude in column c of a residual given as sqrt(A) r, in lm/m2.
   float Largest(const Eigen::Ref<const Eigen::VectorXf>& scaled) const {
     return scaled.cwiseQuotient(root_area).cwiseAbs().maxCoeff();
   }
@@ -40,7 +40,7 @@ struct RadiosityIterate {
   int iterations = 0;
 };
 
-// The means by column of |x|, weighted with the patches' areas.
+// Returns the means by column of |x|, weighted with the patches' areas.
 inline Eigen::RowVectorXf AreaMean(const Eigen::MatrixXf& x, const Eigen::VectorXf& root_area) {
   const Eigen::VectorXd area = root_area.cast<double>().cwiseAbs2();
   return (area.transpose() * x.cwiseAbs().cast<double>() / area.sum()).cast<float>();

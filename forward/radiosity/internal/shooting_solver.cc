@@ -1,4 +1,4 @@
-// Progressive shooting with the ambient term.
+// Solves by progressive shooting with the ambient term.
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -13,8 +13,8 @@ struct Column {
   int shots = 0;
 };
 
-// The residual of what has been shot is exactly what has not: rho v, v = sqrt(A) times light received and not
-// yet passed on.
+// The residual of the light that has been shot is exactly the light that has not: rho v, v = sqrt(A) times
+// light received and not yet passed on.
 Column ShootColumn(const RadiositySystem& system, Eigen::Index c) {
   const Eigen::Index n = system.patches();
   Column column{Eigen::VectorXf::Zero(n), 0};
@@ -37,7 +37,7 @@ Column ShootColumn(const RadiositySystem& system, Eigen::Index c) {
     system.coupling.AddColumn(shooter, shot, unshot);
     ++column.shots;
   }
-  // Cohen et al. (1988), eq. 6 to 8: what is unshot, spread evenly with all its further reflections.
+  // Cohen et al. (1988), eq. 6 to 8: the unshot light is spread evenly with all its further reflections.
   const Eigen::VectorXf area = system.root_area.cwiseAbs2();
   const Eigen::VectorXf left = system.rho.cwiseProduct(unshot);
   const float mean_rho = area.dot(system.rho) / area.sum();

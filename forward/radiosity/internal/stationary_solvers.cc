@@ -1,6 +1,6 @@
-// Jacobi, Gauss-Seidel and the Neumann series.
+// Solves by Jacobi, Gauss-Seidel and the Neumann series.
 //
-// Both iterations stop by the last change of M: the residual left after a pass is rho times the part of F
+// Both iterations stop by the last change of M. The residual left after a pass is rho times the part of F
 // that saw old values times that change, hence no larger.
 #include <algorithm>
 
@@ -53,7 +53,7 @@ RadiosityIterate SolveGaussSeidel(const RadiositySystem& system) {
       const Eigen::MatrixXf received = system.coupling.RowsTimes(first, count, z);
       for (Eigen::Index k = 0; k < count; ++k) {
         const Eigen::Index i = first + k;
-        // What earlier rows of this block have changed since the product was formed.
+        // Adds the changes of earlier rows of this block since the product was formed.
         const Eigen::RowVectorXf total =
             system.source.row(i) + received.row(k) + block.row(k).head(k) * change.middleRows(first, k);
         const float self = block(k, k);

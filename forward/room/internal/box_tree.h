@@ -1,4 +1,4 @@
-// Which of many boxes meet a given one: a tree of boxes, split at the median.
+// Finds which of many boxes meet a given one, by a tree of boxes that is split at the median.
 //
 // Source: Wald (2007), "On fast construction of SAH-based bounding volume hierarchies" (the object median,
 // its simplest rule).

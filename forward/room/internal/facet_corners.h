@@ -1,4 +1,4 @@
-// Corners of a facet, counter-clockwise seen from its front, and the box round them.
+// Returns the corners of a facet, counter-clockwise seen from its front, and the box round them (m).
 #ifndef LUXFIT_FORWARD_ROOM_INTERNAL_FACET_CORNERS_H_
 #define LUXFIT_FORWARD_ROOM_INTERNAL_FACET_CORNERS_H_
 

@@ -95,7 +95,7 @@ int HexDigit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// A reference is percent-encoded: "my%20room.bin".
+// Decodes a reference, which is percent-encoded: "my%20room.bin".
 std::string PathOf(const std::string& uri, const JsonPlace& place) {
   std::string path;
   for (size_t i = 0; i < uri.size(); ++i) {

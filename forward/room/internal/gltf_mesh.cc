@@ -31,20 +31,20 @@ float FloatAt(const char* bytes) {
   return value;
 }
 
-// Elements within a buffer, all of which lie inside it.
+// Describes elements that all lie inside their buffer.
 struct Accessor {
   const char* first = nullptr;
   size_t count = 0, stride = 0, component_type = kFloat;
   const char* At(size_t index) const { return first + index * stride; }
 };
 
-// Three corners a triangle, in the frame of the node.
+// Holds three corners for each triangle, in the frame of the node.
 struct Primitive {
   std::vector<Eigen::Vector3d> corners;
   int material = 0;
 };
 
-// Corner k of triangle t.
+// Returns corner k of triangle t.
 size_t CornerOf(size_t mode, size_t t, size_t k) {
   if (mode == kTriangles) return 3 * t + k;
   if (mode == kFan) return k == 0 ? 0 : t + k;
@@ -70,7 +70,7 @@ class GltfReader {
 
   size_t CountOf(const char* key) const { return root_.Has(key) ? root_.At(key).Count() : 0; }
 
-  // What the index at `place` names in one of the lists of the root.
+  // Returns what the index at `place` names in one of the lists of the root.
   JsonPlace Named(const JsonPlace& place, const char* list) const {
     const size_t index = place.Integer();
     if (index >= CountOf(list))
@@ -115,7 +115,7 @@ class GltfReader {
     }
   }
 
-  // The nodes that a scene or a node names; the first is on top of the stack.
+  // Pushes the nodes that a scene or a node names; the first is on top of the stack.
   void Open(const JsonPlace& parent, const char* key, const Eigen::Affine3d& world_from_parent,
             std::vector<bool>& seen, std::vector<Visit>& open) const {
     if (!parent.Has(key)) return;
@@ -140,7 +140,7 @@ class GltfReader {
     return numbers;
   }
 
-  // Parent from node.
+  // Returns parent_from_node.
   Eigen::Affine3d TransformOf(const JsonPlace& node) const {
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     if (node.Has("matrix")) {

@@ -10,7 +10,7 @@ namespace {
 constexpr int kDirections = 16;
 constexpr int kLeastOpen = kDirections / 4;
 
-// Fibonacci's lattice on the hemisphere around z.
+// Returns Fibonacci's lattice on the hemisphere around z.
 Eigen::Matrix<double, 3, kDirections> Lattice() {
   Eigen::Matrix<double, 3, kDirections> directions;
   for (int k = 0; k < kDirections; ++k) {
@@ -23,7 +23,7 @@ Eigen::Matrix<double, 3, kDirections> Lattice() {
 
 bool IsBack(const RayHit& hit) { return hit.facet >= 0 && !hit.front; }
 
-// Whether a ray ended in the open.
+// Tells whether a ray ended in the open.
 bool IsOpen(const Scene& scene, const RayScene& rays, const RayHit& hit) {
   if (hit.facet < 0) return true;
   if (!hit.front) return false;
@@ -37,7 +37,7 @@ bool IsOpen(const Scene& scene, const RayScene& rays, const RayHit& hit) {
 bool IsInsideSolid(const Scene& scene, const RayScene& rays, const Eigen::Vector3d& p,
                    const Eigen::Vector3d& normal) {
   const Eigen::Vector3d start = LiftedOff(p, normal);
-  // Straight on first, which keeps off what stands beside the point or flush with it.
+  // The ray along the normal goes first: it misses what stands beside the point or flush with it.
   if (!IsBack(rays.Trace(start, normal))) return false;
   static const Eigen::Matrix<double, 3, kDirections> lattice = Lattice();
   const Eigen::Matrix<double, 3, kDirections> directions = FrameOf(normal) * lattice;

@@ -1,7 +1,7 @@
-// A value within a JSON document, with its JSON pointer, so that what is wrong with it can be said.
+// Pairs a value within a JSON document with its JSON pointer, so that an error can name it.
 //
-// Throws std::runtime_error("FILE: /accessors/3/count: expected ..., got ...; export it again") where a value
-// is missing or of another type. The document must outlive it. Source: RFC 6901 (JSON pointer).
+// The document must outlive it. Throws std::runtime_error("FILE: /accessors/3/count: expected ..., got ...;
+// export it again") where a value is missing or of another type. Source: RFC 6901 (JSON pointer).
 #ifndef LUXFIT_FORWARD_ROOM_INTERNAL_JSON_PLACE_H_
 #define LUXFIT_FORWARD_ROOM_INTERNAL_JSON_PLACE_H_
 
@@ -22,9 +22,9 @@ class JsonPlace {
   [[noreturn]] void Fail(const std::string& message) const {
     throw std::runtime_error(file_ + ": " + (pointer_.empty() ? "" : pointer_ + ": ") + message);
   }
-  // Of a value that is not what it should be.
+  // Throws for a value that is not what it should be.
   [[noreturn]] void FailExpecting(const std::string& expected) const {
-    // Not the text of lists: they may be nested deeper than the stack.
+    // The text of lists is left out: they may be nested deeper than the stack.
     const std::string got = value_->is_structured() ? value_->type_name() : value_->dump().substr(0, 40);
     Fail("expected " + expected + ", got " + got + "; export it again");
   }
@@ -48,7 +48,7 @@ class JsonPlace {
     return value_->size();
   }
 
-  // Up to 2^53: sums of two of them do not overflow.
+  // Returns a whole number up to 2^53: sums of two of them do not overflow.
   size_t Integer() const {
     if (!value_->is_number_unsigned() || value_->get<uint64_t>() > uint64_t{1} << 53)
       FailExpecting("a whole number from 0 to 2^53");

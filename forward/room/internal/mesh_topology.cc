@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-// Finds or adds vertices by a grid much coarser than the tolerance: mostly one cell is asked.
+// Finds or adds vertices by a grid much coarser than the tolerance: mostly one cell is searched.
 class Welder {
  public:
   int IdOf(const Eigen::Vector3d& p, std::vector<Eigen::Vector3d>& vertices) {

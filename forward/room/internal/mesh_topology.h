@@ -1,5 +1,7 @@
-// How facets hang together: vertices within 20 um of one another are one, edges join facets, facets joined by
-// edges of exactly two facets form a shell.
+// Finds how facets hang together: shared vertices, edges, and shells.
+//
+// Vertices within 20 um of one another are one, edges join facets, and facets joined by edges of exactly two
+// facets form a shell.
 #ifndef LUXFIT_FORWARD_ROOM_INTERNAL_MESH_TOPOLOGY_H_
 #define LUXFIT_FORWARD_ROOM_INTERNAL_MESH_TOPOLOGY_H_
 
@@ -13,7 +15,7 @@ namespace luxfit {
 
 constexpr double kWeldM = 2e-5;
 
-// A side of a facet, from vertex a to vertex b > a or, against the facet's own direction, `reversed`.
+// Describes a side of a facet, from vertex a to vertex b > a. `reversed`: the facet itself runs from b to a.
 struct FacetEdge {
   int a = 0, b = 0;
   int facet = 0;
@@ -22,7 +24,7 @@ struct FacetEdge {
 
 struct MeshTopology {
   std::vector<Eigen::Vector3d> vertices;
-  std::vector<std::array<int, 4>> corners;  // one a facet; the last -1 for triangles
+  std::vector<std::array<int, 4>> corners;  // one entry for each facet; the last -1 for triangles
   std::vector<FacetEdge> edges;             // sorted by (a, b): those of one line stand together
 };
 MeshTopology MakeTopology(const Scene& scene);
@@ -41,9 +43,9 @@ void ForEachEdge(const MeshTopology& mesh, const Use& use) {
 
 struct Shells {
   std::vector<int> of_facet;
-  std::vector<bool> turned;      // one a facet: wound against the shell's first facet
-  std::vector<bool> closed;      // one a shell: every edge joins as many facets one way as the other
-  std::vector<bool> orientable;  // one a shell
+  std::vector<bool> turned;      // by facet: wound against the shell's first facet
+  std::vector<bool> closed;      // by shell: every edge joins as many facets one way as the other
+  std::vector<bool> orientable;  // by shell
 };
 Shells FindShells(const MeshTopology& mesh);
 

@@ -44,7 +44,7 @@ class ObjParser {
     throw std::runtime_error(name_ + ":" + std::to_string(line) + ": " + message);
   }
 
-  // One line, joined with those that a backslash at its end continues.
+  // Returns one line, joined with those that a backslash at its end continues.
   std::string_view NextStatement() {
     line_ = next_line_;
     joined_.clear();

@@ -51,7 +51,7 @@ double ValueOf(const char* bytes) {
   return static_cast<double>(value);
 }
 
-// Of bytes in this machine's order.
+// Returns the value of bytes in this machine's order.
 double ValueOf(PlyType type, const char* bytes) {
   switch (type) {
     case PlyType::kInt8:
@@ -181,7 +181,7 @@ class PlyParser {
     elements_.back().properties.push_back(property);
   }
 
-  // A count that the file cannot hold is refused before anything is made of its size.
+  // Refuses a count that the file cannot hold before anything is made of its size.
   void ExpectRoomFor(const PlyElement& element) const {
     size_t least = 0;
     for (const PlyProperty& property : element.properties) {

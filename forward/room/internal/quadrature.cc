@@ -7,8 +7,8 @@
 namespace luxfit {
 namespace {
 
-// Nodes on [0, 1] of the weight (1 - t)^alpha, alpha 0 or 1, from the three-term recurrence of the Jacobi
-// polynomials.
+// Returns the nodes on [0, 1] of the weight (1 - t)^alpha, alpha 0 or 1, from the three-term recurrence of
+// the Jacobi polynomials.
 std::vector<LineNode> GaussJacobi(int n, int alpha) {
   if (n < 1) throw std::invalid_argument("Gauss quadrature: expected at least one node");
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);

@@ -17,7 +17,7 @@ double Fraction(double x) { return x - std::floor(x); }
 
 Eigen::Vector3d LiftedFromDisc(double radius2, double turns) {
   const double radius = std::sqrt(radius2), angle = 2 * M_PI * turns;
-  // Never quite level: a ray along the receiver's own plane meets nothing of sense.
+  // The direction is never quite level: a ray in the receiver's own plane meets nothing of use.
   return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(std::max(1e-12, 1 - radius2))};
 }
 

@@ -1,5 +1,4 @@
-// What every sampled integral here needs: hashes as random numbers, points that share the disc evenly,
-// cosine-weighted directions.
+// Samples integrals: hashes as random numbers, even points of the disc, cosine-weighted directions.
 //
 // Sources: Steele, Lea, Flood (2014), "Fast splittable pseudorandom number generators" (SplitMix64); Malley
 // (1988); Masset, Bruls, Kerschen (2011), "Partition of the circle in cells of equal area and shape".
@@ -12,20 +11,20 @@
 
 namespace luxfit {
 
-// A well-mixed hash, and the next state of a small random generator.
+// Returns a well-mixed hash, which is also the next state of a small random generator.
 uint64_t Mix(uint64_t x);
-// In [0, 1).
+// Returns a number in [0, 1).
 inline double UnitFrom(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
 double Fraction(double x);
 
-// Malley's method: a point of the unit disc (its radius squared, its angle in turns) lifted to the hemisphere
-// about z.
+// Lifts a point of the unit disc (its radius squared, its angle in turns) to the hemisphere about z: Malley's
+// method.
 Eigen::Vector3d LiftedFromDisc(double radius2, double turns);
 
-// Columns: two tangents and the normal.
+// Returns a frame whose columns are two tangents and the normal.
 Eigen::Matrix3d FrameOf(const Eigen::Vector3d& normal);
 
-// Centres of about `count` cells of equal area and shape of the unit disc: squared radius, turns.
+// Returns the centres of about `count` cells of equal area and shape of the unit disc: squared radius, turns.
 std::vector<Eigen::Vector2d> Isocell(int count);
 
 }  // namespace luxfit

@@ -26,13 +26,13 @@ double VolumeOf(const Facet& facet, const Eigen::Vector3d& origin) {
   return facet.kind == FacetKind::kTriangle ? triangle : 2 * triangle;
 }
 
-// Solid angle of a triangle seen from the origin, signed.
+// Returns the signed solid angle of a triangle seen from the origin.
 double SolidAngle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-// Whether an odd number of shells other than this one lie round a point.
+// Tells whether an odd number of shells other than this one lie round a point.
 bool IsWithinOdd(const Scene& scene, const Shell& shell, const Eigen::Vector3d& p) {
   std::vector<bool> own(scene.facets.size(), false);
   for (const int f : shell.facets) own[static_cast<size_t>(f)] = true;
@@ -46,7 +46,7 @@ bool IsWithinOdd(const Scene& scene, const Shell& shell, const Eigen::Vector3d& 
   return std::llround(angle / (4 * M_PI)) % 2 != 0;
 }
 
-// The closed shells, and all open ones as one.
+// Returns the closed shells, and all open ones as one.
 std::vector<Shell> ShellsOf(const Scene& scene, const Shells& shells) {
   std::vector<Shell> result(shells.closed.size() + 1);
   for (size_t f = 0; f < scene.facets.size(); ++f) {
@@ -65,7 +65,7 @@ std::vector<Shell> ShellsOf(const Scene& scene, const Shells& shells) {
   return result;
 }
 
-// A place just off the shell, within it.
+// Returns a place just off the shell, within it.
 Eigen::Vector3d PointWithin(const Scene& scene, const Shell& shell) {
   const Facet& facet = scene.facets[static_cast<size_t>(shell.facets.front())];
   return facet.PointAt(0.31, 0.29) - (shell.volume_m3 > 0 ? 1e-3 : -1e-3) * facet.Normal();

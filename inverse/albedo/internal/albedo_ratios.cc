@@ -4,15 +4,15 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "forward/factors/dense_product.h"
+#include "forward/factors/form_factors.h"
 
 namespace luxfit {
 namespace {
 
-// A luminaire dimmed below this share of the state's light at a place draws no shadow edge worth leaving out.
+// Share of a state's light at a place below which a luminaire's shadow edge does not exclude the place.
 constexpr double kLeastShare = 0.02;
 
-// Light at every element: elements x luminaires, lx per lm, and what the luminaires' edges are hidden from.
+// Holds the light at every element, elements x luminaires in lx per lm, and the visible shares.
 struct ElementLight {
   Illuminance light;
   Eigen::MatrixXf visible;
@@ -39,7 +39,7 @@ Eigen::MatrixXf LumensByState(const LightData& data, const LightState& state) {
   return lumens;
 }
 
-// Exitance of every element in every state, lm/m2: as measured, else as modelled.
+// Returns the exitance of every element in every state, in lm/m2: measured, else modelled.
 Eigen::MatrixXf ElementExitance(const Room& room, const LightData& data, const LightState& state,
                                 const Eigen::MatrixXf& total_lx) {
   Eigen::MatrixXf exitance = total_lx;

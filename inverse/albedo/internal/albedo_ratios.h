@@ -1,4 +1,6 @@
-// Ratios of measured exitance to incident light: one an observation (inverse/albedo/patch_albedo.h).
+// Computes the ratio of measured exitance to incident light, one for each observation.
+//
+// Equations are in inverse/albedo/patch_albedo.h. Ratios are albedos, dimensionless.
 #ifndef LUXFIT_INVERSE_ALBEDO_INTERNAL_ALBEDO_RATIOS_H_
 #define LUXFIT_INVERSE_ALBEDO_INTERNAL_ALBEDO_RATIOS_H_
 
@@ -11,10 +13,10 @@ namespace luxfit {
 struct AlbedoRatio {
   int element = 0, patch = 0, facet = 0, material = 0, state = 0;
   double value = 0;           // albedo, by this observation alone
-  double relative_noise = 0;  // of the photo
+  double relative_noise = 0;  // noise of the photo
 };
 
-// Observations in the light of at least one luminaire that no shadow edge crosses.
+// Returns ratios of the observations that at least one luminaire lights and no shadow edge crosses.
 std::vector<AlbedoRatio> AlbedoRatios(const Room& room, const LightData& data, const LightState& light,
                                       bool interreflection);
 

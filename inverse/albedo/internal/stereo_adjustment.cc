@@ -5,17 +5,19 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "calib/luminance/median.h"
 #include "inverse/albedo/internal/stereo_terms.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kCauchySigmas = 2.385;  // 95 % efficient where errors are normal
-constexpr size_t kChunk = 256;           // pixels summed as one: the same on any number of cores
-constexpr double kGauge = 1e6;  // holds a direction of the shared unknowns, against their mean weight
+constexpr size_t kChunk = 256;           // pixels summed together: the same result on any number of cores
+constexpr double kGauge = 1e6;           // weight that holds a shared direction, over the mean weight
 
-// Of the used observations, for what the unknowns took of their freedom.
+// Returns the robust sigma of the used observations, corrected for the unknowns' degrees of freedom.
 double RobustSigma(const StereoProblem& problem, const StereoState& state) {
   const Eigen::MatrixXd residuals = StereoResiduals(problem, state);
   std::vector<double> size;
@@ -29,15 +31,13 @@ double RobustSigma(const StereoProblem& problem, const StereoState& state) {
     if (size.size() > before) unknowns += 3;
   }
   if (size.empty()) return 1;
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
   const double n = static_cast<double>(size.size());
   const double freedom = std::max(1.0, n - static_cast<double>(unknowns));
-  // Values of the order of 1: noise below this is rounding.
-  return std::max(1.4826 * *middle * std::sqrt(n / freedom), 1e-6);
+  // Values are about 1 in size: noise below this is rounding.
+  return std::max(1.4826 * Quantile(std::move(size), 0.5) * std::sqrt(n / freedom), 1e-6);
 }
 
-// One pixel's part of the normal equations.
+// Holds one pixel's part of the normal equations.
 struct PixelBlock {
   Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -58,7 +58,7 @@ struct NormalEquations {
   Eigen::VectorXd g;
 };
 
-// The adjustment at one state: everything that a step needs.
+// Linearizes the adjustment at one state: everything that a step needs.
 class Linearization {
  public:
   Linearization(const StereoProblem& problem, const StereoState& state, double sigma)
@@ -84,7 +84,8 @@ class Linearization {
     return all;
   }
 
-  // Gradients by the shared unknowns of every image's observations, the pixels eliminated: shared x images.
+  // Returns gradients by the shared unknowns, shared x images, for each image's observations, pixels
+  // eliminated.
   Eigen::MatrixXd ImageScores(const NormalEquations& equations) const {
     Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(shared_.count(), problem_.value.rows());
     for (Eigen::Index i = 0; i < state_.b.cols(); ++i) {
@@ -140,7 +141,7 @@ class Linearization {
   SharedUnknowns shared_;
 };
 
-// The pixels eliminated: what is left for the shared unknowns.
+// Holds the equations of the shared unknowns after the pixels are eliminated.
 struct Reduced {
   Eigen::MatrixXd h;
   Eigen::VectorXd g;
@@ -186,7 +187,7 @@ StereoState Stepped(const StereoState& state, const NormalEquations& equations, 
     const PixelBlock& block = equations.pixels[static_cast<size_t>(i)];
     if (!block.is_used) continue;
     Eigen::Vector3d db = Damped(block, damping).inverse() * (block.g - block.coupling * dx);
-    // A pixel of few lights must not leap over to another branch.
+    // A pixel with few lights must not jump to another branch.
     const double longest = 0.4 * state.b.col(i).norm();
     if (db.norm() > longest) db *= longest / db.norm();
     next.b.col(i) += db;
@@ -223,7 +224,7 @@ Eigen::Matrix3Xd SolveLambert(const StereoProblem& problem, const Eigen::VectorX
       g += light * problem.value(k, i);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(h);
-    // Lights that lie nearly in a plane: the normal across it would be noise.
+    // Where the lights lie nearly in a plane, the normal across it would be noise.
     constexpr double kLeastShare = 1e-4;
     if (!(eigen.eigenvalues()[0] > kLeastShare * eigen.eigenvalues()[2])) return;
     b.col(i) = h.inverse() * g;
@@ -259,7 +260,7 @@ StereoAdjustment AdjustStereo(const StereoProblem& problem, const StereoState& s
       if (next_cost < cost) break;
       damping *= 6;
     }
-    // No step goes down any more: here is the end.
+    // No step lowers the cost: the minimum is reached.
     if (!(next_cost < cost)) {
       result.converged = true;
       break;

@@ -36,7 +36,7 @@ StereoTerm StereoPixel::Term(Eigen::Index image, bool with_slopes) const {
   StereoTerm term;
   term.value = strength * albedo_ * curve.f + OffsetOf(state_.curve);
   if (!with_slopes) return term;
-  // By the normal as if it were free in space; its length does not change with b's.
+  // Derivative by the normal as if it were free in space. The length of b does not change the normal's.
   const Eigen::Vector3d d_normal = curve.d_mu * light + (angles.nu > 0 ? curve.d_nu : 0.0) * kToCamera +
                                    (angles.eta > 0 ? curve.d_eta : 0.0) * half;
   term.d_b = strength * (curve.f * normal_ + d_normal - d_normal.dot(normal_) * normal_);
@@ -89,7 +89,7 @@ std::vector<Eigen::VectorXd> SharedUnknowns::HeldDirections() const {
 }
 
 StereoState SharedUnknowns::Applied(StereoState state, const Eigen::VectorXd& step) const {
-  // Longer steps leave the range in which the linearization holds.
+  // Longer steps would leave the range in which the linearization holds.
   constexpr double kLongest = 0.3;
   const Eigen::VectorXd dx = step.cwiseMax(-kLongest).cwiseMin(kLongest);
   state.curve.parameters += dx.head(curve_count_);

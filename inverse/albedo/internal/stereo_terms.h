@@ -1,7 +1,7 @@
-// One observation of photometric stereo with its derivatives, and the unknowns that all pixels share.
+// Predicts an observation of photometric stereo with its derivatives, and orders the shared unknowns.
 //
-// Shared unknowns in their order: the curve's parameters, two tangent components of every direction that is
-// free, the logarithm of every strength if those are.
+// The order of the shared unknowns is: the curve's parameters, two tangent components of every free
+// direction, and the logarithm of every strength where strengths are free.
 #ifndef LUXFIT_INVERSE_ALBEDO_INTERNAL_STEREO_TERMS_H_
 #define LUXFIT_INVERSE_ALBEDO_INTERNAL_STEREO_TERMS_H_
 
@@ -36,10 +36,10 @@ class SharedUnknowns {
   SharedUnknowns(const StereoProblem& problem, const StereoState& state);
 
   Eigen::Index count() const { return count_; }
-  // What is known beforehand, and how far the state is from it, in the order of the unknowns.
+  // The weights of the priors, and the state's deviation from them, in the order of the unknowns.
   const Eigen::VectorXd& PriorWeights() const { return prior_weights_; }
   const Eigen::VectorXd& PriorDeviation() const { return prior_deviation_; }
-  // Unit directions that nothing determines and that stay as they are: the common factor of all strengths.
+  // Returns unit directions that nothing determines and that are held: the common factor of all strengths.
   std::vector<Eigen::VectorXd> HeldDirections() const;
   StereoState Applied(StereoState state, const Eigen::VectorXd& step) const;
 
@@ -57,7 +57,7 @@ class SharedUnknowns {
 
  private:
   Eigen::Index count_ = 0, curve_count_ = 0, strength_at_ = -1;
-  std::vector<Eigen::Index> direction_at_;  // one an image, -1: held
+  std::vector<Eigen::Index> direction_at_;  // one for each image, -1: held
   std::vector<Eigen::Matrix<double, 3, 2>> tangents_;
   Eigen::VectorXd prior_weights_, prior_deviation_;
 };

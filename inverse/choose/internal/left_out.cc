@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inverse/model/internal/light_model.h"
+
 namespace luxfit {
 namespace {
 
 constexpr int kFolds = 5;
 
-// Spreads consecutive groups over the folds, so that every part of the room keeps most of its data.
+// Leaves out one group in every five in a row, so that every part of the room keeps most of its data.
 bool LeftOut(int group) { return group % kFolds == 2; }
 
 bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
@@ -124,7 +126,7 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
   state.luminaires[k] = start;
   state.free[k] = free;
   FitLuminairesOptions options;
-  options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // the effective parameters' source
+  options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // gives the effective parameters
   options.max_outer_iterations = effort.max_outer_iterations;
   options.max_inner_iterations = effort.max_inner_iterations;
   options.visibility_order = 2;

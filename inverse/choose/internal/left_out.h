@@ -1,9 +1,9 @@
-// What one luminaire's model is judged by: the data that speak of it, a fifth of them left out.
+// Collects the data that judge one luminaire's model, with a fifth left out, and scores models on that fifth.
 //
-// Left out are every fifth patch, or reading where there are no photos. Scored is the sum of min(z^2, 9) over
-// the rows left out, z the residual over its own sigma and one common model error; differences of two models
-// are paired, group by group (facets, or readings), because residuals of one facet are no independent
-// evidence.
+// Every fifth patch is left out, or every fifth reading where there are no photos. The score is the sum of
+// min(z^2, 9) over the rows left out, z the residual over its own sigma and one common model error.
+// Differences of two models are paired group by group (facets, or readings), because residuals of one facet
+// are not independent.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 
@@ -11,38 +11,38 @@
 #include <vector>
 
 #include "inverse/model/fit_luminaires.h"
-#include "inverse/select/group_scores.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 
-// One luminaire's own problem: the data that speak of it, cut into what is fitted and what is left out.
+// Holds one luminaire's own problem: the data that concern it, cut into a fitted and a left-out part.
 struct SubProblem {
   LightState state;
   int luminaire = 0;  // its index in `state`
   LightData all, fit;
-  std::vector<int> group_of_row;  // of `all`: facet, or reading
-  std::vector<bool> left_out;     // of `all`
-  std::vector<double> value;      // of `all`, as measured
+  std::vector<int> group_of_row;  // rows of `all`: facet, or reading
+  std::vector<bool> left_out;     // rows of `all`
+  std::vector<double> value;      // rows of `all`, measured
   std::vector<double>
-      variance;  // of `all`, without the model's error; 0 for readings, whose scatter is the model's
+      variance;  // rows of `all`, without model error; 0 for readings: the model error is their scatter
   std::vector<ParameterPrior> priors;
 };
 
-// The states where the luminaire is on alone; where there are none, all, with the other luminaires held.
-// Reflectances and scales are held.
+// Returns the problem over the states where the luminaire is on alone. Where there are none, it takes all
+// states and holds the other luminaires. Reflectances and scales are held.
 SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
                           const std::vector<ParameterPrior>& priors, int max_elements);
 
-// All of the data, cut likewise; state, luminaire and priors are left to the caller.
+// Returns all of the data, cut likewise. The caller sets state, luminaire and priors.
 SubProblem CutAll(const Room& room, const LightData& data, int max_elements);
 
-// One model fitted to what is not left out.
+// Holds one model fitted to the data that are not left out.
 struct FittedModel {
   Luminaire luminaire;
   FreeQuantities free;
   Eigen::VectorXd predicted;  // rows of SubProblem::all
   double relative_sigma = 1;
-  double effective_parts = 0;  // of its table or emission
+  double effective_parts = 0;  // for its table or emission
 };
 
 struct FitEffort {
@@ -53,7 +53,7 @@ struct FitEffort {
 FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminaire& start,
                      const FreeQuantities& free, const FitEffort& effort);
 
-// `predicted`: rows of SubProblem::all. By group.
+// Returns the scores by group. `predicted`: rows of SubProblem::all.
 GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted, double relative_sigma);
 
 }  // namespace luxfit

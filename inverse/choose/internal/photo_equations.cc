@@ -14,9 +14,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kCauchy = 2.5;    // in scales of the residuals
-constexpr double kMostSquare = 9;  // of a score
-constexpr size_t kFewFacets = 5;   // residuals are then grouped by patch
+constexpr double kCauchy = 2.5;    // in units of the residuals' scale
+constexpr double kMostSquare = 9;  // limit of z^2 in a score
+constexpr size_t kFewFacets = 5;   // up to this many, residuals are grouped by patch
 constexpr double kRankLimit = 1e-6;
 constexpr int kLightSteps = 6;
 constexpr double kLightConverged = 1e-6;
@@ -30,20 +30,20 @@ Eigen::VectorXd LeastSquares(const Eigen::MatrixXd& matrix, const Eigen::VectorX
 Eigen::MatrixXd BaseOfStates(const std::vector<Eigen::VectorXd>& dimming) {
   Eigen::MatrixXd all(static_cast<Eigen::Index>(dimming.size()), dimming.front().size());
   for (size_t s = 0; s < dimming.size(); ++s) all.row(static_cast<Eigen::Index>(s)) = dimming[s].transpose();
-  // Columns of luminaires that are always dimmed alike are one.
+  // Luminaires that are always dimmed alike share one column.
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeThinU);
   const Eigen::Index rank = (svd.singularValues().array() > kRankLimit * svd.singularValues()[0]).count();
   return svd.matrixU().leftCols(rank) * svd.singularValues().head(rank).asDiagonal();
 }
 
-// Light that no row sees stays where it is.
+// Damps the normal equations: light that no row sees stays where it is.
 Eigen::MatrixXd Damped(Eigen::MatrixXd normal) {
   normal.diagonal().array() += 1e-10 * normal.trace();
   return normal;
 }
 
-// min over B of sum w (y - ln(U B))^2, from `light`. Steps that would leave a state without light are
-// shortened.
+// Minimises sum w (y - ln(U B))^2 over B, from `light`. It shortens steps that would leave a state without
+// light.
 void FitLight(const Eigen::MatrixXd& base, const Eigen::VectorXd& y, const Eigen::VectorXd& weight,
               Eigen::Ref<Eigen::VectorXd> light) {
   Eigen::VectorXd modelled = base * light;
@@ -69,7 +69,7 @@ PhotoEquations::PhotoEquations(const Patches& patches, const std::vector<Eigen::
     : base_(BaseOfStates(dimming)) {
   std::map<int, std::vector<PhotoSample>> by_element;
   for (const PhotoSample& sample : samples) {
-    // What shines with everything off is nothing that adds up.
+    // Light that remains with everything off does not add up with the luminaires'.
     if (base_.row(sample.state).squaredNorm() > 0) by_element[sample.element].push_back(sample);
   }
   for (auto at = by_element.begin(); at != by_element.end();) {
@@ -153,12 +153,12 @@ PhotoEquations::Fit PhotoEquations::Start(const RadiometryUnknowns& unknowns) co
   for (int e = 0; e < elements(); ++e) {
     const ElementRows& element = elements_[static_cast<size_t>(e)];
     const Eigen::VectorXd value = Corrected(unknowns, fit.x, element).array().exp();
-    // Relative residuals, linear in the light.
+    // Relative residuals are linear in the light.
     const Eigen::MatrixXd& base = element.base;
     const Eigen::VectorXd light =
         LeastSquares(value.cwiseInverse().asDiagonal() * base, Eigen::VectorXd::Ones(element.count));
     fit.light.col(e) = light;
-    // Exposures that are far off can ask for negative light: then evenly from all that is on.
+    // Exposures that are far off can lead to negative light: then all that is on gives the same.
     if (!((base * light).array() > 0.2 * value.array()).all())
       fit.light.col(e) =
           LeastSquares(base_, Eigen::VectorXd::Constant(base_.rows(), std::exp(value.array().log().mean())));
@@ -167,7 +167,7 @@ PhotoEquations::Fit PhotoEquations::Start(const RadiometryUnknowns& unknowns) co
   return fit;
 }
 
-// Few unknowns touch an element: those of its cameras, and a gain a row.
+// Returns the few unknowns of an element: those of its cameras, and one gain for each row.
 std::vector<int> PhotoEquations::UnknownsOf(const RadiometryUnknowns& unknowns,
                                             const ElementRows& element) const {
   std::vector<int> unknown;
@@ -268,7 +268,7 @@ void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const
     }
   }
   if (in_sigmas.empty()) return;
-  // Residuals about fitted light are smaller than the noise.
+  // Residuals about fitted light are smaller than the noise, by the degrees of freedom.
   const double count = static_cast<double>(in_sigmas.size());
   const double freedom = std::sqrt(count / std::max(1.0, count - own));
   fit.scale = std::max(1.0, 1.4826 * freedom * Median(in_sigmas));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
 #include "inverse/select/one_standard_error.h"
 
@@ -25,7 +26,7 @@ std::string Formatted(const char* format, double a, double b = 0) {
   return text;
 }
 
-// Nodes up to 90 degrees; to 180 where light goes up or something above the lamp was measured.
+// Returns nodes up to 90 degrees; to 180 where light goes up or something above the luminaire was measured.
 std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const Luminaire& luminaire,
                              double step_deg) {
   double lowest = 1;  // cosine of gamma
@@ -36,8 +37,7 @@ std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const 
     see(room.patches.elements[static_cast<size_t>(o.element)].center);
   for (const Reading& reading : problem.all.readings) see(reading.sensor.position);
   constexpr double kBarelyAbove = -0.1;
-  const double last_deg =
-      lowest < kBarelyAbove || luminaire.distribution == Distribution::kIsotropic ? 180 : 90;
+  const double last_deg = lowest < kBarelyAbove ? 180 : OpsOf(luminaire.distribution).last_gamma_deg;
   std::vector<double> gamma_rad;
   const int steps = static_cast<int>(std::lround(last_deg / step_deg));
   gamma_rad.reserve(static_cast<size_t>(steps) + 1);
@@ -53,7 +53,7 @@ Luminaire WithTable(Luminaire luminaire, const std::vector<double>& gamma_rad) {
     const Eigen::Vector3d direction = std::cos(gamma) * luminaire.aim + std::sin(gamma) * axes.along;
     intensity.push_back(IntensityPerLumen(luminaire, axes, direction).cd_per_lm);
   }
-  // A node at 0 is at its bound, where a first step may leave it.
+  // A node at 0 would start at its bound, where a first step may leave it.
   const double floor = 1e-3 * *std::max_element(intensity.begin(), intensity.end());
   for (double& i : intensity) i = std::max(i, floor);
   luminaire.distribution = Distribution::kMeasured;
@@ -89,9 +89,9 @@ class Refiner {
  private:
   struct Step {
     RefinementKind kind = RefinementKind::kTable;
-    std::vector<RefinedCandidate> candidates;  // the first: as it was
+    std::vector<RefinedCandidate> candidates;  // the first is the luminaire as it was
     int chosen = 0;
-    double gain = 0, standard_error = 0;  // of the best over the first
+    double gain = 0, standard_error = 0;  // the best against the first
   };
 
   FittedModel Fit(const Luminaire& luminaire, const FreeQuantities& free) const {
@@ -99,7 +99,7 @@ class Refiner {
                     {options_.max_outer_iterations, options_.max_inner_iterations});
   }
 
-  // From four sides; all have as many parameters, so the lowest score wins.
+  // Fits from four headings. All have as many parameters, so the lowest score wins.
   void ChooseHeading() {
     Refinement record;
     record.kind = RefinementKind::kHeading;
@@ -150,7 +150,7 @@ class Refiner {
       for (const double sigma : {0.01, 0.03, 0.1, 0.3}) {
         free.table_sigma = sigma;
         FittedModel fitted = Fit(start, free);
-        start = fitted.luminaire;  // the next, freer one starts from here
+        start = fitted.luminaire;  // the next, freer candidate starts from here
         step.candidates.push_back(
             {"table " + ToString(shape) + Formatted(", smoothness %g", sigma), std::move(fitted)});
       }
@@ -165,7 +165,7 @@ class Refiner {
     int without_gain = 0;
     double best = Score(step.candidates.front());
     for (const int cells : {2, 3, 4, 6, 8}) {
-      // Finer ones cost the square: no further where two in a row brought nothing.
+      // The cost grows with the square of the cells: the search ends after two without gain.
       if (without_gain == 2) break;
       Luminaire start = held_.luminaire;
       start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
@@ -177,7 +177,7 @@ class Refiner {
     return Judged(std::move(step));
   }
 
-  // By the model error of what is held, so that candidates can be compared before all are there.
+  // Scores by the model error of the held model, so that candidates can be compared before all are fitted.
   double Score(const RefinedCandidate& candidate) const {
     return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
   }
@@ -188,14 +188,14 @@ class Refiner {
     return sigma;
   }
 
-  // The fewest effective parameters within one standard error of the best.
+  // Chooses the fewest effective parameters within one standard error of the best.
   Step Judged(Step step) const {
     const double sigma = SmallestSigma(step.candidates);
     std::vector<SelectionCandidate> selectable;
     for (const RefinedCandidate& c : step.candidates)
       selectable.push_back(
           {ScoreGroups(problem_, c.fitted.predicted, sigma), c.fitted.effective_parts, true});
-    // A table that is asked for is estimated, whatever a lobe would do.
+    // A requested table is estimated even where a lobe fits as well.
     selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
     SelectionOptions options;
     options.keeps_first = true;
@@ -206,7 +206,7 @@ class Refiner {
     return step;
   }
 
-  // Records all steps, takes the most telling; false if none tells.
+  // Records all steps and takes the one that gains most. Returns false if none gains.
   bool TakeBest(const std::vector<Step>& steps) {
     const Step* best = nullptr;
     for (const Step& step : steps) {
@@ -214,7 +214,7 @@ class Refiner {
     }
     for (const Step& step : steps) {
       const bool taken = &step == best;
-      // A step that another one went before is tried again.
+      // A step that gave way to a better one is not recorded yet: it is tried again.
       if (taken || best == nullptr) Record(step);
       if (!taken && best != nullptr) continue;
       if (step.kind == RefinementKind::kTable) open_.table = open_.table_asked_for = false;
@@ -223,7 +223,7 @@ class Refiner {
     if (best == nullptr) return false;
     held_ = best->candidates[static_cast<size_t>(best->chosen)].fitted;
     Keep(held_);
-    // A point has no cells.
+    // Only a rectangle has cells.
     if (held_.luminaire.shape != LuminaireShape::kRectangle) open_.emission = false;
     return true;
   }

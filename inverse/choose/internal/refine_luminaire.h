@@ -1,21 +1,23 @@
-// What one luminaire needs beyond the simple models: step by step, each only where the data ask for it.
+// Refines one luminaire beyond the simple models, step by step, each step only where the data support it.
 //
-//   heading   of a given photometry that is not the same all round: fitted from 0, 90, 180 and 270 degrees
+//   heading   of a given photometry without rotational symmetry: fitted from 0, 90, 180 and 270 degrees
 //   aim       of a given photometry: as given or straight down, or free
-//   table     a rotationally symmetric table of intensities over gamma, every 7.5 degrees (forward/
-//             luminaire_parts.h), smooth by second differences (inverse/model/internal/part_smoothness.h) of a strength that
-//             is tried in factors of 3; with the shape as it is, or as a point
+//   table     a rotationally symmetric table of intensities over gamma, every 7.5 degrees
+//             (forward/luminaire/luminaire_parts.h), smooth by second differences
+//             (inverse/model/internal/part_smoothness.h) of a strength that is tried in factors of 3; with
+//             the shape as it is, or as a point
 //   emission  a rectangle of cells that emit unevenly, 2 x 2 to 8 x 8, until two in a row bring nothing
 //
-// Each candidate is fitted to four fifths of the data that speak of the luminaire and scored on the rest
-// (inverse/choose/internal/left_out.h). Of a step's candidates the one with the fewest effective parameters within
-// one standard error of the best is kept, and the step is taken only if it lowers the score by more than a
-// standard error. Table and emission are tried only where the model error is above `good_enough`: what a
-// luxmeter could not tell is not modelled. A heading is chosen by the lowest score alone: all have as many
-// parameters.
+// Each candidate is fitted to four fifths of the data that concern the luminaire and scored on the rest
+// (inverse/choose/internal/left_out.h). Each step keeps the candidate with the fewest effective parameters
+// within one standard error of the best. The step is taken only if it lowers the score by more than a
+// standard error.
 //
-// Source: Breiman, Friedman, Olshen, Stone (1984), sec. 3.4 (one-standard-error rule); Eilers and Marx (1996)
-// (smoothness by differences).
+// Table and emission are tried only where the model error is above `good_enough`: a luxmeter could not show a
+// smaller effect. All headings have as many parameters, so the lowest score alone chooses.
+//
+// Sources: Breiman, Friedman, Olshen, Stone (1984), sec. 3.4 (one-standard-error rule); Eilers and Marx
+// (1996) (smoothness by differences).
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_REFINE_LUMINAIRE_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_REFINE_LUMINAIRE_H_
 
@@ -23,7 +25,7 @@
 #include <vector>
 
 #include "inverse/choose/internal/left_out.h"
-#include "inverse/choose/refinement.h"
+#include "inverse/choose/internal/refinement.h"
 
 namespace luxfit {
 
@@ -34,7 +36,8 @@ struct RefinedLuminaire {
   std::vector<Refinement> steps;
 };
 
-// Of problem.state's luminaire problem.luminaire, as it is there. Nothing where nothing could be left out.
+// Refines luminaire problem.luminaire of problem.state from its present model. Returns it unchanged where
+// nothing could be left out.
 RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open,
                                  const RefineOptions& options);
 

@@ -9,13 +9,13 @@
 namespace luxfit {
 namespace {
 
-// Relative standard uncertainty of a reading whose meter's class is not given: between DIN 5032-7 classes L
-// and B.
+// Relative standard uncertainty of a reading whose meter class is not given. It lies between DIN 5032-7
+// classes L and B.
 constexpr double kUnknownMeterSigma = 0.02;
-// Of a single reading of a meter whose class is given: placing it, and its display.
+// Relative sigma of one reading of a meter whose class is given: its placement and display.
 constexpr double kReadingSigma = 0.01;
 
-// Sensors of one meter, each with a gain of its own that its readings share.
+// Gives each sensor of the meter a gain that its readings share.
 void AddSensorGains(double sigma, int sensors, RoomLight& light) {
   if (sensors == 0) return;
   light.sensor_gain = Eigen::VectorXd::Ones(sensors);
@@ -34,8 +34,8 @@ RoomLight LightOf(const RoomObservations& given) {
   const bool has_fitted =
       std::any_of(meter.readings.begin(), meter.readings.end(), [](const MeterReading& r) { return r.used; });
   const bool has_class = meter.common_sigma > 0;
-  // The calibration error is one and the same in all readings: a parameter where readings are fitted to, else
-  // a part of each.
+  // All readings share one calibration error: a parameter where the fit uses readings, else a part of each
+  // sigma.
   light.meter_scale_free = has_class && has_fitted;
   if (light.meter_scale_free)
     light.priors.push_back({ParameterKind::kLogMeterScale, 0, {}, 0, meter.common_sigma});
@@ -46,7 +46,7 @@ RoomLight LightOf(const RoomObservations& given) {
     reading.sensor = taken.sensor;
     reading.state = taken.state;
     reading.illuminance_lx = taken.illuminance_lx;
-    // Of the reading as it was taken, and of the one that was subtracted from it.
+    // The sigma covers the reading as it was taken and the ambient reading that was subtracted.
     const double taken_lx = std::hypot(taken.illuminance_lx + taken.ambient_lx, taken.ambient_lx);
     reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
     reading.used = taken.used;
@@ -62,7 +62,7 @@ void RecordReadings(const Meter& meter, const RoomLight& light, Findings& findin
   if (light.sensor_gain.size() > 0) {
     findings.choices.push_back(
         {"gains of the meter's sensors",
-         fmt::format("{} gains, each 1 ± {:g} beforehand", light.sensor_gain.size(), meter.sensor_sigma),
+         fmt::format("{} gains, each with prior 1 ± {:g}", light.sensor_gain.size(), meter.sensor_sigma),
          {},
          "the readings' table has a column sensor"});
   }

@@ -1,11 +1,14 @@
-// Turns what was observed in a room into the data of the light model: rows, their sigmas, priors of the meter.
+// Turns the observations of a room into data of the light model: rows, their sigmas and the meter's priors.
+//
+// Views of one element are merged. Where the meter's class is given, its calibration is one scale with a
+// prior, shared by all readings. Units: lx, relative luminance.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "inverse/fit/findings.h"
+#include "inverse/fit/fit_room.h"
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
 
@@ -13,16 +16,16 @@ namespace luxfit {
 
 struct RoomLight {
   LightData data;                      // views of one element merged
-  std::vector<ParameterPrior> priors;  // of the meter's calibration and of its sensors' gains
-  bool meter_scale_free = false;       // the calibration is one common scale
-  Eigen::VectorXd sensor_gain;         // start, one a sensor named
+  std::vector<ParameterPrior> priors;  // for the meter's calibration and its sensors' gains
+  bool meter_scale_free = false;       // true: the calibration is one common scale factor
+  Eigen::VectorXd sensor_gain;         // starting values, one for each named sensor
   bool sensor_gains_free = false;
-  int used_readings = 0;  // fitted to, or for the scale
+  int used_readings = 0;  // for the fit or the scale
 };
 
 RoomLight LightOf(const RoomObservations& given);
 
-// How sure a reading is taken to be, for `choices`.
+// Records in `choices` the sigma that readings are given.
 void RecordReadings(const Meter& meter, const RoomLight& light, Findings& findings);
 
 }  // namespace luxfit

@@ -9,30 +9,31 @@
 #include <set>
 #include <string>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/fit/internal/words.h"
-#include "inverse/model/first_guess.h"
+#include "inverse/model/internal/first_guess.h"
 
 namespace luxfit {
 namespace {
 
-// A material with fewer observed elements is as good as unseen.
+// A material with fewer observed elements counts as unseen.
 constexpr int kMinElementsOfMaterial = 3;
 
-// Of a table that is asked for, until its strength is chosen.
+// Smoothness of a table that is to be estimated, until its strength is chosen.
 constexpr double kStartTableSigma = 0.1;
 
-// Of a disc or rectangle, until its size is estimated.
+// Size of a disc or rectangle until it is estimated.
 constexpr double kStartSizeM = 0.3;
 
-// Of a known place where the guess says nothing: a start, not a value.
+// Starting flux at a known place about which the guess says nothing.
 constexpr double kAnyFluxLm = 1000;
 
-// Of a luminaire without a place: it gives no light, so that the others can still be fitted.
+// Flux of a luminaire without a place: it gives no light, so that the others can still be fitted.
 constexpr double kNoFluxLm = 1e-9;
 
-// A table to be estimated starts as Lambertian, every 7.5 degrees.
+// Returns the start of a table that is to be estimated: Lambertian, with a node every 7.5 degrees.
 std::shared_ptr<const IntensityTable> StartTable() {
   std::vector<double> gamma_rad, intensity;
   for (int j = 0; j <= 12; ++j) {
@@ -78,7 +79,7 @@ class Starter {
   }
 
  private:
-  // Observed elements of each material.
+  // Returns the observed elements of each material.
   std::vector<std::set<int>> SeenElements() const {
     std::vector<std::set<int>> seen(room_.scene.materials.size());
     for (const Observation& o : light_.data.observations) {
@@ -88,7 +89,7 @@ class Starter {
     return seen;
   }
 
-  // Reflectances are known, to be estimated, or out of reach.
+  // Sets each reflectance as known, to be estimated, or out of reach.
   void FillReflectances() {
     const std::vector<std::string>& materials = room_.scene.materials;
     const std::vector<std::set<int>> seen = SeenElements();
@@ -117,7 +118,7 @@ class Starter {
     if (given_.camera_scale) start_.state.camera_scale = *given_.camera_scale;
   }
 
-  // Known fluxes tell the camera's scale, roughly: the guess has it as 1.
+  // Known fluxes give a rough camera scale; the guess takes it as 1.
   void MatchKnownFluxes(const FirstGuess& guess) {
     double guessed = 0, known = 0;
     for (size_t k = 0; k < given_.luminaires.size(); ++k) {
@@ -163,7 +164,7 @@ class Starter {
     start_.state.free.push_back(found && !known.is_held ? FreeOf(known, luminaire) : NothingFree());
   }
 
-  // The luminaire as the fit first tries it.
+  // Returns the luminaire with which the fit starts.
   Luminaire StartOf(const KnownLuminaire& known, const LuminaireGuess& guessed, bool found) const {
     Luminaire luminaire = known.luminaire;
     const bool is_open = known.photometry == KnownPhotometry::kNothing;
@@ -186,7 +187,7 @@ class Starter {
   static FreeQuantities FreeOf(const KnownLuminaire& known, const Luminaire& start) {
     FreeQuantities free;
     free.table_sigma = known.photometry == KnownPhotometry::kTableOpen ? kStartTableSigma : 0;
-    free.exponent = start.distribution == Distribution::kCosinePower;
+    free.exponent = OpsOf(start.distribution).has_exponent;
     free.size = start.shape != LuminaireShape::kPoint && start.shape != LuminaireShape::kSphere &&
                 !(known.luminaire.size_m[0] > 0);
     free.position = !(known.position_sigma_m && *known.position_sigma_m == 0);

@@ -1,7 +1,7 @@
-// Makes the start of a fit: what is given, completed by a first guess.
+// Makes the start of a fit from what is given, completed by a first guess.
 //
-// Reflectances and the camera's scale are known, to be estimated, or out of reach; luminaires have the place,
-// flux and photometry that are given, and what the guess says of the rest. What is given with a sigma becomes
+// Each reflectance and the camera's scale are known, to be estimated, or out of reach. Luminaires have the
+// place, flux and photometry that are given; the guess supplies the rest. A value given with a sigma becomes
 // a prior.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_START_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_START_H_
@@ -15,14 +15,14 @@ namespace luxfit {
 
 struct FitStart {
   LightState state;
-  std::vector<bool> luminaire_found;           // without a place it gives no light
-  std::vector<std::vector<Luminaire>> rivals;  // of each luminaire's first guess
-  std::vector<ParameterPrior> priors;          // of `light`, and of what is given of luminaires
-  bool flux_known = false;                     // of one luminaire at least: the scale
+  std::vector<bool> luminaire_found;           // false: it has no place and gives no light
+  std::vector<std::vector<Luminaire>> rivals;  // alternatives to each luminaire's first guess
+  std::vector<ParameterPrior> priors;          // those of `light`, and those given for luminaires
+  bool flux_known = false;                     // at least one luminaire's, which sets the scale
 };
 
 // `guess_from`: the data of `light` with the indirect light that photos measured, or readings alone. Records
-// choices, warns of what is not determined.
+// choices and warns of what is not determined.
 FitStart StartFit(const Room& room, const RoomObservations& given, const RoomLight& light,
                   const LightData& guess_from, Findings& findings);
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "forward/luminaire/distribution_ops.h"
+
 namespace luxfit {
 namespace {
 
@@ -145,8 +147,7 @@ void WarnOfContradiction(const RoomObservations& given, const Contradiction& fou
   const std::string& id = known.luminaire.id;
   const Luminaire& better = found.better;
   std::string lobe = ToString(better.distribution);
-  if (better.distribution == Distribution::kCosinePower)
-    lobe += fmt::format(" {:.2f}", better.cosine_exponent);
+  if (OpsOf(better.distribution).has_exponent) lobe += fmt::format(" {:.2f}", better.cosine_exponent);
   findings.warnings.push_back(
       {"photometry_contradicted",
        fmt::format(
@@ -210,15 +211,15 @@ void RecordDirectShare(const DirectShare& share, Findings& findings) {
        "the readings do not tell light that comes straight from light that comes by the walls: the direct "
        "share is " +
            interval + ", for other lobes and sizes with other reflectances explain the readings as well",
-       "photograph or measure one state with a dark cloth over the walls, or one lamp alone, or give "
+       "photograph or measure one state with a dark cloth over the walls, or one luminaire alone, or give "
        "reflectances in [scene.albedo] or the luminaires' photometry"});
 }
 
 void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
   const LuminaireFit& fit = result.fit;
-  constexpr double kUnexplained = 0.25;                     // weight of five sigmas and more
+  constexpr double kUnexplained = 0.25;                     // robust weight at five sigmas
   constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
-  std::map<std::string, std::pair<int, int>> of_material;   // unexplained, all
+  std::map<std::string, std::pair<int, int>> of_material;   // counts: unexplained, all
   std::pair<int, int> all;
   for (size_t i = 0; i < result.data.observations.size() && fit.weight.size() > 0; ++i) {
     const double weight = fit.weight[static_cast<Eigen::Index>(i)];

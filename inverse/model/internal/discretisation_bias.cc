@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-// Per lumen of each luminaire: mean over the element less the value at its centre.
+// Returns the element's mean less the value at its centre, per lumen of each luminaire.
 Eigen::VectorXd MeanLessCentre(const Room& room, const Element& element,
                                const std::vector<Luminaire>& luminaires) {
   Eigen::VectorXd difference = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(luminaires.size()));
@@ -30,7 +30,7 @@ Eigen::VectorXd MeanLessCentre(const Room& room, const Element& element,
   return difference;
 }
 
-// Elements taken evenly, ascending, and how many each stands for.
+// Holds evenly taken elements, ascending, and how many elements each stands for.
 struct Taken {
   std::vector<int> elements;
   double each = 1;
@@ -49,7 +49,7 @@ Taken TakeEvenly(const std::vector<Observation>& observations, int most) {
   return taken;
 }
 
-// Elements x luminaires, per lumen.
+// Returns elements x luminaires, per lumen.
 Eigen::MatrixXd DirectBias(const Room& room, const std::vector<int>& elements,
                            const std::vector<Luminaire>& luminaires) {
   Eigen::MatrixXd bias(static_cast<Eigen::Index>(elements.size()),
@@ -78,7 +78,7 @@ Eigen::MatrixXd IndirectBias(const Room& room, const std::vector<int>& elements,
   return indirect.bottomRows(n) - indirect.topRows(n);
 }
 
-// Adds what `bias` (taken elements x luminaires) does to each observation.
+// Adds the effect of `bias` (taken elements x luminaires) to each observation.
 void AddTo(const Room& room, const LightData& data, const LightState& state, const Taken& taken,
            const Eigen::MatrixXd& bias, Eigen::VectorXd& sum) {
   for (size_t i = 0; i < data.observations.size(); ++i) {

@@ -8,12 +8,12 @@
 namespace luxfit {
 namespace {
 
-constexpr double kSingular = 1e-10;  // of the scaled Hessian: parameters correlated to better than 1e-10
-constexpr double kLeastLeft = 0.1;   // of a direction's information, counted as known without one cluster
+constexpr double kSingular = 1e-10;  // least relative eigenvalue of a determined direction (scaled H)
+constexpr double kLeastLeft = 0.1;   // least share of a direction's information without one cluster
 constexpr double kLeastFreedom = 3;
 constexpr double kNormal = 1.959964;
 
-// W with W W^T = H^-1 over the directions that the data determine; columns are such directions.
+// Holds W with W W^T = H^-1 over the directions that the data determine; its columns are such directions.
 struct InverseRoot {
   Eigen::MatrixXd root;
   std::vector<Eigen::VectorXd> null_directions;
@@ -57,7 +57,7 @@ std::vector<ClusterSums> SumClusters(const WeightedRows& rows) {
   return sums;
 }
 
-// (I - S)^-1 of one cluster's information S in whitened directions, with the least that is left of one.
+// Returns (I - S)^-1 for one cluster's information S in whitened directions; at least kLeastLeft remains.
 Eigen::MatrixXd WithoutCluster(const Eigen::MatrixXd& information) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(information);
   const Eigen::VectorXd left = (1 - leverage.eigenvalues().array()).max(kLeastLeft);
@@ -82,7 +82,7 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
   InverseRoot inverse_root = RootOf(hessian);
   const Eigen::MatrixXd& root = inverse_root.root;
 
-  // In whitened directions, where the plain covariance is 1: combinations that cancel stay cancelled.
+  // In whitened directions the plain covariance is 1, so combinations that cancel stay cancelled.
   Eigen::MatrixXd known = root.transpose() * rows.prior_information * root;
   for (size_t i = 0; i < rows.cluster.size(); ++i) {
     if (rows.cluster[i] >= 0) continue;

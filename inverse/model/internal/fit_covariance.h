@@ -1,23 +1,27 @@
-// Covariance of fitted parameters whose residuals are no independent evidence.
+// Computes the covariance of fitted parameters whose residuals are not independent.
 //
 //   H = J^T J + P,   C = H^-1 (T sum_c g_c' g_c'^T T + sum_readings + P) H^-1 + b_theta b_theta^T
 //
 // J: weighted Jacobian, P: information of priors and smoothness. g_c = J_c^T r_c is the gradient of one
 // cluster, the rows of one facet in one state, which share their model error.
 //
-// Few clusters, each with leverage: its own residual is smaller than its error, because the fit follows it.
-// g_c' = H (H - J_c^T J_c)^-1 g_c is that of a fit without the cluster (CR3, the jackknife), exact for a
-// linear model; where a cluster holds nearly all that is known of a direction, a tenth of it counts as known
-// without it. The estimate then has few degrees of freedom itself: nu = (sum_c v_c)^2 / sum_c v_c^2 of the
-// variances v_c that the clusters would add with independent errors (Satterthwaite's, as Bell and McCaffrey
-// use it), times (1 + known / estimated)^2 where readings and priors, whose sigmas are known, share the
-// direction; at least 3. The clusters' part is enlarged (T) to t_975(nu) / 1.96 of itself, so that 1.96 sigma
-// is the 95 % interval. nu and T are those of the principal axes of the scaled H, so that what cancels in a
-// prediction stays cancelled.
+// Where clusters are few, each has leverage: the fit follows it, so its residual is smaller than its error.
+// g_c' = H (H - J_c^T J_c)^-1 g_c is the gradient of a fit without the cluster (CR3, the jackknife). It is
+// exact for a linear model. Where a cluster holds nearly all that is known of a direction, a tenth of it
+// counts as known without it.
 //
-// b_theta = H^-1 J^T b is what a known bias b of the model does to the parameters
-// (inverse/model/internal/discretisation_bias.h). Along those axes never below the plain H^-1. Directions of
-// eigenvalue below 1e-10 of the largest (after scaling) have no covariance and are returned.
+// The estimate then has few degrees of freedom itself: nu = (sum_c v_c)^2 / sum_c v_c^2. v_c is the variance
+// that cluster c would add with independent errors (Satterthwaite's, as Bell and McCaffrey use it). nu is
+// multiplied by (1 + known / estimated)^2 where readings and priors, whose sigmas are known, share the
+// direction. It is at least 3.
+//
+// T enlarges the clusters' part to t_975(nu) / 1.96 of itself, so that 1.96 sigma is the 95 % interval. nu
+// and T belong to the principal axes of the scaled H, so that what cancels in a prediction stays cancelled.
+// Along these axes the covariance is never below the plain H^-1.
+//
+// b_theta = H^-1 J^T b is the effect of a known bias b of the model on the parameters
+// (inverse/model/internal/discretisation_bias.h). Directions of eigenvalue below 1e-10 of the largest (after
+// scaling) have no covariance and are returned.
 //
 // Sources: Liang and Zeger (1986); Bell and McCaffrey (2002), "Bias reduction in standard errors for linear
 // regression with multi-stage samples"; Cameron and Miller (2015), sec. VI (few clusters).
@@ -31,23 +35,23 @@ namespace luxfit {
 
 struct WeightedRows {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
-      jacobian;  // of root weight times residual
+      jacobian;  // derivative of root weight times residual
   Eigen::VectorXd residual;
   Eigen::VectorXd bias;               // weighted likewise; empty: none is known
-  std::vector<int> cluster;           // one a row, from 0; -1: stands alone
-  double alone_scatter = 1;           // mean square of the residuals that rows which stand alone should have
-  Eigen::MatrixXd prior_information;  // P: of priors and smoothness, parameters x parameters
+  std::vector<int> cluster;           // one for each row, from 0; -1: stands alone
+  double alone_scatter = 1;           // expected mean square of the residuals of rows that stand alone
+  Eigen::MatrixXd prior_information;  // P, for priors and smoothness: parameters x parameters
 };
 
 struct FitCovariance {
   Eigen::MatrixXd covariance;
   std::vector<Eigen::VectorXd> null_directions;  // unit, in parameters scaled to unit curvature
-  Eigen::VectorXd degrees_of_freedom;  // nu of the axes; infinite where all is known from readings and priors
+  Eigen::VectorXd degrees_of_freedom;  // nu of the axes; infinite where readings and priors give all
 };
 
 FitCovariance CovarianceOf(const WeightedRows& rows);
 
-// Quantile of Student's t over that of the normal distribution, both for 95 %; nu >= 3.
+// Returns the quantile of Student's t over that of the normal distribution, both for 95 %; nu >= 3.
 double StudentFactor(double degrees_of_freedom);
 
 }  // namespace luxfit

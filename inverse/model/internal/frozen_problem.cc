@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "inverse/model/internal/light_model.h"
+
 namespace luxfit {
 namespace {
 
@@ -27,7 +29,7 @@ struct NormalEquations {
   }
 };
 
-// The sums are the same in every run: their order does not depend on the threads.
+// Sums the rows in an order that does not depend on the threads, so that every run gives the same sums.
 NormalEquations SumRows(const Prediction& prediction, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& root_weight) {
   constexpr Eigen::Index kGrain = 1024;
@@ -50,7 +52,7 @@ NormalEquations SumRows(const Prediction& prediction, const Eigen::VectorXd& res
       });
 }
 
-// As many rows as parameters and one more that nothing moves.
+// Holds as many rows as parameters and one more that no parameter changes.
 struct Condensate {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
@@ -66,7 +68,7 @@ Condensate Condense(const NormalEquations& equations) {
   Condensate condensed{Eigen::MatrixXd::Zero(n + 1, n), Eigen::VectorXd::Zero(n + 1)};
   for (Eigen::Index d = 0; d < n; ++d) {
     const double value = eigen.eigenvalues()[d];
-    if (value <= rounding) continue;  // nothing speaks of this direction
+    if (value <= rounding) continue;  // the rows do not determine this direction
     const auto direction = eigen.eigenvectors().col(d);
     condensed.jacobian.row(d) = std::sqrt(value) * direction.cwiseProduct(unit).transpose();
     condensed.residual[d] = direction.cwiseProduct(inverse).dot(equations.gradient) / std::sqrt(value);
@@ -88,7 +90,7 @@ class FrozenCost : public ceres::CostFunction {
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     const auto n = static_cast<Eigen::Index>(problem_.parameters.size());
     const Eigen::Map<const Eigen::VectorXd> x(blocks[0], n);
-    // A step is first asked for its cost, and if that is good, as nearly all are, for its Jacobian.
+    // Ceres asks for a step's cost first and, where that is good (it nearly always is), for its Jacobian.
     if (known_at_ != x) {
       const Prediction prediction = problem_.model.Predict(
           WithParameters(problem_.base, problem_.parameters, x), problem_.parameters, true);

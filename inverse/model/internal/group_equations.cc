@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
+#include "calib/luminance/median.h"
 #include "inverse/model/internal/nonnegative_least_squares.h"
 
 namespace luxfit {
@@ -29,19 +31,14 @@ void GroupEquations::SetUp(const std::vector<int>& material, const Eigen::Vector
   root_weight_.resize(n);
   target_.resize(n);
   for (size_t m = 0; m < materials_.size(); ++m) {
-    // Where no direct light falls, Y / I is the albedo: the darkest tenth of a material says about how
-    // much.
+    // Where no direct light falls, Y / I is the albedo. The darkest tenth of a material gives it roughly.
     std::vector<double> albedo;
     for (Eigen::Index i = 0; i < n; ++i) {
       if (material[static_cast<size_t>(i)] == materials_[m] && indirect[i] > 0)
         albedo.push_back(value[i] / indirect[i]);
     }
     double white = 1;
-    if (!albedo.empty()) {
-      const auto tenth = albedo.begin() + static_cast<std::ptrdiff_t>(albedo.size() / 10);
-      std::nth_element(albedo.begin(), tenth, albedo.end());
-      white = 1 / std::clamp(*tenth, 0.05, 1.0);
-    }
+    if (!albedo.empty()) white = 1 / std::clamp(Quantile(std::move(albedo), 0.1), 0.05, 1.0);
     for (Eigen::Index i = 0; i < n; ++i) {
       if (material[static_cast<size_t>(i)] != materials_[m]) continue;
       const bool is_reading = materials_[m] < 0;
@@ -57,10 +54,8 @@ void GroupEquations::Reweigh(const Eigen::MatrixXd& sources) {
   const Eigen::VectorXd residual = Solve(sources).residual;
   std::vector<double> sizes(residual.begin(), residual.end());
   for (double& size : sizes) size = std::abs(size);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
   constexpr double kSigmas = 3;
-  const double scale = kSigmas * std::max(*middle / 0.6745, 1e-6);
+  const double scale = kSigmas * std::max(Quantile(std::move(sizes), 0.5) / 0.6745, 1e-6);
   const Eigen::VectorXd down = (1 + (residual / scale).array().square()).rsqrt();
   others_ = down.asDiagonal() * others_;
   target_ = down.cwiseProduct(target_);

@@ -1,12 +1,12 @@
-// The light of one group of luminaires as linear equations in the fluxes at given places and in 1 / albedo.
+// Solves the light of a group of luminaires as linear equations in 1 / albedo and fluxes at given places.
 //
 //   sum_j g_j D_ij - q_m(i) Y_i = -I_i     photos: q = 1 / albedo of the place's material
 //   sum_j g_j D_ij + b          = E_i      readings alone: b, light from other surfaces, taken as even
 //   g, q, b >= 0
 //
-// Symbols as in sparse_luminaires.h. Rows weigh by a relative error of 10 %, with a floor where there is
-// little light; columns of sources are weighted likewise (Weighted). Source: Lawson and Hanson (1974), ch. 23
-// (NNLS).
+// Symbols are those of sparse_luminaires.h. Rows are weighted by a relative error of 10 %, with a floor where
+// there is little light. Weighted() weights the columns of sources likewise.
+// Source: Lawson and Hanson (1974), ch. 23 (NNLS).
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_GROUP_EQUATIONS_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_GROUP_EQUATIONS_H_
 
@@ -23,41 +23,41 @@ class GroupEquations {
  public:
   GroupEquations(const GroupedLight& light, int group);
 
-  // Places that show the group's light, and the materials whose q (or, -1, whose b) are unknown.
+  // The places that show the group's light, and the materials whose q is unknown; -1 stands for b.
   const std::vector<Eigen::Index>& rows() const { return rows_; }
   const std::vector<int>& materials() const { return materials_; }
 
-  // Of a column of D over all places: the group's rows, weighted.
+  // Returns the group's rows of a column of D over all places, weighted.
   Eigen::VectorXd Weighted(const Eigen::VectorXf& column) const {
     return column(rows_).cast<double>().cwiseProduct(root_weight_);
   }
 
-  // Weighs down the rows that a solution with these sources does not explain (Cauchy, at three times the
-  // median residual's sigma): surfaces that are not what the mesh says.
+  // Lowers the weight of rows that a solution with these sources does not explain (Cauchy, at three times the
+  // median residual's sigma). There the mesh is wrong about the surface.
   void Reweigh(const Eigen::MatrixXd& sources);
 
   struct Solution {
     Eigen::VectorXd strength, other;  // g; q or b by material
     double cost = std::numeric_limits<double>::infinity();
   };
-  // Sources that are there already, solved: what one more source does not change is computed once.
+  // Holds the solution for the present sources: what one more source does not change is computed once.
   struct Base {
     Eigen::MatrixXd columns, gram;
     Eigen::VectorXd moment, residual;
-    Eigen::MatrixXd positive;             // columns of the unknowns that are not 0
-    Eigen::LDLT<Eigen::MatrixXd> factor;  // of their normal equations
+    Eigen::MatrixXd positive;             // columns of the unknowns above 0
+    Eigen::LDLT<Eigen::MatrixXd> factor;  // their normal equations
     Solution solution;
   };
   Base Solve(const Eigen::MatrixXd& sources) const;
-  // With one more source, whose strength comes last.
+  // Solves with one more source, whose strength comes last.
   Solution SolveWith(const Base& base, const Eigen::VectorXd& source) const;
-  // By how much one more source lowers the squares where no unknown meets its bound for it; 0 where it is of
-  // no use. A hundredth of the work of SolveWith.
+  // Returns by how much one more source lowers the squares while no unknown meets its bound; 0 where it does
+  // not help. It takes a hundredth of the work of SolveWith.
   static double Gain(const Base& base, const Eigen::VectorXd& source);
 
  private:
   void SetUp(const std::vector<int>& material, const Eigen::VectorXd& value, const Eigen::VectorXd& indirect);
-  // From the unknowns, `other` first.
+  // Reads the solution from the unknowns, `other` first.
   Solution SolutionOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& gram,
                       const Eigen::VectorXd& moment) const;
 

@@ -17,7 +17,7 @@ struct Measurement {
   double value = 0, indirect = 0;
 };
 
-// States x luminaires; states that nothing was observed in are 0.
+// Returns states x luminaires; states without observations are 0.
 Eigen::MatrixXd ObservedDimming(const LightData& data) {
   const Eigen::Index lamps = data.dimming.empty() ? 0 : data.dimming[0].size();
   Eigen::MatrixXd table = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(data.dimming.size()), lamps);
@@ -30,7 +30,7 @@ Eigen::MatrixXd ObservedDimming(const LightData& data) {
   return table;
 }
 
-// Groups, and the dimming of each (states x groups, largest value 1).
+// Returns the groups and the dimming of each (states x groups, largest value 1).
 std::pair<std::vector<LuminaireGroup>, Eigen::MatrixXd> GroupsOf(const Eigen::MatrixXd& dimming) {
   std::vector<LuminaireGroup> groups;
   Eigen::MatrixXd of_groups(dimming.rows(), 0);
@@ -51,7 +51,7 @@ std::pair<std::vector<LuminaireGroup>, Eigen::MatrixXd> GroupsOf(const Eigen::Ma
   return {std::move(groups), std::move(of_groups)};
 }
 
-// The groups' own (values, indirect) at a place: groups x 2, NaN where not known.
+// Returns the groups' own (value, indirect) at a place: groups x 2, NaN where unknown.
 Eigen::MatrixX2d Separate(const std::vector<Measurement>& list, const Eigen::MatrixXd& dimming) {
   const auto rows = static_cast<Eigen::Index>(list.size());
   Eigen::MatrixXd table(rows, dimming.cols());
@@ -64,7 +64,7 @@ Eigen::MatrixX2d Separate(const std::vector<Measurement>& list, const Eigen::Mat
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(table);
   if (qr.rank() == dimming.cols()) return qr.solve(measured);
-  // Not all states show this place: take those in which a group was on alone.
+  // Too few states show this place: take those in which a group was on alone.
   Eigen::MatrixX2d own =
       Eigen::MatrixX2d::Constant(dimming.cols(), 2, std::numeric_limits<double>::quiet_NaN());
   for (const Measurement& m : list) {
@@ -92,7 +92,7 @@ std::vector<Place> PlacesOf(const Room& room, const LightData& data, int max_pla
     const int material = room.patches.patches[static_cast<size_t>(element.patch)].material;
     places.push_back({{element.center, element.normal, {}}, material, std::move(list)});
   }
-  // Photos, where there are any, see far more than the few readings, in another unit.
+  // Photos see far more than the few readings do, in another unit. They exclude readings here.
   if (!data.observations.empty()) return places;
   std::map<std::array<double, 6>, size_t> place_of_sensor;
   for (const Reading& r : data.readings) {

@@ -10,7 +10,7 @@
 namespace luxfit {
 namespace {
 
-// Direct illuminance per lumen at the places (rows) of every lobe (columns) at one position.
+// Returns the direct illuminance per lumen at the places (rows) by every lobe (columns) at one position.
 Eigen::MatrixXf LobeColumns(const Room& room, const std::vector<Sensor>& places,
                             const Eigen::Vector3d& position) {
   const auto rows = static_cast<Eigen::Index>(places.size());

@@ -1,8 +1,7 @@
-// Places where a luminaire may be, with the direct light that lobes of several widths and aims give from
-// there.
+// Computes the direct light that lobes of several widths and aims give from places where a luminaire may be.
 //
-// Columns hold D_il, illuminance per lumen at sensor i of lobe l, without a cosine of its own for sensors
-// hidden by the mesh or nearer than 0.1 m: 0 there. World frame, m, lx/lm.
+// Columns hold D_il, the illuminance per lumen at sensor i by lobe l. It is 0 at sensors that the mesh hides
+// or that are nearer than 0.1 m. World frame; units m, lx/lm.
 // Source: forward/direct/direct_light.h.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_LIT_PLACES_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_LIT_PLACES_H_
@@ -20,16 +19,16 @@ struct Lobe {
   double exponent;
   Eigen::Vector3d aim;
 };
-// Those that are tried.
+// Returns the lobes that are tried.
 const std::vector<Lobe>& Lobes();
 
 struct LitPlaces {
   std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::MatrixXf> columns;  // of each position: sensors x lobes
+  std::vector<Eigen::MatrixXf> columns;  // one matrix per position: sensors x lobes
 };
 LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions);
 
-// Cell centres of a grid through the box, so that none lies on a wall.
+// Returns the cell centres of a grid through the box, so that none lies on a wall.
 std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step);
 
 }  // namespace luxfit

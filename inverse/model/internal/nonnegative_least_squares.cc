@@ -9,18 +9,18 @@ namespace {
 
 using Indices = std::vector<Eigen::Index>;
 
-// Least squares over the unknowns `positive`, scaled to a unit diagonal; the others are 0.
+// Solves least squares over the unknowns `positive`, scaled to a unit diagonal; the others are 0.
 Eigen::VectorXd SolveOver(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment,
                           const Indices& positive) {
   const Eigen::VectorXd scale = gram.diagonal()(positive).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd own = scale.asDiagonal() * gram(positive, positive) * scale.asDiagonal();
-  own.diagonal().array() += 1e-12;  // twins share what one of them would get
+  own.diagonal().array() += 1e-12;  // equal columns share the value of one
   Eigen::VectorXd x = Eigen::VectorXd::Zero(moment.size());
   x(positive) = scale.cwiseProduct(own.ldlt().solve(scale.cwiseProduct(moment(positive))));
   return x;
 }
 
-// As far from `from` towards `to` as stays feasible; the unknowns that reach 0 there leave `positive`.
+// Goes from `from` towards `to` as far as is feasible. The unknowns that reach 0 there leave `positive`.
 Eigen::VectorXd StepBack(const Eigen::VectorXd& from, const Eigen::VectorXd& to, Indices& positive) {
   const auto share = [&](Eigen::Index i) {
     if (to[i] > 0) return 1.0;
@@ -57,7 +57,7 @@ Eigen::VectorXd SolveNonNegative(const Eigen::MatrixXd& gram, const Eigen::Vecto
   const Eigen::VectorXd unit = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   for (Eigen::Index change = 0; change < 3 * moment.size() + 1; ++change) {
     Eigen::VectorXd best = SolveOver(gram, moment, positive);
-    while (!positive.empty() && best(positive).minCoeff() <= 0) {  // each round lets one go
+    while (!positive.empty() && best(positive).minCoeff() <= 0) {  // each round drops at least one
       x = StepBack(x, best, positive);
       best = SolveOver(gram, moment, positive);
     }

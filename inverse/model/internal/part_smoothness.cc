@@ -15,7 +15,7 @@ bool IsPartOf(const Parameter& p, int luminaire, LuminaireQuantity quantity) {
   return p.kind == ParameterKind::kLuminaire && p.index == luminaire && p.quantity == quantity;
 }
 
-// Where each part's value stands among the parameters; the reference's is the constant 1.
+// Maps each part to its parameter. The reference part's value is the constant 1.
 struct PartPlaces {
   std::map<int, int> parameter_of_part;
   int reference = -1;
@@ -112,7 +112,7 @@ double EffectiveParts(const Eigen::MatrixXd& data_hessian, const std::vector<Smo
     if (parameters[i].kind == ParameterKind::kLuminaire && is_part)
       parts.push_back(static_cast<Eigen::Index>(i));
   }
-  // A parameter that nothing speaks of counts for nothing.
+  // A parameter that no row depends on counts as 0.
   penalised.diagonal().array() += 1e-12 * penalised.diagonal().maxCoeff() + 1e-300;
   const Eigen::MatrixXd shrinkage = penalised.ldlt().solve(data_hessian);
   double trace = 0;

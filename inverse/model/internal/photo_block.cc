@@ -5,6 +5,7 @@
 #include <string>
 
 #include "inverse/model/internal/discretisation_bias.h"
+#include "inverse/model/internal/light_model.h"
 
 namespace luxfit {
 

@@ -1,19 +1,20 @@
-// The luminance of elements in photos, as rows of the fit.
+// Presents the luminance of elements in photos as rows of the fit.
 //
 //   Y_es = rho_m(e) (c / pi E_es + I_es)     relative luminance
 //
-// rho: albedo of the element's material, c: camera scale (relative luminance per cd/m2), I: indirect light that was measured
-// (LightData::indirect_is_held), else 0. Rows of one facet in one state share their model error.
+// rho: albedo of the element's material, c: camera scale (relative luminance per cd/m2). I: indirect light
+// that was measured (LightData::indirect_is_held), else 0. Rows of one facet in one state share their model
+// error.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_PHOTO_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_PHOTO_BLOCK_H_
 
-#include "inverse/model/row_block.h"
+#include "inverse/model/internal/row_block.h"
 
 namespace luxfit {
 
 class PhotoBlock : public RowBlock {
  public:
-  // Keeps references. Throws std::invalid_argument for an element that the room has not.
+  // Keeps references. Throws std::invalid_argument for an element that the room does not have.
   PhotoBlock(const Room& room, const LightData& data);
 
   int row_count() const override { return static_cast<int>(data_.observations.size()); }
@@ -34,7 +35,7 @@ class PhotoBlock : public RowBlock {
 
   const Room& room_;
   const LightData& data_;
-  std::vector<int> material_;  // one a row
+  std::vector<int> material_;  // one for each row
 };
 
 }  // namespace luxfit

@@ -1,13 +1,13 @@
-// The readings of a luxmeter, as rows of the fit.
+// Presents the readings of a luxmeter as rows of the fit.
 //
 //   R_rs = g h_i E_rs     lx
 //
-// g: the meter's calibration, common to all its readings, h_i: the gain of its sensor i, where it has several. Readings stand
-// alone: each was meant, and its stated sigma counts.
+// g: the meter's calibration, common to all its readings. h_i: the gain of its sensor i, where it has
+// several. Readings stand alone: each was taken on purpose, and its stated sigma counts.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_READING_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_READING_BLOCK_H_
 
-#include "inverse/model/row_block.h"
+#include "inverse/model/internal/row_block.h"
 
 namespace luxfit {
 

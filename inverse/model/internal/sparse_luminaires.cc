@@ -14,7 +14,7 @@
 namespace luxfit {
 namespace {
 
-// The room; without a mesh, the box of the sensors, as far again to every side.
+// Returns the room's box; without a mesh, the sensors' box enlarged by its own size to every side.
 Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& places) {
   Eigen::AlignedBox3d box = room.scene.Bounds();
   if (!box.isEmpty()) return box;
@@ -24,12 +24,12 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
   return {box.min() - margin, box.max() + margin};
 }
 
-// Mean square of the weighted residuals (1: 10 %) below which places seen in photos need no others to be
-// compared with: 5 %. Half a metre off, no lobe explains a room's light so well.
+// Mean square of the weighted residuals (1: 10 %) below which places seen in photos need no comparison with
+// others: 5 %. Half a metre off, no lobe explains a room's light so well.
 constexpr double kExplained = 0.25;
 
-// Squares of a place that explains the light nearly as well as the best: what few facets say of neighbouring
-// rows' common errors does not tell them apart.
+// Ratio of squares up to which a place explains the light nearly as well as the best. Neighbouring rows share
+// their errors, so the few facets do not tell such places apart.
 constexpr double kRival = 1.5;
 
 struct Tried {
@@ -45,7 +45,7 @@ using Allowed = std::function<bool(const Eigen::Vector3d&)>;
 
 bool Anywhere(const Eigen::Vector3d&) { return true; }
 
-// The best place of every lobe among those allowed.
+// Returns the best of the allowed places for every lobe.
 std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::MatrixXd& others,
                                const LitPlaces& places, const Allowed& allowed = Anywhere) {
   const GroupEquations::Base base = equations.Solve(others);
@@ -60,7 +60,7 @@ std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::Mat
     for (size_t l = 0; l < lobes; ++l)
       gains[l][i] = {counts ? GroupEquations::Gain(base, column_of(i, l)) : 0, i};
   });
-  constexpr size_t kExact = 6;  // of each lobe, the most promising
+  constexpr size_t kExact = 6;  // places of each lobe, the most promising
   std::vector<Tried> best(lobes);
   tbb::parallel_for(size_t{0}, lobes, [&](size_t l) {
     const auto end =
@@ -78,7 +78,7 @@ std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::Mat
   return best;
 }
 
-// The cell about a place, in half steps.
+// Returns the places of the cell about a place, in half steps.
 std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double step,
                                         const Eigen::AlignedBox3d& box) {
   const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
-// One group's search: sources so far, each with its column.
+// Searches the sources of one group. It holds the sources so far, each with its column.
 class GroupSearch {
  public:
   GroupSearch(const Room& room, const std::vector<Sensor>& places, const Eigen::AlignedBox3d& box,
@@ -118,7 +118,8 @@ class GroupSearch {
     is_held_.push_back(source.is_held);
   }
 
-  // About a place of the grid, or at one of those seen. False where one more explains nothing more.
+  // Adds a source about a place of the grid, or at a place seen. Returns false where it explains nothing
+  // more.
   bool AddOne(const LitPlaces& grid, const LitPlaces& seen) {
     const Eigen::MatrixXd rest = Others(sources_.size());
     const double before = equations_.Solve(rest).solution.cost;
@@ -137,8 +138,8 @@ class GroupSearch {
     return true;
   }
 
-  // Those that were there before give way to the new one, and it to them: coarsely as often as it helps, then
-  // finely once.
+  // Moves the sources in turn, so that earlier ones and the new one adapt to each other: coarsely as often as
+  // it helps, then finely once.
   void MoveAll() {
     if (sources_.size() < 2 || refinements_ == 0) return;
     constexpr int kSweeps = 5, kCoarse = 2;
@@ -147,13 +148,13 @@ class GroupSearch {
     MoveEach(std::min(kCoarse, refinements_), refinements_);
   }
 
-  // Other places for one source that explain the light nearly as well, best first.
+  // Returns other places for one source that explain the light nearly as well, best first.
   std::vector<Tried> RivalsOf(size_t source, const LitPlaces& grid) const {
     const Tried& own = sources_[source];
     const Eigen::MatrixXd rest = Others(source);
     const auto is_apart = [&](const Eigen::Vector3d& p) { return (p - own.position).norm() > step_m_; };
     const auto is_near = [&](const Eigen::Vector3d& p) { return !is_apart(p); };
-    // On the same coarse grid, what is as good as the source's own surroundings.
+    // Compares on the same coarse grid: rivals are nearly as good as the source's own surroundings.
     const std::vector<Tried> near = BestOfLobes(equations_, rest, grid, is_near);
     const double coarse = std::min_element(near.begin(), near.end(), IsBetter)->cost;
     const double fine = equations_.SolveWith(equations_.Solve(rest), own.column).cost;
@@ -173,7 +174,7 @@ class GroupSearch {
   bool is_held(size_t source) const { return is_held_[source]; }
 
  private:
-  // Columns of all sources but one.
+  // Returns the columns of all sources but one.
   Eigen::MatrixXd Others(size_t without) const {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(equations_.rows().size()), 0);
     for (size_t j = 0; j < sources_.size(); ++j) {
@@ -184,7 +185,7 @@ class GroupSearch {
     return columns;
   }
 
-  // About its place at a step halved `halvings` times, with its own lobe or with any.
+  // Refines a source about its place, the step halved `halvings` times, with its own lobe or with any.
   Tried Refined(const Tried& source, int halvings, const Eigen::MatrixXd& rest, bool any_lobe) const {
     const std::vector<Eigen::Vector3d> near =
         Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
@@ -246,8 +247,8 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
   return found;
 }
 
-// What photos show is worth a start of its own, even where this mesh does not explain its light: a rival of
-// the source nearest to it, before all others.
+// Adds each place that photos show as a rival of the nearest source, before all others. It deserves its own
+// start even where this mesh does not explain its light.
 void AddSeenRivals(const std::vector<SparseSource>& seen, double apart_m,
                    std::vector<SparseSource>& sources) {
   for (const SparseSource& place : seen) {
@@ -281,7 +282,7 @@ const LitPlaces& SparseSearch::Grid() const {
 SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start,
                                     const std::vector<Eigen::Vector3d>& seen) const {
   const GroupEquations equations(light_, group);
-  constexpr size_t kFewestPlaces = 20;  // less light seen than this does not place a luminaire
+  constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
   if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
   const LitPlaces at_seen = Lit(room_, light_.places, seen);
   const auto searched = [&](const GroupEquations& in, const LitPlaces& grid, int refinements) {
@@ -291,7 +292,7 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
       search.MoveAll();
     return search;
   };
-  // Once to see what is unlike all else, once without that.
+  // The first search finds rows that it cannot explain. The second lowers their weight.
   const auto reweighed_after = [&](const LitPlaces& grid, int refinements) {
     GroupEquations reweighed = equations;
     reweighed.Reweigh(searched(equations, grid, refinements).Columns());

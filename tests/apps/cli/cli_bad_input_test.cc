@@ -1,5 +1,5 @@
 // The program on broken copies of a small part of fixtures/office: exit status 2, a message that names the
-// place and the mend, and nothing half-written.
+// place and the remedy, and nothing half-written.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 

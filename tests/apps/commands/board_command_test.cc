@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "apps/session/session.h"
-#include "calib/targets/board_drawing.h"
+#include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 #include "tests/support/board_render.h"
 #include "tests/support/program.h"

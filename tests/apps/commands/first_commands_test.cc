@@ -8,6 +8,7 @@
 
 #include "apps/commands/explain_command.h"
 #include "apps/session/session.h"
+#include "tests/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 
@@ -121,7 +122,7 @@ TEST(ExplainTest, KnowsEveryWarning) {
   EXPECT_GT(codes.size(), 40U) << "the expression finds too few";
   for (const std::string& code : codes) {
     EXPECT_THAT(ExplainedWarnings(), Contains(code));
-    EXPECT_THAT(ExplanationOf(code), HasSubstr("Mend: ")) << code;
+    EXPECT_THAT(ExplanationOf(code), HasSubstr("Fix: ")) << code;
   }
 }
 

@@ -262,7 +262,7 @@ fit = ["G*"]
         with self.assertRaisesRegex(luxfit.InputError, "luxfit-result-1"):
             luxfit.read_result(self.folder)
         with self.assertRaises(TypeError):
-            luxfit.fit()
+            luxfit.fit()  # type: ignore[call-arg]
 
 
 class SimulateTest(InFolder):

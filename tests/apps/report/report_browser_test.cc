@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/small_room.h"
 #include "tests/support/temp_folder.h"

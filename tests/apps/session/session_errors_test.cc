@@ -1,4 +1,4 @@
-// Every error of the session reader: its place, what was expected and how to mend it.
+// Every error of the session reader: its place, what was expected and how to fix it.
 #include "apps/session/session.h"
 
 #include <gmock/gmock.h>
@@ -28,7 +28,7 @@ TEST_F(SessionErrorsTest, AMissingSessionOrAFolderIsReported) {
 
 TEST_F(SessionErrorsTest, BrokenTomlNamesTheLine) {
   EXPECT_THAT(ErrorAfter("unit = \"cm\"", "unit = cm"),
-              Holds(At("unit"), "expected valid TOML", "mend this line"));
+              Holds(At("unit"), "expected valid TOML", "fix this line"));
 }
 
 TEST_F(SessionErrorsTest, MisspeltKeysSuggestTheNearest) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tests/paths.h"
 #include "tests/support/tiny_session.h"
 
 namespace luxfit {

@@ -108,7 +108,7 @@ TEST_F(TagMapTest, OtherThanAListOfTagsIsReported) {
   folder_.Write("tags.json", "[\n7]");
   EXPECT_THAT(Error(), HasSubstr("tags.json:2: tag[0]: expected {\"id\", \"size_m\""));
   EXPECT_THAT(ErrorAfter("[0, 1, 0],", "[0, 1, 0]"), AllOf(HasSubstr("tags.json:4: expected valid JSON, got"),
-                                                           HasSubstr("mend the line, or the comma")));
+                                                           HasSubstr("fix the line, or the comma")));
 }
 
 }  // namespace

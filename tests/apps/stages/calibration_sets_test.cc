@@ -1,4 +1,4 @@
-#include "apps/stages/internal/calibration_sets.h"
+#include "apps/stages/calibrate/calibration_sets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

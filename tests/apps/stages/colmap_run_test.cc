@@ -1,10 +1,9 @@
-#include "apps/stages/internal/colmap_run.h"
+#include "apps/stages/register/colmap_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "calib/register/colmap_database.h"
-#include "calib/register/colmap_model.h"
+#include "calib/register/colmap_files.h"
 #include "tests/support/colmap_installed.h"
 #include "tests/support/feature_room.h"
 #include "tests/support/temp_folder.h"

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/stages/internal/linearized_json.h"
-#include "apps/stages/internal/observations_json.h"
-#include "apps/stages/registration_json.h"
+#include "apps/stages/linearize/linearized_json.h"
+#include "apps/stages/observe/observations_json.h"
+#include "apps/stages/register/registration_json.h"
 
 namespace luxfit {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/stages/internal/linearize.h"
+#include "apps/stages/linearize/linearize.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
-#include "apps/stages/internal/observed_light.h"
+#include "apps/stages/observe/observed_light.h"
 #include "tests/support/camera_model.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_dng.h"

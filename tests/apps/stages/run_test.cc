@@ -14,6 +14,7 @@
 #include <string>
 
 #include "apps/export/fitted_room.h"
+#include "tests/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/report_data.h"
 #include "tests/support/temp_folder.h"

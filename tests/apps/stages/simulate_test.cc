@@ -96,7 +96,7 @@ TEST_F(Simulate, WritesIlluminanceOfEveryReading) {
   std::istringstream csv(folder_.Read("out/illuminance.csv"));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(line, "id,state,lux,direct_lux,indirect_lux");
+  EXPECT_EQ(line, "id,state,illuminance_lx,direct_lx,indirect_lx,lux,direct_lux,indirect_lux");
   std::vector<double> lux, direct;
   for (const char* expected : {"P1,one,", "P1,both,", "P2,both,"}) {
     std::getline(csv, line);

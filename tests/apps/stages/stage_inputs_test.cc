@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/stage_cache.h"
+#include "tests/paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -81,14 +82,17 @@ TEST(StageCacheTest, RepeatsProductAndSayings) {
     RunContext context;
     context.out = folder.Path("");
     context.is_quiet = true;
-    const nlohmann::json product = CachedStage("register", with, context, [&] {
+    const auto kept = KeptProduct("register", with, context);
+    if (kept) {
+      EXPECT_EQ(kept->at("value"), 0.1);
+    } else {
       ++computed;
+      const StageMark mark(context);
       context.warnings.push_back({"code", "message", "remedy"});
       context.choices.push_back({"what", "a", {"a", "b"}, "because"});
       context.undetermined = true;
-      return nlohmann::json{{"value", 0.1}};
-    });
-    EXPECT_EQ(product.at("value"), 0.1);
+      KeepProduct("register", with, context, mark, {{"value", 0.1}});
+    }
     EXPECT_TRUE(context.undetermined);
     EXPECT_EQ(context.warnings.at(0).remedy, "remedy");
     EXPECT_THAT(context.choices.at(0).among, ElementsAre("a", "b"));

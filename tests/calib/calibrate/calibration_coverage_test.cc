@@ -1,4 +1,4 @@
-#include "calib/calibrate/calibration_coverage.h"
+#include "calib/calibrate/internal/calibration_coverage.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

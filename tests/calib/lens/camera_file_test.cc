@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "calib/lens/colmap_cameras.h"
 #include "tests/support/office_camera.h"
 
 namespace luxfit {

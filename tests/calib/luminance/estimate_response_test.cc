@@ -1,4 +1,4 @@
-#include "calib/luminance/estimate_response.h"
+#include "calib/luminance/response.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

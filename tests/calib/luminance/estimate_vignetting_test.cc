@@ -1,10 +1,11 @@
-#include "calib/luminance/estimate_vignetting.h"
+#include "calib/luminance/vignetting.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/luminance/luminance.h"
 #include "tests/support/camera_model.h"
 #include "tests/support/test_rng.h"
 

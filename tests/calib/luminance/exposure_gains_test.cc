@@ -1,4 +1,4 @@
-#include "calib/luminance/exposure_gains.h"
+#include "calib/luminance/exposure.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "calib/luminance/exposure_metadata.h"
+#include "calib/luminance/exposure.h"
 #include "calib/luminance/image.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_dng.h"

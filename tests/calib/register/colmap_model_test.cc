@@ -1,4 +1,4 @@
-#include "calib/register/colmap_model.h"
+#include "calib/register/colmap_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

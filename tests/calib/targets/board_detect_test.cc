@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib/targets/board.h"
-#include "calib/targets/board_drawing.h"
 #include "tests/support/board_render.h"
 #include "tests/support/test_rng.h"
 

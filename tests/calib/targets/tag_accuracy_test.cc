@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "calib/targets/tag_refine.h"
 #include "calib/targets/tags.h"
 #include "tests/support/blur.h"
 #include "tests/support/tag_render.h"

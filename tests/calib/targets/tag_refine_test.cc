@@ -1,4 +1,4 @@
-#include "calib/targets/tag_refine.h"
+#include "calib/targets/tags.h"
 
 #include <gtest/gtest.h>
 

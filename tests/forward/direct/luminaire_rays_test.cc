@@ -8,6 +8,7 @@
 
 #include "forward/factors/internal/polygon_factor.h"
 #include "forward/luminaire/photometry_file.h"
+#include "tests/paths.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
@@ -133,10 +134,8 @@ TEST_P(EveryMethod, FindsTheFactorsOfARoomWithAPartition) {
   EXPECT_GE(factors.element_to_patch.minCoeff(), 0);
   // Methods that spread their rays over the element: 1 / sqrt(1024) = 3 % for purely random ones. Those that
   // start at its centre see half a metre of a wall from one point: some percents near edges, which no number
-  // of rays mends.
-  const bool from_center = GetParam() == FormFactorMethod::kHemicube ||
-                           GetParam() == FormFactorMethod::kSinglePlane ||
-                           GetParam() == FormFactorMethod::kWallace;
+  // of rays fixes.
+  const bool from_center = OpsOf(GetParam()).is_from_center;
   EXPECT_LT(IlluminanceError(room_.patches, factors.element_to_patch, *reference_), from_center ? 0.1 : 0.03);
   const Eigen::VectorXf sums = factors.element_to_patch.rowwise().sum();
   // The partition's bottom and its side in the wall, 1.2 m and 1.8 m long, face out of the room and see
@@ -146,21 +145,21 @@ TEST_P(EveryMethod, FindsTheFactorsOfARoomWithAPartition) {
   EXPECT_EQ(static_cast<double>(sums.size()) - inside, 3 + 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(FormFactors, EveryMethod, testing::ValuesIn(AllFormFactorMethods()),
-                         [](const auto& method) { return ToString(method.param); });
-
-TEST(FormFactors, MethodsHaveNamesThatLeadBackToThem) {
-  for (const FormFactorMethod method : AllFormFactorMethods())
-    EXPECT_EQ(FormFactorMethodFrom(ToString(method)), method);
-  EXPECT_EQ(FormFactorMethodFrom("no such method"), std::nullopt);
+std::vector<FormFactorMethod> Methods() {
+  std::vector<FormFactorMethod> methods;
+  for (const FormFactorOps& ops : FormFactorMethods()) methods.push_back(ops.method);
+  return methods;
 }
+
+INSTANTIATE_TEST_SUITE_P(FormFactors, EveryMethod, testing::ValuesIn(Methods()),
+                         [](const auto& method) { return ToString(method.param); });
 
 TEST(FormFactors, OfTheHybridAreExactWhereNothingStandsBetween) {
   const Ready room = MakeReady(support::ClosedRoom({3, 2, 2.5}), {0.5, 0.5});
   const FormFactors hybrid = ComputeFormFactors(room.rays, room.patches);
   const FormFactors analytic = ComputeFormFactors(room.rays, room.patches, {1, FormFactorMethod::kAnalytic});
   EXPECT_LT(analytic.closure_error, 1e-6);  // float rounding of the sums
-  EXPECT_LT(hybrid.closure_error, 1e-4);    // quadrature, see pair_rows.h
+  EXPECT_LT(hybrid.closure_error, 1e-4);    // quadrature, see pair_rows.cc
   EXPECT_LT(ReciprocityError(room.patches, analytic), 1e-6);
   EXPECT_LT((hybrid.element_to_patch - analytic.element_to_patch).rowwise().norm().maxCoeff(), 1e-4);
 }

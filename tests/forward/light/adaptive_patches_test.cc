@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/light/colour_illuminance.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/light_tracer.h"
 #include "forward/light/room.h"

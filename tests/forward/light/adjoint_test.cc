@@ -1,4 +1,4 @@
-#include "forward/light/adjoint.h"
+#include "forward/light/internal/adjoint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "forward/light/colour_illuminance.h"
+#include "forward/light/illuminance.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/luminaire/photometry_writer.h"
+#include "forward/luminaire/photometry_file.h"
 #include "tests/support/closed_forms.h"
 
 namespace luxfit {

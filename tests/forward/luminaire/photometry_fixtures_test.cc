@@ -14,6 +14,7 @@
 
 #include "forward/luminaire/internal/ies_file.h"
 #include "forward/luminaire/internal/ldt_file.h"
+#include "tests/paths.h"
 
 namespace luxfit {
 namespace {

@@ -1,7 +1,7 @@
 // Distributions written as .ies and .ldt: read back by our own readers, and held against the formats' rules.
 //
 //   LUXFIT_REAL_DATA=FOLDER forward_photometry_writer_test      also makers' files in FOLDER/photometry
-#include "forward/luminaire/photometry_writer.h"
+#include "forward/luminaire/photometry_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,6 +16,7 @@
 
 #include "forward/luminaire/internal/ies_file.h"
 #include "forward/luminaire/internal/ldt_file.h"
+#include "tests/paths.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/test_lamps.h"
 

@@ -1,4 +1,4 @@
-#include "forward/radiosity/hierarchical.h"
+#include "forward/radiosity/internal/hierarchical.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 
 #include "forward/direct/direct_light.h"
 #include "forward/light/room.h"
+#include "forward/radiosity/internal/linear_transport.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 

@@ -1,4 +1,4 @@
-#include "forward/radiosity/sparse_transport.h"
+#include "forward/radiosity/internal/sparse_transport.h"
 
 #include <gtest/gtest.h>
 

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "forward/direct/internal/luminaire_rays.h"
-#include "forward/direct/placement.h"
+#include "forward/direct/luminaire_body.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/internal/adaptive_patches.h"
 #include "forward/light/light_tracer.h"
 #include "forward/light/room.h"
-#include "forward/luminaire/luminaire_body.h"
 #include "forward/views/surface_view.h"
 #include "tests/support/scenes.h"
 

@@ -9,6 +9,7 @@
 
 #include "forward/light/room.h"
 #include "forward/room/mesh_file.h"
+#include "tests/paths.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

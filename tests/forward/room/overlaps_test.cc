@@ -1,4 +1,4 @@
-#include "forward/room/overlaps.h"
+#include "forward/room/mesh_check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "forward/views/plane_statistics.h"
+#include "forward/views/illuminance_plane.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "forward/views/vertex_interpolation.h"
+#include "forward/views/internal/vertex_interpolation.h"
 
 #include <gtest/gtest.h>
 

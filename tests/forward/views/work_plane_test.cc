@@ -1,4 +1,4 @@
-#include "forward/views/work_plane.h"
+#include "forward/views/illuminance_plane.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include "forward/direct/direct_light.h"
 #include "forward/luminaire/photometry_file.h"
-#include "forward/luminaire/photometry_writer.h"
 
 int main() {
   luxfit::Luminaire luminaire;

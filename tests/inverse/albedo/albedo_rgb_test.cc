@@ -1,4 +1,4 @@
-#include "inverse/albedo/albedo_rgb.h"
+#include "inverse/albedo/internal/albedo_rgb.h"
 
 #include <gtest/gtest.h>
 

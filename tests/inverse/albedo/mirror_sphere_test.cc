@@ -1,4 +1,4 @@
-#include "inverse/albedo/mirror_sphere.h"
+#include "inverse/albedo/photometric_stereo.h"
 
 #include <gtest/gtest.h>
 

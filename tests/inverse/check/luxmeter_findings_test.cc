@@ -1,4 +1,4 @@
-#include "inverse/check/luxmeter_findings.h"
+#include "inverse/check/luxmeter_check.h"
 
 #include <gtest/gtest.h>
 

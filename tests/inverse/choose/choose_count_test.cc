@@ -1,11 +1,11 @@
-#include "inverse/choose/choose_count.h"
+#include "inverse/choose/internal/choose_count.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
 #include "forward/light/light_tracer.h"
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/measured_indirect.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "inverse/choose/choose_model.h"
+#include "inverse/choose/internal/choose_model.h"
 
 #include <gtest/gtest.h>
 

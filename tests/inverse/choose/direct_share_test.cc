@@ -1,4 +1,4 @@
-#include "inverse/choose/direct_share.h"
+#include "inverse/choose/internal/profile_direct_share.h"
 
 #include <gtest/gtest.h>
 

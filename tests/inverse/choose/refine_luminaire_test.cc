@@ -5,7 +5,8 @@
 #include <memory>
 
 #include "forward/luminaire/luminaire_parts.h"
-#include "inverse/choose/choose_model.h"
+#include "inverse/choose/internal/choose_model.h"
+#include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/plane_readings.h"

@@ -1,4 +1,4 @@
-#include "inverse/choose/scene_detail.h"
+#include "inverse/choose/internal/scene_detail.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "inverse/choose/colour_detail.h"
+#include "inverse/choose/internal/colour_detail.h"
+#include "inverse/model/internal/light_model.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 

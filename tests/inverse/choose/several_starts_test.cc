@@ -1,4 +1,4 @@
-#include "inverse/choose/several_starts.h"
+#include "inverse/choose/internal/several_starts.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "inverse/model/first_guess.h"
+#include "inverse/model/internal/first_guess.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/partition_readings.h"
 #include "tests/support/plane_readings.h"

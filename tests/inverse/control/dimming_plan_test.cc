@@ -1,4 +1,4 @@
-#include "inverse/control/dimming_plan.h"
+#include "inverse/control/dimming.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// lux_map.h, current_dimming.h and unseen_dimming.h on numbers that can be had by hand.
+// lux_map.h and dimming.h on numbers that can be had by hand.
 #include "inverse/control/lux_map.h"
 
 #include <gtest/gtest.h>
@@ -8,8 +8,7 @@
 #include <random>
 
 #include "forward/light/room.h"
-#include "inverse/control/current_dimming.h"
-#include "inverse/control/unseen_dimming.h"
+#include "inverse/control/dimming.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

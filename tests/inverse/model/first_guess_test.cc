@@ -1,4 +1,4 @@
-#include "inverse/model/first_guess.h"
+#include "inverse/model/internal/first_guess.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "forward/light/light_tracer.h"
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/measured_indirect.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/cube_photos.h"
 #include "tests/support/plane_readings.h"

@@ -1,4 +1,4 @@
-#include "inverse/model/light_model.h"
+#include "inverse/model/internal/light_model.h"
 
 #include <gtest/gtest.h>
 

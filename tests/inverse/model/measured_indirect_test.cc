@@ -1,7 +1,8 @@
-#include "inverse/model/measured_indirect.h"
+#include "inverse/model/internal/measured_indirect.h"
 
 #include <gtest/gtest.h>
 
+#include "inverse/model/internal/light_model.h"
 #include "tests/support/cube_photos.h"
 
 namespace luxfit {

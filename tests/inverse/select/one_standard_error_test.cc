@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "inverse/select/detail_choice.h"
+#include "inverse/select/internal/detail_choice.h"
 
 namespace luxfit {
 namespace {

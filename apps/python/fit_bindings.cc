@@ -1,0 +1,326 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/python/arrays.h"
+#include "apps/python/bindings.h"
+#include "apps/session/tag_map.h"
+#include "apps/text/suggest.h"
+#include "calib/lens/camera_file.h"
+#include "calib/luminance/image.h"
+#include "forward/room/threads.h"
+#include "inverse/fit/fit_outcome.h"
+#include "inverse/fit/fit_room.h"
+#include "inverse/observe/observe_photos.h"
+
+namespace luxfit {
+namespace {
+
+namespace py = pybind11;
+using StateDimming = std::map<std::string, double>;  // luminaire -> 0 to 1
+
+// The names that indices of the library stand for.
+struct SwitchedStates {
+  std::vector<std::string> states, luminaires;
+  std::vector<Eigen::VectorXd> dimming;
+};
+
+struct FoundLight {
+  RoomFit fit;
+  std::vector<std::string> materials;
+  std::vector<EstimatedLuminaire> luminaires;
+  std::vector<PredictedReading> readings;
+};
+
+int IndexOf(const std::vector<std::string>& names, const std::string& name, const std::string& place) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at == names.end()) throw std::runtime_error(place + ": " + ExpectedOneOf(names, name));
+  return static_cast<int>(at - names.begin());
+}
+
+// Returns a value of a dict in a list. `place` names it, such as "fit_room: photos[3]".
+template <typename T>
+T Value(const py::dict& entry, const char* key, const char* expected, const std::string& place,
+        const std::optional<T>& otherwise = std::nullopt) {
+  if (!entry.contains(key)) {
+    if (otherwise) return *otherwise;
+    throw std::runtime_error(place + "." + key + ": expected " + expected + ", got nothing");
+  }
+  try {
+    return entry[key].cast<T>();
+  } catch (const py::cast_error&) {
+    throw std::runtime_error(place + "." + key + ": expected " + expected + ", got " +
+                             py::repr(entry[key]).cast<std::string>());
+  }
+}
+
+void ExpectKeys(const py::dict& entry, const std::vector<std::string>& known, const std::string& place) {
+  for (const auto& item : entry) {
+    const auto key = py::str(item.first).cast<std::string>();
+    if (std::count(known.begin(), known.end(), key) == 0)
+      throw std::runtime_error(place + ": key: " + ExpectedOneOf(known, key));
+  }
+}
+
+// Luminaires in the order in which the states name them.
+SwitchedStates SwitchedStatesOf(const py::dict& states) {
+  SwitchedStates names;
+  std::vector<StateDimming> dimming;
+  for (const auto& item : states) {
+    names.states.push_back(py::str(item.first).cast<std::string>());
+    const std::string place = "fit_room: states[\"" + names.states.back() + "\"]";
+    try {
+      for (const auto& luminaire : item.second.cast<py::dict>()) {
+        const auto id = luminaire.first.cast<std::string>();
+        if (std::count(names.luminaires.begin(), names.luminaires.end(), id) == 0)
+          names.luminaires.push_back(id);
+      }
+      dimming.push_back(item.second.cast<StateDimming>());
+    } catch (const py::cast_error&) {
+      throw std::runtime_error(place +
+                               ": expected a dict of luminaires and their dimming, such as {\"A\": 1.0}");
+    }
+    for (const auto& [id, value] : dimming.back()) {
+      if (!(value >= 0 && value <= 1))
+        throw std::runtime_error(place + "[\"" + id + "\"]: expected a number in [0, 1], got " +
+                                 std::to_string(value));
+    }
+  }
+  names.dimming.reserve(dimming.size());
+  for (const StateDimming& state : dimming) {
+    names.dimming.push_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.luminaires.size())));
+    for (const auto& [id, value] : state) names.dimming.back()[IndexOf(names.luminaires, id, "")] = value;
+  }
+  return names;
+}
+
+struct PhotoToRead {
+  std::string file;
+  double exposure_s = 0;
+  RoomPhoto photo;
+};
+
+std::vector<PhotoToRead> PhotosToRead(const std::vector<py::dict>& given, size_t cameras,
+                                      const SwitchedStates& names) {
+  std::vector<PhotoToRead> photos;
+  photos.reserve(given.size());
+  for (size_t i = 0; i < given.size(); ++i) {
+    const std::string place = "fit_room: photos[" + std::to_string(i) + "]";
+    ExpectKeys(given[i], {"file", "view", "state", "exposure_s", "camera"}, place);
+    PhotoToRead photo;
+    photo.file = Value<std::filesystem::path>(given[i], "file", "a path", place).string();
+    photo.exposure_s = Value<double>(given[i], "exposure_s", "a time in s", place);
+    photo.photo.view = Value<std::string>(given[i], "view", "a name", place);
+    photo.photo.state =
+        IndexOf(names.states, Value<std::string>(given[i], "state", "a name", place), place + ".state");
+    photo.photo.camera = Value<int>(given[i], "camera", "an index of cameras", place, 0);
+    if (photo.photo.camera < 0 || photo.photo.camera >= static_cast<int>(cameras))
+      throw std::runtime_error(place + ".camera: expected an index below " + std::to_string(cameras) +
+                               ", got " + std::to_string(photo.photo.camera));
+    if (!(photo.exposure_s > 0))
+      throw std::runtime_error(place + ".exposure_s: expected > 0 s, got " +
+                               std::to_string(photo.exposure_s));
+    photos.push_back(std::move(photo));
+  }
+  return photos;
+}
+
+std::vector<MeterReading> ReadingsOf(const std::vector<py::dict>& given, const SwitchedStates& names) {
+  std::vector<MeterReading> readings;
+  readings.reserve(given.size());
+  for (size_t i = 0; i < given.size(); ++i) {
+    const std::string place = "fit_room: readings[" + std::to_string(i) + "]";
+    ExpectKeys(given[i], {"position_m", "normal", "state", "illuminance_lx", "used"}, place);
+    const auto position = Value<Eigen::Vector3d>(given[i], "position_m", "three numbers", place);
+    const auto normal = Value<Eigen::Vector3d>(given[i], "normal", "three numbers", place);
+    MeterReading reading;
+    reading.sensor = SensorsFrom(position.transpose(), normal.transpose()).front();
+    reading.state =
+        IndexOf(names.states, Value<std::string>(given[i], "state", "a name", place), place + ".state");
+    reading.illuminance_lx = Value<double>(given[i], "illuminance_lx", "a number", place);
+    reading.used = Value<bool>(given[i], "used", "True or False", place, true);
+    if (!(reading.illuminance_lx > 0))
+      throw std::runtime_error(place + ".illuminance_lx: expected > 0 lx, got " +
+                               std::to_string(reading.illuminance_lx));
+    readings.push_back(reading);
+  }
+  return readings;
+}
+
+std::vector<std::optional<double>> KnownAlbedo(const Room& room, const std::map<std::string, double>& given) {
+  std::vector<std::optional<double>> albedo(room.scene.materials.size());
+  for (const auto& [name, value] : given) {
+    const int m = IndexOf(room.scene.materials, name, "fit_room: albedo");
+    if (!(value >= 0 && value < 1))
+      throw std::runtime_error("fit_room: albedo[\"" + name + "\"]: expected a number in [0, 1), got " +
+                               std::to_string(value));
+    albedo[static_cast<size_t>(m)] = value;
+  }
+  return albedo;
+}
+
+FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std::vector<py::dict>& photos,
+                             const std::vector<std::filesystem::path>& cameras,
+                             const std::optional<std::filesystem::path>& tags,
+                             const std::vector<py::dict>& readings,
+                             const std::map<std::string, double>& albedo, const std::string& tag_family,
+                             int threads) {
+  const SwitchedStates names = SwitchedStatesOf(states);
+  std::vector<PhotoToRead> to_read = PhotosToRead(photos, cameras.size(), names);
+  if (!photos.empty() && !tags)
+    throw std::runtime_error("fit_room: tags: expected a survey of the photos' tags");
+  RoomObservations given;
+  for (const std::string& id : names.luminaires) {
+    given.luminaires.emplace_back();
+    given.luminaires.back().luminaire.id = id;
+  }
+  given.dimming = names.dimming;
+  given.meter.readings = ReadingsOf(readings, names);
+  given.albedo = KnownAlbedo(room, albedo);
+
+  const py::gil_scoped_release release;
+  const ThreadLimit limit(threads);
+  if (!to_read.empty()) {
+    std::vector<Camera> lenses;
+    lenses.reserve(cameras.size());
+    for (const std::filesystem::path& camera : cameras) lenses.push_back(ReadCamera(camera.string()));
+    std::vector<RoomPhoto> images;
+    images.reserve(to_read.size());
+    for (PhotoToRead& photo : to_read) {
+      photo.photo.image = ToRelativeLuminance(ReadPhoto(photo.file), photo.exposure_s);
+      images.push_back(std::move(photo.photo));
+    }
+    PhotoObservations observed = ObservePhotos(room, lenses, ReadTagMap(tags->string()), images, tag_family);
+    given.observations = std::move(observed.observations);
+    given.seen = std::move(observed.seen);
+  }
+  FoundLight fitted;
+  fitted.fit = FitRoom(room, given);
+  fitted.materials = room.scene.materials;
+  fitted.luminaires = EstimatedLuminaires(fitted.fit);
+  fitted.readings = PredictedReadings(fitted.fit);
+  return fitted;
+}
+
+RowMajorXd LuminaireRows(const FoundLight& fitted, Eigen::Vector3d EstimatedLuminaire::*member) {
+  RowMajorXd rows(static_cast<Eigen::Index>(fitted.luminaires.size()), 3);
+  for (Eigen::Index k = 0; k < rows.rows(); ++k)
+    rows.row(k) = fitted.luminaires[static_cast<size_t>(k)].*member;
+  return rows;
+}
+
+Eigen::VectorXd LuminaireNumbers(const FoundLight& fitted, double EstimatedLuminaire::*member) {
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(fitted.luminaires.size()));
+  for (Eigen::Index k = 0; k < numbers.size(); ++k)
+    numbers[k] = fitted.luminaires[static_cast<size_t>(k)].*member;
+  return numbers;
+}
+
+Eigen::VectorXd PredictedLx(const FoundLight& fitted, double PredictedReading::*member) {
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(fitted.readings.size()));
+  for (Eigen::Index r = 0; r < numbers.size(); ++r) {
+    const PredictedReading& reading = fitted.readings[static_cast<size_t>(r)];
+    numbers[r] = reading.is_known ? reading.*member : std::numeric_limits<double>::quiet_NaN();
+  }
+  return numbers;
+}
+
+std::map<std::string, double> AlbedoByMaterial(const FoundLight& fitted) {
+  std::map<std::string, double> albedo;
+  const Eigen::VectorXd& values = fitted.fit.fit.state.albedo;
+  for (Eigen::Index m = 0; m < values.size(); ++m)
+    albedo[fitted.materials[static_cast<size_t>(m)]] = values[m];
+  return albedo;
+}
+
+py::list WarningList(const FoundLight& fitted) {
+  py::list list;
+  for (const Warning& w : fitted.fit.findings.warnings)
+    list.append(
+        py::dict(py::arg("code") = w.code, py::arg("message") = w.message, py::arg("remedy") = w.remedy));
+  return list;
+}
+
+py::list ChoiceList(const FoundLight& fitted) {
+  py::list list;
+  for (const Choice& c : fitted.fit.findings.choices)
+    list.append(py::dict(py::arg("what") = c.what, py::arg("chosen") = c.chosen, py::arg("among") = c.among,
+                         py::arg("because") = c.because));
+  return list;
+}
+
+}  // namespace
+
+void BindFit(py::module_& module) {
+  py::class_<FoundLight>(
+      module, "RoomFit",
+      "Result of fit_room. Luminaires are those that were found, in the order of luminaire_ids; NaN "
+      "where the data determine nothing.")
+      .def_property_readonly(
+          "luminaire_ids",
+          [](const FoundLight& f) {
+            std::vector<std::string> ids;
+            ids.reserve(f.luminaires.size());
+            for (const EstimatedLuminaire& l : f.luminaires) ids.push_back(l.id);
+            return ids;
+          },
+          "list of K")
+      .def_property_readonly(
+          "position_m", [](const FoundLight& f) { return LuminaireRows(f, &EstimatedLuminaire::position); },
+          "(K, 3), world frame.")
+      .def_property_readonly(
+          "position_sigma_m",
+          [](const FoundLight& f) { return LuminaireRows(f, &EstimatedLuminaire::position_sigma_m); },
+          "(K, 3)")
+      .def_property_readonly(
+          "flux_lm", [](const FoundLight& f) { return LuminaireNumbers(f, &EstimatedLuminaire::flux); },
+          "(K,); relative where is_absolute is False.")
+      .def_property_readonly(
+          "flux_sigma_lm",
+          [](const FoundLight& f) { return LuminaireNumbers(f, &EstimatedLuminaire::flux_sigma); }, "(K,)")
+      .def_property_readonly(
+          "is_absolute", [](const FoundLight& f) { return f.fit.absolute; },
+          "Whether a reading gives the scale, so that fluxes are in lm.")
+      .def_property_readonly("albedo", &AlbedoByMaterial, "dict: reflectance of each material.")
+      .def_property_readonly(
+          "predicted_lx",
+          [](const FoundLight& f) { return PredictedLx(f, &PredictedReading::illuminance_lx); },
+          "(n,), one for each reading.")
+      .def_property_readonly(
+          "prediction_sigma_lx",
+          [](const FoundLight& f) { return PredictedLx(f, &PredictedReading::sigma_lx); },
+          "(n,): of the prediction, model error included.")
+      .def_property_readonly(
+          "status",
+          [](const FoundLight& f) {
+            return f.fit.IsUsable() && !f.fit.findings.undetermined ? "done" : "undetermined";
+          },
+          "done, or undetermined (see warnings).")
+      .def_property_readonly("warnings", &WarningList, "dicts of code, message, remedy.")
+      .def_property_readonly("choices", &ChoiceList, "dicts of what, chosen, among, because.");
+  module.def("fit_room", &FitWithoutSession, py::arg("room"), py::arg("states"), py::kw_only(),
+             py::arg("photos") = std::vector<py::dict>{},
+             py::arg("cameras") = std::vector<std::filesystem::path>{}, py::arg("tags") = py::none(),
+             py::arg("readings") = std::vector<py::dict>{},
+             py::arg("albedo") = std::map<std::string, double>{}, py::arg("tag_family") = "tag36h11",
+             py::arg("threads") = 0,
+             "Fits luminaires and reflectances to photos and luxmeter readings, without a session file.\n\n"
+             "states: {state: {luminaire: dimming 0 to 1}}. photos: dicts of file, view, state, exposure_s "
+             "and camera "
+             "(index of cameras, default 0); photos of one view share one pose. cameras: calibration files. "
+             "tags: the "
+             "survey (JSON). readings: dicts of position_m, normal, state, illuminance_lx and used (default "
+             "True; False: "
+             "only predicted). albedo: known reflectances by material. Photos must be linear. Raises "
+             "InputError for bad "
+             "input; what the data do not determine is no exception: see status and warnings.");
+}
+
+}  // namespace luxfit

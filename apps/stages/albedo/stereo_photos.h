@@ -1,0 +1,31 @@
+// Prepares photos of an object and of a mirror sphere for photometric stereo.
+//
+// Throws std::runtime_error for masks and photos that differ in size, and for a mirror sphere whose mask is
+// not a circle or that shows no highlight.
+#ifndef LUXFIT_APPS_STAGES_INTERNAL_STEREO_PHOTOS_H_
+#define LUXFIT_APPS_STAGES_INTERNAL_STEREO_PHOTOS_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "apps/session/session.h"
+#include "inverse/albedo/photometric_stereo.h"
+
+namespace luxfit {
+
+struct StereoPhotos {
+  StereoData data;                      // values at pixels of the object and of the reference
+  std::vector<std::string> states;      // one for each image
+  std::vector<Eigen::Vector2i> places;  // (u, v) of every pixel
+  std::vector<bool> is_object;          // for every pixel
+  std::vector<bool> is_reference;
+  int width_px = 0, height_px = 0;
+};
+
+// `session` must be linearized and have lights.
+StereoPhotos ReadStereoPhotos(const Session& session);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_INTERNAL_STEREO_PHOTOS_H_

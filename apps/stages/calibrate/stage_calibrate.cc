@@ -1,0 +1,200 @@
+#include "apps/stages/calibrate/stage_calibrate.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/stages/calibrate/calibration_files.h"
+#include "apps/stages/calibrate/calibration_images.h"
+#include "apps/text/input_error.h"
+#include "calib/lens/camera_file.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+// Share of corners that are left out where the cameras of a rig moved against each other.
+constexpr double kRigOutliers = 0.1;
+
+CalibrateCamerasOptions OptionsOf(const SessionCalibration& calibration) {
+  CalibrateCamerasOptions options;
+  if (calibration.lens) options.lenses = {*calibration.lens};
+  if (calibration.back_end == "opencv") options.back_end = CalibrationBackEnd::kOpenCv;
+  options.focal_start_px = calibration.focal_start_px;
+  return options;
+}
+
+std::string Ids(const CalibrationGroup& group) {
+  std::string ids;
+  for (const CalibrationCamera& camera : group.input.cameras) ids += (ids.empty() ? "" : ", ") + camera.id;
+  return ids;
+}
+
+bool IsBorneOut(const Calibration& rig) { return rig.converged && rig.outlier_share < kRigOutliers; }
+
+std::vector<CalibratedGroup> Calibrate(const Session& session, const CalibrationGroup& group,
+                                       RunContext& context) {
+  const CalibrateCamerasOptions options = OptionsOf(session.calibration);
+  Calibration calibration = CalibrateCameras(group.input, options);
+  if (IsOfTags(session, group) && calibration.converged) {
+    CalibrationGroup refined = WithRefinedTags(session, group, calibration.cameras.front().camera);
+    calibration = CalibrateCameras(refined.input, options);
+    return {{std::move(refined), std::move(calibration)}};
+  }
+  if (!group.is_rig || IsBorneOut(calibration)) return {{group, std::move(calibration)}};
+  context.warnings.push_back(
+      {"rig_rejected",
+       fmt::format("{}: their images do not fit cameras fixed to each other ({}); calibrated "
+                   "each for itself",
+                   Ids(group),
+                   calibration.converged
+                       ? fmt::format("{:.0f} % of the corners left out", 100 * calibration.outlier_share)
+                       : calibration.message),
+       "say in [calibration] how images pair up: rig = \"numbers\", \"order\" or \"none\""});
+  std::vector<CalibratedGroup> alone;
+  for (CalibrationGroup& single : SplitRig(group)) {
+    Calibration own = CalibrateCameras(single.input, options);
+    alone.push_back({std::move(single), std::move(own)});
+  }
+  return alone;
+}
+
+void Report(const CalibratedGroup& calibrated, RunContext& context) {
+  const Calibration& c = calibrated.calibration;
+  for (const std::string& message : calibrated.group.messages)
+    context.warnings.push_back(
+        {"image_incomplete", message, "leave such images out, or photograph them again"});
+  for (const CalibrationNote& note : c.notes) {
+    context.warnings.push_back({note.code, note.message, note.remedy});
+    context.undetermined = context.undetermined || note.fails;
+  }
+  if (!c.converged) {
+    context.undetermined = true;
+    return;
+  }
+  Choice choice{"lens of " + Ids(calibrated.group), ToString(c.lens), {}, c.lens_because};
+  for (const LensScore& lens : c.lenses)
+    choice.among.push_back(lens.is_fitted ? fmt::format("{} (held out {:.3f} px, fitted {:.3f} px)",
+                                                        ToString(lens.kind), lens.held_out_px, lens.rms_px)
+                                          : ToString(lens.kind) + " (" + lens.verdict + ")");
+  context.choices.push_back(std::move(choice));
+  if (c.board_bend_sigma_m.isZero()) return;
+  const bool is_bent = !c.board_bend_m.isZero();
+  context.choices.push_back(
+      {"shape of the board",
+       is_bent ? "bent" : "flat",
+       {"flat", "bent"},
+       is_bent ? fmt::format("bent by {:.3f} and {:.3f} mm in its middle, sigma {:.3f} and {:.3f}",
+                             1e3 * c.board_bend_m.x(), 1e3 * c.board_bend_m.y(),
+                             1e3 * c.board_bend_sigma_m.x(), 1e3 * c.board_bend_sigma_m.y())
+               : "no bend above three sigma was found"});
+}
+
+std::vector<CalibratedGroup> CalibrateThese(const Session& session, const std::vector<int>& cameras,
+                                            RunContext& context) {
+  const StageTimer timer(context, "calibrate", "calibrate " + std::to_string(cameras.size()) + " cameras");
+  std::vector<CalibratedGroup> calibrated;
+  for (const CalibrationGroup& group : ReadCalibrationImages(session, cameras)) {
+    for (CalibratedGroup& result : Calibrate(session, group, context)) {
+      Report(result, context);
+      calibrated.push_back(std::move(result));
+    }
+  }
+  return calibrated;
+}
+
+json WriteArtifact(const Session& session, const std::vector<CalibratedGroup>& groups, RunContext& context) {
+  const std::vector<std::string> files = WriteCalibrationFiles(groups, context.out);
+  json artifact = ProvenanceJson("luxfit-calibrate-1", context.provenance);
+  artifact["session"] = session.name;
+  bool usable = true;
+  artifact["groups"] = json::array();
+  for (const CalibratedGroup& group : groups) {
+    artifact["groups"].push_back(GroupJson(group));
+    usable = usable && group.calibration.IsUsable();
+  }
+  artifact["status"] = usable ? "done" : "undetermined";
+  artifact["files"] = files;
+  artifact["choices"] = ChoicesJson(context);
+  artifact["warnings"] = WarningsJson(context);
+  artifact["timing_s"] = context.timing_s;
+  WriteJson(context.out + "/stages/calibrate.json", artifact);
+  return artifact;
+}
+
+}  // namespace
+
+json CalibrateSession(const Session& session, RunContext& context) {
+  std::vector<int> cameras;
+  for (std::size_t c = 0; c < session.cameras.size(); ++c) {
+    if (CanBeCalibrated(session, session.cameras[c])) cameras.push_back(static_cast<int>(c));
+  }
+  if (cameras.empty())
+    throw InputError(
+        {session.path, 0}, "camera",
+        "expected a camera with calibration_images, got none; add calibration_images = \"board/*.png\" and "
+        "board = { ... } to its [[camera]]");
+  return WriteArtifact(session, CalibrateThese(session, cameras, context), context);
+}
+
+std::vector<Camera> CamerasOf(const Session& session, RunContext& context) {
+  std::vector<std::optional<Camera>> cameras(session.cameras.size());
+  std::vector<int> unknown;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const SessionCamera& camera = session.cameras[c];
+    if (camera.intrinsics.empty()) {
+      unknown.push_back(static_cast<int>(c));
+    } else {
+      cameras[c] = ReadCamera(camera.intrinsics, camera.id);
+    }
+  }
+  if (unknown.empty()) {
+    context.choices.push_back({"lens", "as given", {}, "intrinsics were given, not estimated"});
+  } else {
+    const std::vector<CalibratedGroup> groups = CalibrateThese(session, unknown, context);
+    WriteArtifact(session, groups, context);
+    for (const CalibratedGroup& group : groups) {
+      for (std::size_t c = 0; c < group.calibration.cameras.size(); ++c)
+        cameras[static_cast<std::size_t>(group.group.cameras[c])] = group.calibration.cameras[c].camera;
+      if (!group.calibration.converged)
+        throw std::runtime_error(
+            fmt::format("{}: camera {}: expected images that determine its intrinsics, got none; {}",
+                        session.path, Ids(group.group), group.calibration.message));
+    }
+  }
+  std::vector<Camera> known;
+  known.reserve(cameras.size());
+  for (const std::optional<Camera>& camera : cameras) known.push_back(*camera);
+  return known;
+}
+
+std::string CalibrationTable(const json& artifact) {
+  std::string text = fmt::format("session {}: {}\n", artifact["session"].get<std::string>(),
+                                 artifact["status"].get<std::string>());
+  for (const json& group : artifact["groups"]) {
+    if (group["lens"].is_null()) continue;
+    const json& held_out = group["held_out_rms_px"];
+    text += fmt::format("{} images, {}: RMS per axis {:.3f} px, held out {} px, {:.1f} % outliers{}\n",
+                        group["images"].size(), group["lens"].get<std::string>(),
+                        group["reprojection_rms_px"]["per_axis"].get<double>(),
+                        held_out.is_null() ? "-" : fmt::format("{:.3f}", held_out.get<double>()),
+                        100 * group["outlier_share"].get<double>(),
+                        group["usable"].get<bool>() ? "" : "; NOT USABLE as it is");
+    for (const json& camera : group["cameras"]) {
+      const json& sigma = camera["fx_fy_cx_cy_sigma_px"];
+      text += fmt::format(
+          "  {:<8} f {:.2f} {:.2f} px{}, c {:.2f} {:.2f}; direction uncertain by {:.2g} px in the middle\n",
+          camera["id"].get<std::string>(), camera["fx_px"].get<double>(), camera["fy_px"].get<double>(),
+          sigma.is_null() || sigma[0].is_null() ? "" : fmt::format(" (± {:.2f})", sigma[0].get<double>()),
+          camera["cx_px"].get<double>(), camera["cy_px"].get<double>(),
+          camera["uncertainty"]["middle_px"].is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                                       : camera["uncertainty"]["middle_px"].get<double>());
+    }
+  }
+  return text + WarningText(artifact);
+}
+
+}  // namespace luxfit

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "apps/stages/linearize/linearize.h"
+#include "apps/text/csv_table.h"
+#include "calib/luminance/response.h"
+#include "calib/luminance/vignetting.h"
+
+namespace luxfit {
+namespace {
+
+// Number of brackets that a response is estimated from, and of pixels in each exposure.
+constexpr size_t kMaxBrackets = 6;
+constexpr size_t kPixelsPerExposure = 600;
+
+// Chooses places in the exposures at a quarter, a half and three quarters of a bracket, and reads their
+// counts in all.
+BracketSamples SamplesOf(const SessionPhoto& photo, const ResponseOptions& options) {
+  const std::vector<SessionExposure>& bracket = photo.bracket;
+  std::vector<PixelPlace> places;
+  std::vector<size_t> middles{bracket.size() / 4, bracket.size() / 2, 3 * bracket.size() / 4};
+  middles.erase(std::unique(middles.begin(), middles.end()), middles.end());
+  for (const size_t middle : middles) {
+    const auto more = ChooseSamplePixels(ReadPhoto(bracket[middle].file), kPixelsPerExposure, options);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  BracketSamples samples;
+  const auto columns = static_cast<Eigen::Index>(bracket.size());
+  samples.exposure_s.resize(columns);
+  for (Eigen::MatrixXd& counts : samples.counts)
+    counts.resize(static_cast<Eigen::Index>(places.size()), columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const SessionExposure& exposure = bracket[static_cast<size_t>(j)];
+    samples.exposure_s[j] = exposure.relative_exposure_s;
+    const Eigen::MatrixX3d counts = CountsAt(ReadPhoto(exposure.file), places);
+    for (size_t c = 0; c < 3; ++c) samples.counts[c].col(j) = counts.col(static_cast<Eigen::Index>(c));
+  }
+  return samples;
+}
+
+std::vector<BracketSamples> SamplesOfCamera(const Session& session, size_t camera,
+                                            const ResponseOptions& options) {
+  std::vector<const SessionPhoto*> brackets;
+  for (const SessionPhoto& photo : session.photos) {
+    if (static_cast<size_t>(photo.camera) == camera && photo.bracket.size() > 2) brackets.push_back(&photo);
+  }
+  std::stable_sort(brackets.begin(), brackets.end(), [](const SessionPhoto* a, const SessionPhoto* b) {
+    return a->bracket.size() > b->bracket.size();
+  });
+  brackets.resize(std::min(brackets.size(), kMaxBrackets));
+  std::vector<BracketSamples> samples;
+  samples.reserve(brackets.size());
+  for (const SessionPhoto* photo : brackets) samples.push_back(SamplesOf(*photo, options));
+  return samples;
+}
+
+CameraResponse EstimateForCamera(const Session& session, size_t index, RunContext& context,
+                                 nlohmann::json& artifact) {
+  const SessionCamera& camera = session.cameras[index];
+  ResponseOptions options;
+  options.full_scale_counts = camera.full_scale_counts;
+  const ResponseEstimate estimate = EstimateResponse(SamplesOfCamera(session, index, options), options);
+  if (!estimate.response) {
+    throw std::runtime_error(fmt::format(
+        "{}:{}: camera[{}].response: expected photos that determine it, got brackets in which {}; take "
+        "three exposures or more of one view and state, or give a curve file",
+        session.path, camera.line, index, estimate.message));
+  }
+  Choice choice{"response of " + camera.id, estimate.scores[estimate.chosen].method, {}, ""};
+  std::string scores;
+  for (const ResponseScore& score : estimate.scores) {
+    choice.among.push_back(score.method);
+    scores +=
+        fmt::format("{}{} {:.3g}", scores.empty() ? "" : ", ", score.method, score.held_out_error_counts);
+    artifact["held_out_error_counts"][score.method] = score.held_out_error_counts;
+  }
+  choice.because =
+      "simplest whose error on exposures held out is the best's within its standard error (counts: " +
+      scores + ")";
+  context.choices.push_back(choice);
+  if (context.out.empty()) return *estimate.response;
+  const std::string path = fmt::format("{}/response_{}.csv", context.out, camera.id);
+  WriteText(path, ResponseCsv(*estimate.response));
+  artifact["file"] = path;
+  return *estimate.response;
+}
+
+}  // namespace
+
+CameraResponse ReadResponse(const std::string& path) {
+  const std::string red = "relative_exposure", green = "relative_exposure_green",
+                    blue = "relative_exposure_blue";
+  const CsvTable table = ReadCsvTable(path, {{"count", red}, {green, blue}});
+  const auto rows = static_cast<Eigen::Index>(table.rows.size());
+  Eigen::VectorXd counts(rows);
+  std::array<Eigen::VectorXd, 3> curves{Eigen::VectorXd(rows), Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
+  const std::array<std::string, 3> columns{red, HasColumn(table, green) ? green : red,
+                                           HasColumn(table, blue) ? blue : red};
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const CsvRow& row = table.rows[static_cast<size_t>(i)];
+    counts[i] = CsvNumber(table, row, "count");
+    if (i > 0 && !(counts[i] > counts[i - 1]))
+      throw CsvError(table, row, "count", "expected counts that increase; sort the table, one row a count");
+    for (size_t c = 0; c < 3; ++c) {
+      curves[c][i] = CsvNumber(table, row, columns[c]);
+      if (curves[c][i] < 0 || (i > 0 && !(curves[c][i] > curves[c][i - 1])))
+        throw CsvError(table, row, columns[c],
+                       "expected exposures >= 0 that increase with the count; correct the row or remove it");
+    }
+  }
+  if (rows < 2)
+    throw CsvError(table, table.rows.back(), "count",
+                   "expected two rows or more, got one; give black and white");
+  return {counts, curves};
+}
+
+std::string ResponseCsv(const CameraResponse& response) {
+  std::string csv = "count,relative_exposure,relative_exposure_green,relative_exposure_blue\n";
+  for (Eigen::Index i = 0; i < response.counts().size(); ++i) {
+    csv += fmt::format("{:g},{:.9g},{:.9g},{:.9g}\n", response.counts()[i], response.exposure(0)[i],
+                       response.exposure(1)[i], response.exposure(2)[i]);
+  }
+  return csv;
+}
+
+Session WithResponses(Session session, RunContext& context, nlohmann::json& artifact) {
+  artifact["cameras"] = nlohmann::json::array();
+  for (size_t c = 0; c < session.cameras.size(); ++c) {
+    SessionCamera& camera = session.cameras[c];
+    nlohmann::json entry = {{"camera", camera.id}, {"response", camera.response}};
+    const auto of_camera =
+        std::find_if(session.photos.begin(), session.photos.end(),
+                     [&](const SessionPhoto& p) { return static_cast<size_t>(p.camera) == c; });
+    const bool is_asked = camera.response != "linear" || camera.cdm2_per_count_s > 0;
+    if (of_camera != session.photos.end() && is_asked) {
+      const Photo photo = ReadPhoto(of_camera->file);
+      camera.full_scale_counts = photo.full_scale_counts;
+      if (camera.response != "linear" && (photo.bits_per_channel == 32 || photo.is_black_subtracted)) {
+        throw std::runtime_error(fmt::format(
+            "{}: expected a photo of 8 or 16 bit for the response of camera \"{}\", got one that is "
+            "linear by its format; write response = \"linear\"",
+            of_camera->file, camera.id));
+      }
+      if (camera.response == "estimate") {
+        camera.response_curve = EstimateForCamera(session, c, context, entry);
+      } else if (camera.response != "linear") {
+        camera.response_curve = ReadResponse(camera.response_path);
+      }
+    }
+    entry["full_scale_counts"] = camera.full_scale_counts;
+    artifact["cameras"].push_back(entry);
+  }
+  return session;
+}
+
+Session WithFlatFields(Session session, RunContext& context, nlohmann::json& artifact) {
+  for (size_t c = 0; c < session.cameras.size(); ++c) {
+    SessionCamera& camera = session.cameras[c];
+    if (camera.vignetting_path.empty()) continue;
+    const LuminanceImage flat = ReadExposure(session, c, {camera.vignetting_path, 1, 0});
+    const VignettingEstimate estimate = VignettingOfFlatField(flat);
+    if (!estimate.is_determined || estimate.residual_rms > 0.05) {
+      throw std::runtime_error(fmt::format(
+          "{}: expected a flat field, one evenly bright surface that fills the picture unsaturated, got {}",
+          camera.vignetting_path,
+          estimate.is_determined ? fmt::format("one that departs from a smooth fall-off by {:.0f} %",
+                                               100 * estimate.residual_rms)
+                                 : estimate.message));
+    }
+    camera.vignetting_model = estimate.vignetting;
+    const auto& k = estimate.vignetting.coefficients;
+    artifact["cameras"][c]["vignetting"] = {{"coefficients", std::vector<double>(k.begin(), k.end())},
+                                            {"residual_rms", estimate.residual_rms}};
+    context.choices.push_back(
+        {"vignetting of " + camera.id,
+         fmt::format("order {}", k.size()),
+         {"0", "1", "2", "3"},
+         "the flat field; simplest whose error on cells held out is the best's within its standard error"});
+  }
+  return session;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,87 @@
+#include "apps/stages/observe/observations_json.h"
+
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "apps/text/json_vectors.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+constexpr size_t kNumbers = 10;  // numbers of one observation
+
+std::array<double, kNumbers> NumbersOf(const Observation& o) {
+  return {static_cast<double>(o.element),
+          static_cast<double>(o.view),
+          static_cast<double>(o.state),
+          static_cast<double>(o.pixels),
+          o.relative_luminance,
+          o.variance,
+          o.relative_rgb[0],
+          o.relative_rgb[1],
+          o.relative_rgb[2],
+          o.relative_indirect};
+}
+
+Observation FromNumbers(const std::array<double, kNumbers>& n) {
+  Observation o;
+  o.element = static_cast<int>(n[0]);
+  o.view = static_cast<int>(n[1]);
+  o.state = static_cast<int>(n[2]);
+  o.pixels = static_cast<int>(n[3]);
+  o.relative_luminance = n[4];
+  o.variance = n[5];
+  o.relative_rgb = {n[6], n[7], n[8]};
+  o.relative_indirect = n[9];
+  return o;
+}
+
+}  // namespace
+
+json ObservationsJson(const SessionObservations& observed) {
+  constexpr size_t kBytes = kNumbers * sizeof(double);
+  std::vector<uint8_t> bytes(observed.observations.size() * kBytes);
+  for (size_t i = 0; i < observed.observations.size(); ++i) {
+    const auto numbers = NumbersOf(observed.observations[i]);
+    std::memcpy(bytes.data() + i * kBytes, numbers.data(), kBytes);
+  }
+  json seen = json::array();
+  for (const SeenPlace& p : observed.seen)
+    seen.push_back({{"position_m", VectorJson(p.position)},
+                    {"sigma_m", p.sigma_m},
+                    {"states", p.states},
+                    {"photos", p.photos},
+                    {"views", p.views},
+                    {"missing", p.missing},
+                    {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
+  return {{"observations", json::binary(std::move(bytes))}, {"seen", seen}};
+}
+
+SessionObservations ObservationsFromJson(const json& in) {
+  constexpr size_t kBytes = kNumbers * sizeof(double);
+  const std::vector<uint8_t>& bytes = in.at("observations").get_binary();
+  SessionObservations observed;
+  observed.observations.reserve(bytes.size() / kBytes);
+  for (size_t i = 0; i + kBytes <= bytes.size(); i += kBytes) {
+    std::array<double, kNumbers> numbers{};
+    std::memcpy(numbers.data(), bytes.data() + i, kBytes);
+    observed.observations.push_back(FromNumbers(numbers));
+  }
+  for (const json& entry : in.at("seen")) {
+    SeenPlace place;
+    place.position = VectorFromJson(entry.at("position_m"));
+    place.sigma_m = entry.at("sigma_m");
+    place.states = entry.at("states").get<std::vector<int>>();
+    place.photos = entry.at("photos");
+    place.views = entry.at("views");
+    place.missing = entry.at("missing");
+    place.area_m2 = VectorFromJson(entry.at("area_m2"))[0];
+    observed.seen.push_back(place);
+  }
+  return observed;
+}
+
+}  // namespace luxfit

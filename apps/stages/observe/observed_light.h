@@ -1,0 +1,31 @@
+// Corrects the photos themselves by observations of the same elements from several views.
+//
+// An element is diffuse: in one state its luminance is the same in every photo. Photos that disagree have
+// another exposure than stated, the lens darkens towards the corners, or counts are not proportional to light
+// (inverse/choose/self_calibration.h).
+#ifndef LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
+#define LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "apps/stages/stages.h"
+
+namespace luxfit {
+
+// Divides observations by the errors found in the photos' exposures, vignetting and response, and adds the
+// variance of their photo's gain. A correction applies where calib did not fix it (no flat field, no response
+// curve) and where the criterion selects it. Warns of:
+//
+//   exposure_metadata              a photo whose exposure is off by more than 8 %
+//   vignetting_found               vignetting that the session denies
+//   response_not_linear            a response that the session denies
+//   vignetting_undetermined        vignetting that is asked for and not determined
+//   state_exposures_undetermined   states whose exposures nothing ties to the others'
+std::vector<Observation> WithSelfCalibration(const Session& session, const RegisteredSession& registered,
+                                             const Patches& patches, std::vector<Observation> observations,
+                                             RunContext& context, nlohmann::json& artifact);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "apps/stages/calibrate/stage_calibrate.h"
+#include "apps/stages/register/choose_registration.h"
+#include "apps/stages/register/registration_json.h"
+#include "apps/stages/register/view_tags.h"
+#include "apps/stages/stages.h"
+#include "calib/luminance/luminance.h"
+
+namespace luxfit {
+namespace {
+
+void WriteArtifact(const Session& session, const RegisteredSession& registered, const RunContext& context) {
+  nlohmann::json artifact = ProvenanceJson("luxfit-register-1", context.provenance);
+  artifact.update(RegistrationJson(session, registered));
+  artifact["choices"] = ChoicesJson(context);
+  WriteJson(context.out + "/stages/register.json", artifact);
+}
+
+// Applies focal lengths that the tags contradict: changes the cameras and records the reason.
+void TakeFocalLengths(const Session& session, RegisteredSession& registered, RunContext& context) {
+  const Registration& registration = registered.registration;
+  for (size_t c = 0; c < registration.focal_scale.size(); ++c) {
+    const double scale = registration.focal_scale[c], sigma = registration.focal_scale_sigma[c];
+    if (scale == 1) continue;
+    registered.cameras[c] = WithFocalScale(registered.cameras[c], scale);
+    const std::string& id = session.cameras[c].id;
+    const std::string found =
+        fmt::format("{:.2f} +- {:.2f} % {} than its intrinsics say", 100 * std::abs(scale - 1), 100 * sigma,
+                    scale > 1 ? "longer" : "shorter");
+    context.choices.push_back({"focal length of " + id,
+                               fmt::format("{:.1f} px", registered.cameras[c].fx_px),
+                               {"as given", "estimated with the poses"},
+                               "the tags agree with one that is " + found});
+    context.warnings.push_back(
+        {"focal_length_off",
+         fmt::format("The tags show a focal length of {} that is {}; it is used.", id, found),
+         "Calibrate the camera as it was focused for the photos (luxfit calibrate): its "
+         "distortion may be off as well."});
+  }
+}
+
+}  // namespace
+
+std::string MethodOf(const RegisteredView& view) {
+  if (view.points_used == 0) return "tags";
+  return view.tags_used == 0 ? "colmap" : "both";
+}
+
+RegisteredSession RegisterSession(const Session& session, RunContext& context) {
+  RegisteredSession registered;
+  if (session.photos.empty()) return registered;
+  const ViewPhotos views = PhotosByView(session);
+  const StageTimer timer(context, "register",
+                         fmt::format("{} views, {} surveyed tags", views.size(), session.tags.survey.size()));
+  registered.cameras = CamerasOf(session, context);
+  registered.registration = ChooseRegistration(session, registered.cameras, views, context);
+  for (const RegistrationNote& note : registered.registration.notes) {
+    context.warnings.push_back({note.code, note.message, note.remedy});
+  }
+  if (!registered.registration.IsUsable()) {
+    throw std::runtime_error(
+        fmt::format("{}: registration: expected at least one view with a pose, got none; {}", session.path,
+                    registered.registration.message));
+  }
+  TakeFocalLengths(session, registered, context);
+  WriteArtifact(session, registered, context);
+  return registered;
+}
+
+}  // namespace luxfit

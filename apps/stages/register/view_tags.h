@@ -1,0 +1,31 @@
+// Groups the photos of each view and detects the tags in them.
+#ifndef LUXFIT_APPS_STAGES_REGISTER_VIEW_TAGS_H_
+#define LUXFIT_APPS_STAGES_REGISTER_VIEW_TAGS_H_
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/session/session.h"
+#include "apps/stages/stages.h"
+#include "calib/lens/camera.h"
+#include "calib/register/registration.h"
+
+namespace luxfit {
+
+// Returns at most six photos a view. Those with the most luminaires on come first, since their tags are
+// evenly lit.
+using ViewPhotos = std::map<std::string, std::vector<const SessionPhoto*>>;
+ViewPhotos PhotosByView(const Session& session);
+
+// Detects tags in every photo of a view, refines and combines them. Returns one entry for each view, in that
+// order.
+std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
+                                        const ViewPhotos& views, const RunContext& context);
+
+// Returns the same entries without tags.
+std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_REGISTER_VIEW_TAGS_H_

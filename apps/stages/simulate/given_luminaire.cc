@@ -1,0 +1,64 @@
+#include "apps/stages/simulate/given_luminaire.h"
+
+#include <cmath>
+#include <memory>
+
+#include "forward/luminaire/distribution_ops.h"
+#include "forward/luminaire/luminaire_parts.h"
+
+namespace luxfit {
+namespace {
+
+// Returns the distribution to start from: a cosine-power lobe where it is open or comes from a file.
+Distribution DistributionFrom(const std::string& photometry) {
+  const DistributionOps* const known = FindDistribution(photometry);
+  return known != nullptr ? known->distribution : Distribution::kCosinePower;
+}
+
+LuminaireShape ShapeFrom(const std::string& shape) {
+  if (shape == "disc") return LuminaireShape::kDisc;
+  if (shape == "rectangle") return LuminaireShape::kRectangle;
+  if (shape == "sphere") return LuminaireShape::kSphere;
+  return LuminaireShape::kPoint;
+}
+
+std::shared_ptr<const IntensityTable> GivenTable(const SessionLuminaire& given) {
+  std::vector<double> gamma_rad;
+  for (const double gamma_deg : given.gamma_deg) gamma_rad.push_back(M_PI / 180 * gamma_deg);
+  return std::make_shared<IntensityTable>(RotationalTable(gamma_rad, given.cd_per_klm));
+}
+
+}  // namespace
+
+GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
+  GivenLuminaire result;
+  Luminaire& luminaire = result.luminaire;
+  luminaire.id = given.id;
+  luminaire.flux_lm = 0;
+  luminaire.distribution = DistributionFrom(given.photometry);
+  if (!given.photometry_path.empty()) {
+    result.file = ReadPhotometry(given.photometry_path);
+    luminaire.distribution = Distribution::kMeasured;
+    luminaire.table = std::make_shared<IntensityTable>(result.file->table);
+    luminaire.shape = result.file->shape;
+    luminaire.size_m = result.file->size_m;
+    luminaire.flux_lm = result.file->luminaire_flux_lm;
+  }
+  if (!given.gamma_deg.empty()) luminaire.table = GivenTable(given);
+  if (given.shape) {
+    const LuminaireShape shape = ShapeFrom(*given.shape);
+    // The file's size is valid only with the file's shape.
+    if (shape != luminaire.shape) luminaire.size_m.setZero();
+    luminaire.shape = shape;
+  }
+  if (!given.size_m.empty()) luminaire.size_m = {given.size_m.front(), given.size_m.back()};
+  luminaire.emission = given.emission;
+  if (given.cosine_exponent) luminaire.cosine_exponent = *given.cosine_exponent;
+  if (given.position_m) luminaire.position = *given.position_m;
+  if (given.aim) luminaire.aim = *given.aim;
+  if (given.heading) luminaire.heading = *given.heading;
+  if (given.flux_lm) luminaire.flux_lm = *given.flux_lm;
+  return result;
+}
+
+}  // namespace luxfit

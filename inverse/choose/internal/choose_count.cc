@@ -1,0 +1,138 @@
+#include "inverse/choose/internal/choose_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+#include "forward/luminaire/distribution_ops.h"
+#include "inverse/choose/internal/left_out.h"
+#include "inverse/model/fit_luminaires.h"
+#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/light_model.h"
+#include "inverse/model/internal/sparse_luminaires.h"
+#include "inverse/select/one_standard_error.h"
+
+namespace luxfit {
+namespace {
+
+using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
+
+struct Trial {
+  int count = 0;
+  Eigen::VectorXd predicted;  // rows of SubProblem::all
+  double relative_sigma = 1;
+};
+
+LightData WithCount(LightData data, int count) {
+  for (Eigen::VectorXd& dimming : data.dimming) dimming = Eigen::VectorXd::Ones(count);
+  return data;
+}
+
+// Returns a state with the luminaires as cosine-power discs about their places.
+LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
+                   double size_m) {
+  LightState state = given;
+  state.camera_scale = 1;
+  state.camera_scale_free = state.meter_scale_free = false;
+  for (const auto& [material, albedo] : found.albedo) {
+    if (state.albedo_free[static_cast<size_t>(material)])
+      state.albedo[material] = std::clamp(albedo, 0.05, 0.9);
+  }
+  state.luminaires.clear();
+  state.free.clear();
+  for (const SparseSource& source : found.sources) {
+    Luminaire luminaire = source.luminaire;
+    // A disc has an aim; it cannot be isotropic.
+    const bool is_disc = OpsOf(luminaire.distribution).has_aim;
+    if (is_disc) luminaire.shape = LuminaireShape::kDisc, luminaire.size_m.setConstant(size_m);
+    luminaire.flux_lm = flux_per_strength * source.strength;
+    state.luminaires.push_back(luminaire);
+    FreeQuantities free;
+    free.position = !source.is_held;
+    free.exponent = free.size = is_disc;
+    state.free.push_back(free);
+  }
+  return state;
+}
+
+bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) {
+  double sum = 0;
+  for (const SparseSource& source : sources) sum += source.strength;
+  return std::all_of(sources.begin(), sources.end(),
+                     [&](const SparseSource& source) { return source.strength > least_share * sum; });
+}
+
+// Refines the luminaires of `found` together on the data that are not left out.
+std::optional<Trial> Try(const Room& room, const SubProblem& problem, const LightState& given,
+                         const SparseLuminaires& found, const ChooseCountOptions& options) {
+  const auto count = static_cast<int>(found.sources.size());
+  const LightData seen = WithCount(problem.fit, count), all = WithCount(problem.all, count);
+  FitLuminairesOptions fit_options;
+  fit_options.covariance = false;
+  fit_options.max_outer_iterations = 4;
+  fit_options.visibility_order = 2;
+  const double flux_per_strength = seen.observations.empty() ? 1 : M_PI;  // readings: 1, photos: pi
+  const LuminaireFit fit = FitLuminaires(
+      room, seen, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
+  if (fit.status == FitStatus::kNoData) return {};
+  LightModel model(room, all);
+  model.FreezeVisibility(fit.state, fit_options.visibility_order);
+  return Trial{count, model.Predict(fit.state, {}, false).value, fit.relative_sigma};
+}
+
+Selection Select(const SubProblem& problem, const std::vector<Trial>& trials) {
+  double relative_sigma = 1;
+  for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
+  std::vector<SelectionCandidate> candidates;
+  candidates.reserve(trials.size());
+  for (const Trial& trial : trials)
+    candidates.push_back(
+        {ScoreGroups(problem, trial.predicted, relative_sigma), static_cast<double>(trial.count), true});
+  return SimplestWithinOneStandardError(candidates);
+}
+
+}  // namespace
+
+CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
+                                 const KnownPositions& known_positions, const ChooseCountOptions& options) {
+  const int least = std::max(1, static_cast<int>(known_positions.size()));
+  if (options.max_count < least)
+    throw std::invalid_argument(
+        "ChooseLuminaireCount: expected max_count of at least 1 and of the known places");
+  const SubProblem problem = CutAll(room, data, options.max_elements);
+  CountChoice choice;
+  if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
+    return choice;
+  std::vector<Trial> trials;
+  constexpr int kPatience = 2;  // numbers in a row without gain that end the search
+  const FirstGuessOptions guess_options;
+  const GroupedLight light = GroupLight(room, WithCount(problem.fit, 1), guess_options.max_elements);
+  const SparseSearch search(room, light, guess_options.grid_m, guess_options.refinements);
+  SparseLuminaires found;
+  for (const std::optional<Eigen::Vector3d>& place : known_positions) {
+    if (!place) continue;
+    found.sources.emplace_back();
+    found.sources.back().luminaire.position = *place;
+    found.sources.back().is_held = true;
+  }
+  for (int count = least; count <= options.max_count; ++count) {
+    found = search.Find(0, count, found.sources);
+    if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
+      break;
+    const std::optional<Trial> trial = Try(room, problem, state, found, options);
+    if (!trial) break;
+    trials.push_back(*trial);
+    if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;
+  }
+  if (trials.empty()) return choice;
+  Selection selection = Select(problem, trials);
+  for (const Trial& trial : trials) choice.among.push_back(trial.count);
+  choice.chosen = trials[selection.chosen].count;
+  choice.score = std::move(selection.score);
+  choice.standard_error = std::move(selection.standard_error);
+  choice.reached_max = trials[selection.best].count == options.max_count;
+  return choice;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,49 @@
+// Estimates how many luminaires give the light, where nobody states their number.
+//
+// For each number n, a fifth of the patches (or readings) is left out:
+// 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/first_guess.h).
+// 2. They are refined together as cosine-power discs of free size, so that a large one is not mistaken for
+//    several.
+// 3. They predict the data left out. The score is the mean of min(z^2, 9).
+// The smallest n within one standard error of the best score is chosen (paired, facet by facet). Numbers are
+// tried upwards until two in a row bring no gain.
+//
+// Assumes that all luminaires are on, dimmed alike, in every state observed.
+// Throws std::invalid_argument for `max_count` below 1 or below the number of known places.
+// Sources: Boyd, Schiebinger, Recht (2017) (see first_guess.h); Breiman et al. (1984), sec. 3.4
+// (one-standard-error rule).
+#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_COUNT_H_
+#define LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_COUNT_H_
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "inverse/model/light_state.h"
+
+namespace luxfit {
+
+struct ChooseCountOptions {
+  int max_count = 12;
+  int max_elements = 1500;
+  double start_size_m = 0.2;
+  double least_share = 0.01;  // share of all flux: a luminaire below it explains errors, not light
+};
+
+struct CountChoice {
+  std::vector<int> among;
+  std::vector<double> score;           // one for each of `among`, on data left out
+  std::vector<double> standard_error;  // standard error of the difference from the best
+  int chosen = 0;                      // luminaires; 0: too little light was seen to place one
+  bool reached_max = false;            // the best was the largest allowed
+};
+
+// `data`: with measured indirect light, or readings alone; only one dimming per state counts. `state`: gives
+// known reflectances (albedo, albedo_free). `known_positions`: places of luminaires that certainly exist.
+CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
+                                 const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
+                                 const ChooseCountOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_COUNT_H_

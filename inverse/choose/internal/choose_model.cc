@@ -1,0 +1,279 @@
+#include "inverse/choose/internal/choose_model.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "forward/luminaire/distribution_ops.h"
+#include "inverse/choose/internal/left_out.h"
+#include "inverse/choose/internal/refine_luminaire.h"
+#include "inverse/select/one_standard_error.h"
+
+namespace luxfit {
+namespace {
+
+// Returns the candidates shape by shape, with one parameter for every length and one for an exponent. A disc
+// or rectangle has an aim; it cannot be isotropic.
+std::vector<ModelCandidate> MakeCandidates() {
+  const std::array<LuminaireShape, 3> shapes{LuminaireShape::kPoint, LuminaireShape::kDisc,
+                                             LuminaireShape::kRectangle};
+  std::vector<ModelCandidate> candidates;
+  for (size_t lengths = 0; lengths < shapes.size(); ++lengths) {
+    for (const DistributionOps& ops : Distributions()) {
+      if (!ops.is_tried || (lengths > 0 && !ops.has_aim)) continue;
+      candidates.push_back({ops.distribution, shapes[lengths],
+                            static_cast<int>(lengths) + (ops.has_exponent ? 1 : 0),
+                            std::string(ops.name) + " " + ToString(shapes[lengths])});
+    }
+  }
+  return candidates;
+}
+
+const std::vector<ModelCandidate>& AllCandidates() {
+  static const std::vector<ModelCandidate> candidates = MakeCandidates();
+  return candidates;
+}
+
+bool Allowed(const ModelCandidate& candidate, const Luminaire& luminaire, const OpenChoice& open) {
+  return (open.distribution || candidate.distribution == luminaire.distribution) &&
+         (open.shape || candidate.shape == luminaire.shape);
+}
+
+// Returns whether turning the candidate changes its light. An isotropic point has no aim.
+bool HasAim(const ModelCandidate& candidate) {
+  return OpsOf(candidate.distribution).has_aim || candidate.shape != LuminaireShape::kPoint;
+}
+
+void Apply(const ModelCandidate& candidate, bool aim_is_free, double start_size_m, Luminaire& luminaire,
+           FreeQuantities& free) {
+  const bool grows = candidate.shape != LuminaireShape::kPoint && luminaire.shape == LuminaireShape::kPoint;
+  luminaire.distribution = candidate.distribution;
+  luminaire.shape = candidate.shape;
+  if (grows) luminaire.size_m.setConstant(start_size_m);
+  if (candidate.shape == LuminaireShape::kDisc) luminaire.size_m[1] = luminaire.size_m[0];
+  free.exponent = OpsOf(candidate.distribution).has_exponent;
+  free.size = candidate.shape != LuminaireShape::kPoint;
+  free.tilt = aim_is_free && HasAim(candidate);
+}
+
+LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
+                       const std::vector<GroupScores>& scores) {
+  LuminaireChoice choice;
+  choice.luminaire = luminaire;
+  std::vector<SelectionCandidate> selectable;
+  for (size_t c = 0; c < candidates.size(); ++c) {
+    const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(candidates[c])];
+    choice.among.push_back(candidate.name);
+    selectable.push_back({scores[c], static_cast<double>(candidate.parameters), true});
+  }
+  Selection selection = SimplestWithinOneStandardError(selectable);
+  choice.score = std::move(selection.score);
+  choice.standard_error = std::move(selection.standard_error);
+  choice.chosen = static_cast<int>(selection.chosen);
+  return choice;
+}
+
+struct FittedCandidate {
+  int candidate = 0;
+  bool aim_is_free = false;
+  Luminaire luminaire;
+  Eigen::VectorXd predicted;  // rows of SubProblem::all
+  double relative_sigma = 1;
+};
+
+FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free,
+                             const ChooseModelOptions& options) {
+  const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
+  const size_t k = static_cast<size_t>(problem.luminaire);
+  Luminaire luminaire = problem.state.luminaires[k];
+  FreeQuantities free = problem.state.free[k];
+  Apply(candidate, aim_is_free, options.start_size_m, luminaire, free);
+  FittedModel fitted =
+      FitModel(room, problem, luminaire, free, {options.max_outer_iterations, options.max_inner_iterations});
+  return {index, aim_is_free, std::move(fitted.luminaire), std::move(fitted.predicted),
+          fitted.relative_sigma};
+}
+
+constexpr double kGoodPoint =
+    0.01;  // model error of a point that a size hardly improves; luxmeters read to 3 %
+
+// Returns whether rectangles need no trial: a point explains the light that well, and discs bring no gain
+// over points. Discs alone do not tell: a long panel fits a disc no better than a point.
+bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandidate>& fitted,
+                       double relative_sigma, const ModelCandidate& next) {
+  if (next.shape != LuminaireShape::kRectangle) return false;
+  const FittedCandidate *point = nullptr, *disc = nullptr;
+  for (const FittedCandidate& f : fitted) {
+    const ModelCandidate& c = AllCandidates()[static_cast<size_t>(f.candidate)];
+    if (!OpsOf(c.distribution).has_exponent) continue;
+    (c.shape == LuminaireShape::kPoint ? point : disc) = &f;
+  }
+  if (point == nullptr || point->relative_sigma > kGoodPoint) return false;
+  if (disc == nullptr) return true;  // the disc vanished
+  const Selection selection =
+      SimplestWithinOneStandardError({{ScoreGroups(problem, point->predicted, relative_sigma), 0, true},
+                                      {ScoreGroups(problem, disc->predicted, relative_sigma), 1, true}});
+  return selection.chosen == 0;
+}
+
+AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedCandidate& held,
+                      const FittedCandidate& free) {
+  const double relative_sigma = std::min(held.relative_sigma, free.relative_sigma);
+  const Selection selection =
+      SimplestWithinOneStandardError({{ScoreGroups(problem, held.predicted, relative_sigma), 0, true},
+                                      {ScoreGroups(problem, free.predicted, relative_sigma), 1, true}});
+  const size_t worse = 1 - selection.best;
+  return {luminaire, selection.chosen == 1, selection.score[0], selection.score[1],
+          selection.standard_error[worse]};
+}
+
+// Holds the results for one luminaire.
+struct ChosenModel {
+  std::optional<LuminaireChoice> choice;
+  std::optional<AimChoice> aim;
+  std::optional<FittedCandidate> fitted;  // none where nothing is open or nothing could be left out
+};
+
+// Chooses among the models and aims that are open for one luminaire.
+class LuminaireChooser {
+ public:
+  LuminaireChooser(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open,
+                   const ChooseModelOptions& options)
+      : room_(room), problem_(problem), luminaire_(luminaire), open_(open), options_(options) {
+    const Luminaire& start = problem.state.luminaires[static_cast<size_t>(problem.luminaire)];
+    for (size_t c = 0; c < AllCandidates().size(); ++c) {
+      if (Allowed(AllCandidates()[c], start, open)) allowed_.push_back(static_cast<int>(c));
+    }
+  }
+
+  ChosenModel Run() {
+    if (std::none_of(problem_.left_out.begin(), problem_.left_out.end(), [](bool out) { return out; }))
+      return {};
+    ChosenModel chosen;
+    if (open_.aim) chosen.aim = AimOfAPoint();
+    const bool turns = chosen.aim && chosen.aim->is_free;
+    const std::vector<FittedCandidate> fitted = FitAll(turns);
+    if (fitted.empty() || (fitted.size() < 2 && !turns)) return chosen;
+    if (fitted.size() > 1) chosen.choice = ChooseAmong(fitted);
+    chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
+    if (!turns) return chosen;
+    const FittedCandidate& held = Fitted(chosen.fitted->candidate, false);
+    chosen.aim = CompareAims(problem_, luminaire_, held, *chosen.fitted);
+    if (!chosen.aim->is_free) chosen.fitted = held;
+    return chosen;
+  }
+
+ private:
+  // Compares aims by a point, where one is allowed, else by another candidate with an aim.
+  std::optional<AimChoice> AimOfAPoint() {
+    int trial = -1;
+    for (const int c : allowed_) {
+      const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(c)];
+      if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
+    }
+    if (trial < 0) return {};
+    return CompareAims(problem_, luminaire_, Fitted(trial, false), Fitted(trial, true));
+  }
+
+  // Returns the fitted candidate. Each is fitted once.
+  const FittedCandidate& Fitted(int candidate, bool aim_is_free) {
+    const auto known = fitted_.find({candidate, aim_is_free});
+    if (known != fitted_.end()) return known->second;
+    return fitted_
+        .emplace(std::make_pair(candidate, aim_is_free),
+                 FitCandidate(room_, problem_, candidate, aim_is_free, options_))
+        .first->second;
+  }
+
+  std::vector<FittedCandidate> FitAll(bool turns) {
+    std::vector<FittedCandidate> fitted;
+    double relative_sigma = 1;
+    for (const int c : allowed_) {
+      if (SizeDoesNotMatter(problem_, fitted, relative_sigma, AllCandidates()[static_cast<size_t>(c)]))
+        continue;
+      const FittedCandidate& candidate = Fitted(c, turns);
+      // A size that shrank to nothing repeats the point, with one more parameter.
+      if (open_.shape && HasVanished(candidate.luminaire)) continue;
+      fitted.push_back(candidate);
+      relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
+    }
+    return fitted;
+  }
+
+  LuminaireChoice ChooseAmong(const std::vector<FittedCandidate>& fitted) const {
+    double relative_sigma = 1;
+    for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.relative_sigma);
+    std::vector<int> candidates;
+    std::vector<GroupScores> scores;
+    for (const FittedCandidate& f : fitted) {
+      candidates.push_back(f.candidate);
+      scores.push_back(ScoreGroups(problem_, f.predicted, relative_sigma));
+    }
+    return Choose(luminaire_, candidates, scores);
+  }
+
+  const Room& room_;
+  const SubProblem& problem_;
+  int luminaire_;
+  OpenChoice open_;
+  const ChooseModelOptions& options_;
+  std::vector<int> allowed_;
+  std::map<std::pair<int, bool>, FittedCandidate> fitted_;
+};
+
+void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, LightState& state,
+              int luminaire) {
+  const size_t k = static_cast<size_t>(luminaire);
+  state.luminaires[k] = fitted.luminaire;
+  Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, options.start_size_m,
+        state.luminaires[k], state.free[k]);
+}
+
+}  // namespace
+
+bool HasVanished(const Luminaire& luminaire) {
+  constexpr double kVanishedM = 0.01;
+  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
+  return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
+}
+
+ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
+                                  const std::vector<OpenChoice>& open,
+                                  const std::vector<ParameterPrior>& priors,
+                                  const ChooseModelOptions& options) {
+  if (open.size() != start.luminaires.size()) {
+    throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
+  }
+  std::vector<ChosenModel> chosen(open.size());
+  std::vector<RefinedLuminaire> refined(open.size());
+  tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
+    const auto luminaire = static_cast<int>(k);
+    SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
+    chosen[k] = LuminaireChooser(room, problem, luminaire, open[k], options).Run();
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, problem.state, problem.luminaire);
+    refined[k] = RefineLuminaire(room, problem, open[k].refinements, options.refine);
+  });
+  ModelChoice result;
+  result.state = start;
+  for (size_t k = 0; k < open.size(); ++k) {
+    if (chosen[k].choice) result.choices.push_back(*chosen[k].choice);
+    if (chosen[k].aim) result.aims.push_back(*chosen[k].aim);
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, result.state, static_cast<int>(k));
+    for (Refinement step : refined[k].steps) {
+      step.luminaire = static_cast<int>(k);
+      result.refinements.push_back(std::move(step));
+    }
+    if (!refined[k].changed) continue;
+    result.state.luminaires[k] = refined[k].luminaire;
+    result.state.free[k] = refined[k].free;
+  }
+  return result;
+}
+
+}  // namespace luxfit

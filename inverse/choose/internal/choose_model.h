@@ -1,0 +1,95 @@
+// Chooses for each luminaire the simplest model that the data support.
+//
+// Candidates, by number of free parameters beyond position and flux:
+//   0 isotropic point, Lambertian point · 1 cosine-power point, Lambertian disc · 2 Lambertian rectangle,
+//   cosine-power disc · 3 cosine-power rectangle
+// Luminaires are taken one by one, with reflectances and camera scale held at the start's values. The data
+// are the states where the luminaire is on alone. Where there are none, all states count, with the other
+// luminaires held.
+//
+// A fifth of the patches is left out. Every candidate is fitted to the rest and scored on the patches left
+// out. The score is the mean of min(z^2, 9), z the residual over its own sigma and one common model error
+// (the smallest that any candidate reached). The simplest candidate within one standard error of the best
+// score is chosen. The standard error is that of the paired difference, facet by facet, because residuals of
+// one facet are not independent.
+//
+// Aim: a cosine-power point (or the given model) is fitted with the start's aim and with a free one. The
+// candidates turn only where the free aim lowers the score by more than a standard error. The aim of the
+// chosen candidate stays free only where the same holds for it.
+//
+// OpenChoice::refinements are tried last: a table of intensities, uneven emission, heading and aim of a given
+// photometry (inverse/choose/internal/refinement.h). Each is kept only where the data left out support it.
+// The function does not vary a distribution, shape or aim that the caller fixed.
+//
+// Source: Breiman, Friedman, Olshen, Stone (1984), "Classification and Regression Trees", sec. 3.4
+// (one-standard-error rule).
+#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_MODEL_H_
+#define LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_MODEL_H_
+
+#include <string>
+#include <vector>
+
+#include "inverse/choose/internal/refinement.h"
+#include "inverse/model/fit_luminaires.h"
+
+namespace luxfit {
+
+struct ModelCandidate {
+  Distribution distribution = Distribution::kLambertian;
+  LuminaireShape shape = LuminaireShape::kPoint;
+  int parameters = 0;
+  std::string name;  // "lambertian rectangle"
+};
+
+struct LuminaireChoice {
+  int luminaire = 0;
+  std::vector<std::string> among;
+  std::vector<double> score;           // one for each of `among`, on data left out
+  std::vector<double> standard_error;  // standard error of the difference from the best
+  int chosen = 0;                      // index into among
+};
+
+// Records whether one luminaire keeps the start's aim or gets an estimated one.
+struct AimChoice {
+  int luminaire = 0;
+  bool is_free = false;
+  double score_held = 0, score_free = 0;  // on data left out
+  double standard_error = 0;              // standard error of the difference
+};
+
+// Says what the caller leaves open, one for each luminaire.
+struct OpenChoice {
+  bool distribution = true;
+  bool shape = true;
+  bool aim = true;
+  OpenRefinements refinements = {};  // none, unless a caller asks for them
+};
+
+struct ChooseModelOptions {
+  int max_elements = 2500;       // observed elements used per luminaire, thinned evenly
+  double start_size_m = 0.3;     // start for discs and rectangles
+  int max_outer_iterations = 2;  // the start is converged: visibility and weights are refreshed once
+  int max_inner_iterations = 8;
+  RefineOptions refine;
+};
+
+struct ModelChoice {
+  LightState state;  // the chosen models at their best so far: a start for the final fit
+  std::vector<LuminaireChoice> choices;
+  std::vector<AimChoice> aims;
+  std::vector<Refinement> refinements;  // in the order they were tried, luminaire by luminaire
+};
+
+// Returns whether a disc or rectangle shrank below 1 cm: its light is that of a point.
+bool HasVanished(const Luminaire& luminaire);
+
+// `start` should be a converged fit with cosine-power points (or what is given).
+// Throws std::invalid_argument unless `open` has one entry for each luminaire.
+ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
+                                  const std::vector<OpenChoice>& open,
+                                  const std::vector<ParameterPrior>& priors = {},
+                                  const ChooseModelOptions& options = {});
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_MODEL_H_

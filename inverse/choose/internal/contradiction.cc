@@ -1,0 +1,64 @@
+#include "inverse/choose/internal/contradiction.h"
+
+#include <algorithm>
+
+#include "inverse/choose/internal/choose_model.h"
+#include "inverse/choose/internal/left_out.h"
+#include "inverse/select/one_standard_error.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kStandardErrors = 2, kRatio = 2;
+
+// Returns the luminaire without its given distribution and shape.
+Luminaire Unsaid(Luminaire luminaire) {
+  luminaire.distribution = Distribution::kCosinePower;
+  luminaire.cosine_exponent = 1;
+  luminaire.table = nullptr;
+  luminaire.shape = LuminaireShape::kPoint;
+  luminaire.size_m.setZero();
+  return luminaire;
+}
+
+}  // namespace
+
+std::vector<Contradiction> FindContradictions(const Room& room, const LightData& data,
+                                              const LightState& start, const std::vector<OpenChoice>& open,
+                                              const std::vector<ParameterPrior>& priors,
+                                              const ChooseModelOptions& options) {
+  std::vector<Contradiction> contradictions;
+  for (size_t k = 0; k < open.size(); ++k) {
+    const FreeQuantities& free = start.free[k];
+    if ((open[k].distribution && open[k].shape) || !free.flux) continue;
+    std::vector<OpenChoice> others(open.size(), OpenChoice{false, false, false, {}});
+    // Where every step solves the radiosity, only points are affordable.
+    others[k] = {true, data.indirect_is_held, false, {}};
+    LightState unsaid = start;
+    unsaid.luminaires[k] = Unsaid(start.luminaires[k]);
+    unsaid.free[k].exponent = true;
+    const ModelChoice chosen = ChooseLuminaireModels(room, data, unsaid, others, priors, options);
+    const auto luminaire = static_cast<int>(k);
+    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
+    if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
+      continue;
+    const FitEffort effort{4, options.max_inner_iterations};
+    const FittedModel given = FitModel(room, problem, start.luminaires[k], free, effort);
+    const FittedModel better =
+        FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k], effort);
+    const double sigma = std::min(given.relative_sigma, better.relative_sigma);
+    SelectionOptions selection_options;
+    selection_options.standard_errors = kStandardErrors;
+    selection_options.worth_having = kRatio - 1;
+    const Selection selection =
+        SimplestWithinOneStandardError({{ScoreGroups(problem, given.predicted, sigma), 0, true},
+                                        {ScoreGroups(problem, better.predicted, sigma), 1, true}},
+                                       selection_options);
+    if (selection.chosen == 1)
+      contradictions.push_back(
+          {luminaire, better.luminaire, selection.score[0], selection.score[1], selection.standard_error[0]});
+  }
+  return contradictions;
+}
+
+}  // namespace luxfit

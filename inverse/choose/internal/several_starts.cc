@@ -1,0 +1,87 @@
+#include "inverse/choose/internal/several_starts.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "forward/luminaire/distribution_ops.h"
+#include "inverse/choose/internal/left_out.h"
+#include "inverse/select/one_standard_error.h"
+
+namespace luxfit {
+namespace {
+
+// Returns the luminaire's model at the rival's place.
+Luminaire At(const Luminaire& luminaire, const Luminaire& rival) {
+  Luminaire start = luminaire;
+  start.position = rival.position;
+  if (OpsOf(luminaire.distribution).has_exponent) {
+    start.aim = rival.aim;
+    start.cosine_exponent = std::max(1.0, rival.cosine_exponent);
+  }
+  return start;
+}
+
+StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>& starts,
+                         const std::vector<FittedModel>& fitted, const SeveralStartsOptions& options) {
+  StartComparison comparison;
+  double sigma = 1;
+  for (const FittedModel& model : fitted) sigma = std::min(sigma, model.relative_sigma);
+  std::vector<SelectionCandidate> candidates;
+  for (size_t i = 0; i < fitted.size(); ++i) {
+    comparison.start.push_back(starts[i].position);
+    comparison.end.push_back(fitted[i].luminaire.position);
+    candidates.push_back({ScoreGroups(problem, fitted[i].predicted, sigma), 0, true});
+  }
+  SelectionOptions selection_options;
+  selection_options.keeps_first = true;
+  const Selection selection = SimplestWithinOneStandardError(candidates, selection_options);
+  comparison.score = selection.score;
+  const size_t chosen = selection.chosen;
+  comparison.chosen = static_cast<int>(chosen);
+  for (size_t i = 0; i < fitted.size(); ++i) {
+    const PairedDifference worse = Difference(candidates[i].scores, candidates[chosen].scores);
+    comparison.standard_error.push_back(i == chosen ? 0 : worse.standard_error);
+    const double apart_m = (comparison.end[i] - comparison.end[chosen]).norm();
+    if (apart_m <= options.same_place_m) ++comparison.agreeing;
+    if (apart_m > options.other_place_m && worse.mean <= worse.standard_error)
+      comparison.rivals.push_back(static_cast<int>(i));
+  }
+  return comparison;
+}
+
+}  // namespace
+
+SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, const LightState& state,
+                                   const std::vector<std::vector<Luminaire>>& rivals,
+                                   const std::vector<ParameterPrior>& priors,
+                                   const SeveralStartsOptions& options) {
+  if (rivals.size() != state.luminaires.size())
+    throw std::invalid_argument("FitFromSeveralStarts: rivals: expected one list a luminaire");
+  SeveralStarts result{state, {}};
+  for (size_t k = 0; k < rivals.size(); ++k) {
+    if (rivals[k].empty() || !state.free[k].position) continue;
+    const SubProblem problem =
+        MakeSubProblem(room, data, result.state, static_cast<int>(k), priors, options.max_elements);
+    if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
+      continue;
+    std::vector<Luminaire> starts = {state.luminaires[k]};
+    for (const Luminaire& rival : rivals[k]) {
+      if (static_cast<int>(starts.size()) < options.max_starts)
+        starts.push_back(At(state.luminaires[k], rival));
+    }
+    std::vector<FittedModel> fitted(starts.size());
+    tbb::parallel_for(size_t{0}, starts.size(), [&](size_t i) {
+      fitted[i] = FitModel(room, problem, starts[i], state.free[k],
+                           {options.max_outer_iterations, options.max_inner_iterations});
+    });
+    StartComparison comparison = Compared(problem, starts, fitted, options);
+    comparison.luminaire = static_cast<int>(k);
+    result.state.luminaires[k] = fitted[static_cast<size_t>(comparison.chosen)].luminaire;
+    result.comparisons.push_back(std::move(comparison));
+  }
+  return result;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,169 @@
+#include "inverse/model/internal/light_model.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace luxfit {
+namespace {
+
+// Returns the index of `sensor` and adds it where it is new. A point read in several states is one sensor.
+int IndexOf(const Sensor& sensor, std::vector<Sensor>& sensors) {
+  const auto known = std::find(sensors.begin(), sensors.end(), sensor);
+  const auto index = static_cast<int>(known - sensors.begin());
+  if (known == sensors.end()) sensors.push_back(sensor);
+  return index;
+}
+
+// Maps each parameter to its column of the light's derivatives.
+struct Columns {
+  DerivativeRequest request;
+  std::vector<int> of_parameter;        // -1: none
+  std::vector<double> reference_share;  // for parts of a table or of an emission
+
+  Columns(const LightState& state, const std::vector<Parameter>& parameters, bool with_jacobian)
+      : of_parameter(parameters.size(), -1), reference_share(parameters.size(), 0) {
+    for (size_t i = 0; with_jacobian && i < parameters.size(); ++i) {
+      const Parameter& p = parameters[i];
+      if (p.kind == ParameterKind::kLuminaire) {
+        of_parameter[i] = static_cast<int>(request.parameters.size());
+        request.parameters.push_back({p.index, p.quantity, p.part});
+      } else if (p.kind == ParameterKind::kAlbedo) {
+        of_parameter[i] = static_cast<int>(request.materials.size());
+        request.materials.push_back(p.index);
+      }
+      if (IsPart(p)) reference_share[i] = ReferenceShare(state, p);
+    }
+  }
+};
+
+// Computes gain dE / dp at one receiver from the light per lumen and the luminaires' lumens.
+class ReceiverDerivative {
+ public:
+  ReceiverDerivative(const LightState& state, const Illuminance& light, const Columns& columns,
+                     bool is_direct)
+      : state_(state),
+        light_(light),
+        columns_(columns),
+        materials_(is_direct ? 0 : static_cast<Eigen::Index>(columns.request.materials.size())) {}
+
+  double Of(const Parameter& parameter, size_t p, Eigen::Index r, double gain,
+            const Eigen::VectorXd& lumens) const {
+    const Eigen::Index k = parameter.index;
+    const int column = columns_.of_parameter[p];
+    if (parameter.kind == ParameterKind::kLogFlux) return gain * lumens[k] * light_.total(r, k);
+    if (parameter.kind == ParameterKind::kAlbedo) {
+      double sum = 0;
+      for (Eigen::Index j = 0; j < lumens.size() && materials_ > 0; ++j)
+        sum += lumens[j] * light_.d_albedo(r, j * materials_ + column);
+      return gain * sum;
+    }
+    if (parameter.kind != ParameterKind::kLuminaire) return 0;
+    const double per_lumen = light_.d_luminaire(r, column);
+    if (IsPart(parameter))
+      return gain * lumens[k] * columns_.reference_share[p] *
+             (per_lumen - static_cast<double>(light_.total(r, k)));
+    // The parameter is the exponent's logarithm.
+    const bool is_exponent = parameter.quantity == LuminaireQuantity::kExponent;
+    const double inner = is_exponent ? state_.luminaires[static_cast<size_t>(k)].cosine_exponent : 1;
+    return gain * lumens[k] * per_lumen * inner;
+  }
+
+ private:
+  const LightState& state_;
+  const Illuminance& light_;
+  const Columns& columns_;
+  const Eigen::Index materials_;
+};
+
+}  // namespace
+
+LightModel::LightModel(const Room& room, const LightData& data)
+    : room_(room), data_(data), blocks_(RowBlocksOf(room, data)) {
+  if (data.indirect_is_held && !data.readings.empty())
+    throw std::invalid_argument("LightModel: expected no readings where the indirect light was measured");
+  std::vector<int> elements;
+  std::vector<RowReceiver> receivers;
+  for (size_t b = 0; b < blocks_.size(); ++b) {
+    for (int place = 0; place < blocks_[b]->row_count(); ++place) {
+      const RowReceiver receiver = blocks_[b]->ReceiverOf(place);
+      if (receiver.state < 0 || receiver.state >= static_cast<int>(data.dimming.size()))
+        throw std::invalid_argument("LightModel: expected a state index below " +
+                                    std::to_string(data.dimming.size()));
+      if (receiver.sensor == nullptr) elements.push_back(receiver.element);
+      receivers.push_back(receiver);
+      rows_.push_back({static_cast<int>(b), place, 0, receiver.state});
+    }
+  }
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  std::vector<Sensor> sensors;
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    const RowReceiver& receiver = receivers[i];
+    rows_[i].receiver =
+        receiver.sensor != nullptr
+            ? static_cast<int>(elements.size()) + IndexOf(*receiver.sensor, sensors)
+            : static_cast<int>(std::lower_bound(elements.begin(), elements.end(), receiver.element) -
+                               elements.begin());
+  }
+  receivers_ = MakeReceivers(room, elements, sensors);
+  if (!data.indirect_is_held) PrepareGather(room, receivers_);
+}
+
+void LightModel::FreezeVisibility(const LightState& state, int order) {
+  visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
+      room_, receivers_, state.luminaires, order);
+}
+
+std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
+  std::vector<bool> mixed(rows_.size());
+  for (size_t i = 0; i < mixed.size(); ++i) {
+    if (!BlockOf(static_cast<int>(i)).IsSpoiltByPenumbra()) continue;
+    const Eigen::VectorXd& dimming = data_.dimming[static_cast<size_t>(rows_[i].state)];
+    for (Eigen::Index k = 0; k < dimming.size(); ++k) {
+      const float share = visibility_.receivers(rows_[i].receiver, k);
+      if (dimming[k] > min_dimming && share > 0.001f && share < 0.999f) mixed[i] = true;
+    }
+  }
+  return mixed;
+}
+
+Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& request) const {
+  if (data_.indirect_is_held)
+    return ComputeDirectIlluminance(room_, receivers_, visibility_, state.luminaires, request);
+  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
+  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
+}
+
+Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
+                               bool with_jacobian) const {
+  const Columns columns(state, parameters, with_jacobian);
+  const Illuminance light = Light(state, columns.request);
+  const ReceiverDerivative derivative(state, light, columns, data_.indirect_is_held);
+  Eigen::VectorXd flux(static_cast<Eigen::Index>(state.luminaires.size()));
+  for (Eigen::Index k = 0; k < flux.size(); ++k) flux[k] = state.luminaires[static_cast<size_t>(k)].flux_lm;
+
+  Prediction prediction;
+  prediction.value.resize(row_count());
+  prediction.direct.resize(row_count());
+  if (with_jacobian) prediction.jacobian.setZero(row_count(), static_cast<Eigen::Index>(parameters.size()));
+  tbb::parallel_for(0, row_count(), [&](int i) {
+    const Row& row = rows_[static_cast<size_t>(i)];
+    const RowBlock& block = *blocks_[static_cast<size_t>(row.block)];
+    const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
+    const RowResponse response = block.ResponseOf(state, row.place);
+    const double illuminance_lx = light.total.row(row.receiver).cast<double>() * lumens;
+    prediction.value[i] = response.gain * illuminance_lx + response.offset;
+    prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
+    for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
+      prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
+          derivative.Of(parameters[p], p, row.receiver, response.gain, lumens) +
+          block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
+    }
+  });
+  return prediction;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,81 @@
+// Predicts what was observed, with its Jacobian: the model that the fit inverts.
+//
+//   value_i = gain_i(theta) E_i(theta) + offset_i(theta),   E_i = sum_k d_sk Phi_k E_ik(theta)
+//
+// Row i of a block of rows (inverse/model/internal/row_block.h) receives the illuminance E_i in state s.
+// d: dimming, Phi: flux, E_ik: illuminance per lumen (forward/light/illuminance.h). The block states gain
+// and offset. The gain of a photo's element is c rho / pi; that of a reading belongs to its meter and
+// sensor.
+//
+// Rows come block by block, in the order of RowBlocksOf. The Jacobian is rows x parameters and exact for
+// frozen visibility. Where the indirect light was measured (LightData::indirect_is_held), E is the direct
+// illuminance alone and the offset holds the rest.
+//
+// Throws std::invalid_argument for indices out of range, and for readings beside measured indirect light.
+#ifndef LUXFIT_INVERSE_MODEL_INTERNAL_LIGHT_MODEL_H_
+#define LUXFIT_INVERSE_MODEL_INTERNAL_LIGHT_MODEL_H_
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "forward/light/illuminance.h"
+#include "forward/light/room.h"
+#include "inverse/model/internal/row_block.h"
+#include "inverse/model/light_state.h"
+
+namespace luxfit {
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct Prediction {
+  Eigen::VectorXd value;
+  Eigen::VectorXd direct;   // the part of `value` that is direct light
+  RowMajorMatrix jacobian;  // empty if not asked for
+};
+
+class LightModel {
+ public:
+  // Keeps references: `room` and `data` must outlive it. Not to be shared by threads.
+  LightModel(const Room& room, const LightData& data);
+
+  // Computes the visible shares that Predict uses, for the luminaires where `state` has them. `order` is that
+  // of ComputeVisibility.
+  void FreezeVisibility(const LightState& state, int order = 3);
+  // Marks rows that a shadow edge crosses, in the blocks that it spoils. There, a luminaire dimmed to more
+  // than `min_dimming` is seen in part.
+  std::vector<bool> InPenumbra(double min_dimming = 0.02) const;
+  Prediction Predict(const LightState& state, const std::vector<Parameter>& parameters,
+                     bool with_jacobian) const;
+
+  int row_count() const { return static_cast<int>(rows_.size()); }
+  const std::vector<std::unique_ptr<RowBlock>>& blocks() const { return blocks_; }
+  // The block of a row, and the row's place in it.
+  const RowBlock& BlockOf(int row) const {
+    return *blocks_[static_cast<size_t>(rows_[static_cast<size_t>(row)].block)];
+  }
+  int block_index(int row) const { return rows_[static_cast<size_t>(row)].block; }
+  int PlaceInBlock(int row) const { return rows_[static_cast<size_t>(row)].place; }
+
+ private:
+  struct Row {
+    int block = 0, place = 0;
+    int receiver = 0, state = 0;
+  };
+  // Returns illuminance per lumen at the receivers.
+  Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
+
+  const Room& room_;
+  const LightData& data_;
+  std::vector<std::unique_ptr<RowBlock>> blocks_;
+  std::vector<Row> rows_;
+  Receivers receivers_;
+  LuminaireVisibility visibility_;
+  // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.
+  mutable std::optional<Transport> transport_;
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_MODEL_INTERNAL_LIGHT_MODEL_H_
