@@ -77,7 +77,9 @@ SwitchedStates SwitchedStatesOf(const py::dict& states) {
     names.states.push_back(py::str(item.first).cast<std::string>());
     const std::string place = "fit_room: states[\"" + names.states.back() + "\"]";
     try {
-      for (const auto& luminaire : item.second.cast<py::dict>()) {
+      // A cast would turn other values into a dict.
+      if (!py::isinstance<py::dict>(item.second)) throw py::cast_error();
+      for (const auto& luminaire : py::reinterpret_borrow<py::dict>(item.second)) {
         const auto id = luminaire.first.cast<std::string>();
         if (std::count(names.luminaires.begin(), names.luminaires.end(), id) == 0)
           names.luminaires.push_back(id);
