@@ -42,8 +42,8 @@ void AddReport(CLI::App& app, Invocation& invocation) {
     invocation.run = [options] { return ReportCommand(*options); };
   });
   AddExample(*command, "luxfit report out",
-             "done      3.0 s, out/report.html, 3.3 MB\n"
-             "Work plane, state all: 40 points, mean 345.9 ± 14 lx, least 248 ± 9.8 lx, U0 0.7169 ± 0.0032");
+             "Work plane, state all: 40 points, mean 345.9 ± 14 lx, least 248 ± 9.8 lx, U0 0.7169 ± 0.0032\n"
+             "done      3.0 s, out/report.html, 3.3 MB");
 }
 
 }  // namespace

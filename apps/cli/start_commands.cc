@@ -63,8 +63,8 @@ void AddExplain(CLI::App& app, Invocation& invocation) {
       [&invocation, options] { invocation.run = [options] { return ExplainCommand(*options); }; });
   AddExample(
       *command, "luxfit explain scale_undetermined",
-      "Photos alone give fluxes up to one common factor. Positions, distributions and reflectances stand; "
-      "lumens and lux do not.\n"
+      "Photos alone give fluxes up to one common factor. Positions, distributions and reflectances are "
+      "determined; lumens and lux are not.\n"
       "Fix: name one luxmeter reading in `luxmeter.scale`, or ...");
 }
 

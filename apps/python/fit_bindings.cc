@@ -69,6 +69,12 @@ void ExpectKeys(const py::dict& entry, const std::vector<std::string>& known, co
   }
 }
 
+void ExpectDimming(double value, const std::string& id, const std::string& place) {
+  if (value >= 0 && value <= 1) return;
+  throw std::runtime_error(place + "[\"" + id + "\"]: expected a number in [0, 1], got " +
+                           std::to_string(value));
+}
+
 // Luminaires in the order in which the states name them.
 SwitchedStates SwitchedStatesOf(const py::dict& states) {
   SwitchedStates names;
@@ -89,11 +95,7 @@ SwitchedStates SwitchedStatesOf(const py::dict& states) {
       throw std::runtime_error(place +
                                ": expected a dict of luminaires and their dimming, such as {\"A\": 1.0}");
     }
-    for (const auto& [id, value] : dimming.back()) {
-      if (!(value >= 0 && value <= 1))
-        throw std::runtime_error(place + "[\"" + id + "\"]: expected a number in [0, 1], got " +
-                                 std::to_string(value));
-    }
+    for (const auto& [id, value] : dimming.back()) ExpectDimming(value, id, place);
   }
   names.dimming.reserve(dimming.size());
   for (const StateDimming& state : dimming) {

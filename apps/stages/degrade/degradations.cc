@@ -66,7 +66,7 @@ DegradedSessions::DegradedSessions(const PreparedSession& prepared, std::vector<
 }
 
 std::optional<std::string> DegradedSessions::WhyNot(const Degradation& degradation) const {
-  if (const auto why = degradation.why_not(whole_)) return why;
+  if (auto why = degradation.why_not(whole_)) return why;
   if (whole_.refit.undetermined) return "the undegraded session leaves its luminaires undetermined";
   return std::nullopt;
 }
