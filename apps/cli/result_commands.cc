@@ -4,7 +4,7 @@
 
 #include "apps/cli/cli.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/report_command.h"
+#include "apps/commands/result/report_command.h"
 
 namespace luxfit {
 namespace {

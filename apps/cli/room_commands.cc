@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
-#include "apps/commands/commission_command.h"
-#include "apps/commands/dim_command.h"
-#include "apps/commands/export_command.h"
-#include "apps/commands/luxmap_command.h"
+#include "apps/commands/result/commission_command.h"
+#include "apps/commands/result/dim_command.h"
+#include "apps/commands/result/export_command.h"
+#include "apps/commands/result/luxmap_command.h"
 #include "apps/text/suggest.h"
 
 namespace luxfit {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "apps/cli/describe.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/version.h"
 

@@ -6,8 +6,8 @@
 #include "apps/commands/board_command.h"
 #include "apps/commands/demo_command.h"
 #include "apps/commands/doctor_command.h"
-#include "apps/commands/explain_command.h"
 #include "apps/commands/init_command.h"
+#include "apps/commands/result/explain_command.h"
 
 namespace luxfit {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "apps/print/board_sheets.h"
 #include "apps/session/session_files.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "calib/targets/board.h"
 

@@ -13,7 +13,7 @@
 #include "apps/stages/check_report.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/stages.h"
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/terminal.h"
 

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "apps/commands/stage_fit_chart.h"
-#include "apps/commands/stage_stability.h"
+#include "apps/commands/study/stage_fit_chart.h"
+#include "apps/commands/study/stage_stability.h"
 
 namespace luxfit {
 
@@ -41,8 +41,8 @@ int FitCommand(const CommandOptions& options);
 // Runs the forward model only; writes OUT/illuminance.csv and OUT/stages/simulate.json.
 int SimulateCommand(const CommandOptions& options);
 // Charts speed against accuracy of the forward model; writes OUT/chart.csv, OUT/chart.svg and
-// OUT/stages/chart.json. Or charts the stability of the fit (apps/commands/stage_stability.h), or its error
-// against time (apps/commands/stage_fit_chart.h).
+// OUT/stages/chart.json. Or charts the stability of the fit (apps/commands/study/stage_stability.h), or its error
+// against time (apps/commands/study/stage_fit_chart.h).
 int ChartCommand(const CommandOptions& options);
 // Converts pixels to luminance by exposures, response and vignetting; writes OUT/stages/linearize.json.
 int LinearizeCommand(const CommandOptions& options);

@@ -8,7 +8,7 @@
 
 #include "apps/session/earlier_result.h"
 #include "apps/stages/prepared_session.h"
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/terminal.h"
 #include "inverse/study/stability_score.h"
 

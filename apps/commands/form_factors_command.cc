@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/session/session_scene.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/seconds.h"
 #include "apps/text/suggest.h"
 #include "forward/factors/form_factors.h"

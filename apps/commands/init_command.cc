@@ -13,7 +13,7 @@
 #include "apps/session/session.h"
 #include "apps/session/session_draft.h"
 #include "apps/session/tag_map.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "calib/lens/camera_file.h"

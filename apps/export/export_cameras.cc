@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "apps/export/exports.h"
-#include "apps/text/artifact.h"
 #include "apps/text/file_stem.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/lens/camera_file.h"
 #include "calib/register/colmap_files.h"
 

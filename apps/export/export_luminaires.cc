@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/export/exports.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
 
 namespace luxfit {

@@ -4,8 +4,8 @@
 #include "apps/export/exports.h"
 #include "apps/export/false_colours.h"
 #include "apps/export/value_mesh.h"
-#include "apps/text/artifact.h"
 #include "apps/text/file_stem.h"
+#include "apps/text/formats/artifact.h"
 
 namespace luxfit {
 namespace {

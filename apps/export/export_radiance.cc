@@ -7,9 +7,9 @@
 #include "apps/export/exports.h"
 #include "apps/export/radiance_scene.h"
 #include "apps/stages/simulate/given_session.h"
-#include "apps/text/artifact.h"
-#include "apps/text/csv_text.h"
 #include "apps/text/file_stem.h"
+#include "apps/text/formats/artifact.h"
+#include "apps/text/formats/csv_text.h"
 #include "forward/room/one_line.h"
 
 namespace luxfit {

@@ -2,8 +2,8 @@
 
 #include "apps/export/exports.h"
 #include "apps/export/value_mesh.h"
-#include "apps/text/artifact.h"
-#include "apps/text/csv_text.h"
+#include "apps/text/formats/artifact.h"
+#include "apps/text/formats/csv_text.h"
 
 namespace luxfit {
 namespace {

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 
 namespace luxfit {
 namespace {

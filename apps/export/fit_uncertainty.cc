@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/parameter_json.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/input_error.h"
-#include "apps/text/json_vectors.h"
 
 namespace luxfit {
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/session/earlier_result.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/simulate/given_session.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 #include "forward/light/illuminance.h"

@@ -9,7 +9,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/stages/simulate/given_luminaire.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/version.h"
 #include "forward/luminaire/distribution_ops.h"

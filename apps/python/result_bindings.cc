@@ -12,8 +12,8 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/session/earlier_result.h"
-#include "apps/text/artifact.h"
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/artifact.h"
+#include "apps/text/formats/former_keys.h"
 #include "apps/text/suggest.h"
 #include "forward/room/threads.h"
 

@@ -6,7 +6,7 @@
 #include "apps/report/report_page.h"
 #include "apps/report/report_room.h"
 #include "apps/report/report_views.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/version.h"
 
 namespace luxfit {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/export/fit_uncertainty.h"
-#include "apps/text/base64.h"
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/base64.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {

@@ -8,8 +8,8 @@
 #include "apps/export/fit_uncertainty.h"
 #include "apps/report/display_cells.h"
 #include "apps/stages/simulate/given_luminaire.h"
-#include "apps/text/base64.h"
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/base64.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {

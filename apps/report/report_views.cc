@@ -10,7 +10,7 @@
 #include "apps/report/encoded_image.h"
 #include "apps/session/photo_corrections.h"
 #include "apps/stages/stages.h"
-#include "apps/text/base64.h"
+#include "apps/text/formats/base64.h"
 #include "forward/views/surface_view.h"
 
 namespace luxfit {

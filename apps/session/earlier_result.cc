@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/text/artifact.h"
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/artifact.h"
+#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
 
 namespace luxfit {

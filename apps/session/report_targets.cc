@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "apps/text/formats/toml_reader.h"
 #include "apps/text/suggest.h"
-#include "apps/text/toml_reader.h"
 
 namespace luxfit {
 namespace {

@@ -15,8 +15,8 @@
 #include "apps/session/session_files.h"
 #include "apps/session/session_luminaires.h"
 #include "apps/session/session_scene.h"
+#include "apps/text/formats/toml_reader.h"
 #include "apps/text/suggest.h"
-#include "apps/text/toml_reader.h"
 
 namespace luxfit {
 namespace fs = std::filesystem;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/text/csv_text.h"
+#include "apps/text/formats/csv_text.h"
 #include "apps/text/suggest.h"
 
 namespace luxfit {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/text/formats/toml_reader.h"
 #include "apps/text/input_error.h"
-#include "apps/text/toml_reader.h"
 
 namespace luxfit {
 

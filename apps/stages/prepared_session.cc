@@ -12,7 +12,7 @@
 #include "apps/stages/observe/observations_json.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/stage_cache.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "inverse/check/luxmeter_check.h"
 #include "inverse/fit/fit_outcome.h"
 

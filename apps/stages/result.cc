@@ -6,7 +6,7 @@
 
 #include "apps/stages/check_report.h"
 #include "apps/stages/stages.h"
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/former_keys.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/check/luxmeter_check.h"

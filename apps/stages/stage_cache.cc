@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 
 namespace luxfit {
 namespace {

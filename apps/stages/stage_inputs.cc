@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "apps/stages/register/view_tags.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 
 namespace luxfit {
 namespace {

@@ -21,7 +21,7 @@
 
 #include "apps/session/photo_corrections.h"
 #include "apps/session/session.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/lens/camera.h"
 #include "calib/luminance/luminance.h"
 #include "calib/register/registration.h"

@@ -11,7 +11,7 @@
 #include "calib/lens/internal/cross_matrix.h"
 #include "calib/luminance/median.h"
 #include "calib/register/internal/triangle_tree.h"
-#include "calib/targets/internal/solve_symmetric.h"
+#include "calib/targets/internal/boards/solve_symmetric.h"
 
 namespace luxfit {
 namespace {

@@ -9,12 +9,12 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "calib/register/internal/bundle_adjustment.h"
-#include "calib/register/internal/bundle_covariance.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_covariance.h"
+#include "calib/register/internal/bundle/free_frame.h"
 #include "calib/register/internal/feature_alignment.h"
 #include "calib/register/internal/feature_views.h"
 #include "calib/register/internal/focal_check.h"
-#include "calib/register/internal/free_frame.h"
 #include "calib/register/internal/leave_out.h"
 #include "calib/register/internal/survey_diagnosis.h"
 #include "calib/register/internal/tag_mapping.h"

@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "calib/targets/internal/april_grid.h"
-#include "calib/targets/internal/charuco_board.h"
-#include "calib/targets/internal/chessboard.h"
-#include "calib/targets/internal/corner_check.h"
+#include "calib/targets/internal/boards/april_grid.h"
+#include "calib/targets/internal/boards/charuco_board.h"
+#include "calib/targets/internal/boards/chessboard.h"
+#include "calib/targets/internal/boards/corner_check.h"
 
 namespace luxfit {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "calib/targets/internal/aruco_dictionary.h"
-#include "calib/targets/internal/tag_family.h"
+#include "calib/targets/internal/boards/aruco_dictionary.h"
+#include "calib/targets/internal/tags/tag_family.h"
 
 namespace luxfit {
 namespace {

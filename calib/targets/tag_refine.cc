@@ -12,11 +12,11 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
-#include "calib/targets/internal/homography.h"
-#include "calib/targets/internal/solve_symmetric.h"
-#include "calib/targets/internal/tag_family.h"
-#include "calib/targets/internal/tag_image_model.h"
-#include "calib/targets/internal/tag_pixels.h"
+#include "calib/targets/internal/boards/homography.h"
+#include "calib/targets/internal/boards/solve_symmetric.h"
+#include "calib/targets/internal/tags/tag_family.h"
+#include "calib/targets/internal/tags/tag_image_model.h"
+#include "calib/targets/internal/tags/tag_pixels.h"
 
 namespace luxfit {
 namespace {

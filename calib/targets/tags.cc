@@ -11,7 +11,7 @@
 
 #include "calib/luminance/internal/display_image.h"
 #include "calib/luminance/median.h"
-#include "calib/targets/internal/tag_family.h"
+#include "calib/targets/internal/tags/tag_family.h"
 
 namespace luxfit {
 namespace {

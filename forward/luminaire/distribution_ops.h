@@ -45,7 +45,7 @@ struct DistributionOps {
   bool (*shines_to_one_side)(const Luminaire& luminaire) = nullptr;
   // Exponent of the cosine-power lobe that is as narrow, >= 1.
   double (*sharpness)(const Luminaire& luminaire) = nullptr;
-  // What it needs and does not have, for messages: "a finite exponent above 0"; nullptr: it has all.
+  // Returns the words for a parameter that is missing or out of range, for messages ("a finite exponent above 0"); nullptr: none is.
   const char* (*missing)(const Luminaire& luminaire) = nullptr;
 };
 
@@ -56,7 +56,7 @@ const DistributionOps& OpsOf(Distribution distribution);
 // The distribution that sessions and results call so; nullptr where none is.
 const DistributionOps* FindDistribution(const std::string& photometry);
 
-// What sessions call them, of all or of those for which `holds`.
+// Returns the names that sessions use, of all distributions or of those for which `holds` is true.
 std::vector<std::string> PhotometryNames(bool (*holds)(const DistributionOps&) = nullptr);
 
 }  // namespace luxfit

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "calib/luminance/median.h"
-#include "inverse/model/internal/nonnegative_least_squares.h"
+#include "inverse/model/internal/search/nonnegative_least_squares.h"
 
 namespace luxfit {
 namespace {

@@ -10,7 +10,7 @@
 // highlight moves with the camera, and a washed-out surface is not washed out in a shorter exposure.
 //
 // The remaining places may hold a luminaire. Tags on a desk, mirror images and windows stay among them where
-// several views saw them alike. The light decides which are right (inverse/model/internal/first_guess.h).
+// several views saw them alike. The light decides which are right (inverse/model/internal/search/first_guess.h).
 // Blobs at a photo's edge are cut: their centres are not used, but they count as seen.
 //
 // Throws std::invalid_argument for a view out of range. Sources: those of bright_blobs.h and triangulation.h.

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "calib/register/registration.h"
-#include "tests/support/colmap_files.h"
-#include "tests/support/feature_room.h"
+#include "tests/support/calib/colmap_files.h"
+#include "tests/support/calib/feature_room.h"
 
 namespace luxfit {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "tests/paths.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

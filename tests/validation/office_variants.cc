@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/camera_model.h"
+#include "tests/support/calib/camera_model.h"
 
 namespace {
 

@@ -21,7 +21,7 @@
 #include "apps/charts/line_chart_svg.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/study/simulated_light.h"
-#include "tests/support/poster_room.h"
+#include "tests/support/inverse/poster_room.h"
 #include "tests/support/study_options.h"
 
 namespace {
@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
   luxfit::LineChart chart;
   chart.title = "95 % intervals that hold the truth";
   chart.subtitle =
-      "6 facets, 3 luminaires and states; noise 0.5 %, two readings of 1 %; asked for: 90 to 98 %";
+      "6 facets, 3 luminaires and states; noise 0.5 %, two readings of 1 %; goal: 90 to 98 %";
   chart.x = {"model error common to a facet and state, %", false, {}, {}};
   chart.y = {"of the intervals, %", false, 60, 100};
   for (const char* name : kNames) chart.series.push_back({name, {}, {}, true});

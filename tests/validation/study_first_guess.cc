@@ -21,10 +21,10 @@
 #include "apps/charts/line_chart_svg.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "inverse/fit/internal/room_light.h"
-#include "inverse/model/internal/first_guess.h"
 #include "inverse/model/internal/measured_indirect.h"
+#include "inverse/model/internal/search/first_guess.h"
 #include "tests/paths.h"
 #include "tests/support/study_options.h"
 

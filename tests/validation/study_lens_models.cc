@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "apps/charts/line_chart_svg.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/calibrate/calibration.h"
 #include "calib/luminance/median.h"
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/study_options.h"
 
 namespace luxfit {

@@ -2,7 +2,7 @@
 //
 //   study_occluder -o FOLDER [--quick]
 //
-// Readings from closed forms (tests/support/partition_readings.h), luminaires before the partition and starts
+// Readings from closed forms (tests/support/inverse/partition_readings.h), luminaires before the partition and starts
 // behind it drawn at random. Of each way, how many starts end within 5 cm of the luminaire, and the
 // processor's time: the fit with visibility as it is, the fit with that of balls of 0.4, 0.2 and 0.1 m about
 // the luminaire first (blurred to sharp), a descent without derivatives on the light's squares with and
@@ -18,12 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "forward/direct/direct_light.h"
 #include "inverse/model/fit_luminaires.h"
-#include "inverse/model/internal/first_guess.h"
-#include "tests/support/partition_readings.h"
-#include "tests/support/plane_readings.h"
+#include "inverse/model/internal/search/first_guess.h"
+#include "tests/support/inverse/partition_readings.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/study_options.h"
 
 namespace luxfit {

@@ -25,9 +25,9 @@
 #include "inverse/albedo/patch_albedo.h"
 #include "inverse/albedo/photometric_stereo.h"
 #include "inverse/model/fit_luminaires.h"
-#include "tests/support/gray_sphere.h"
-#include "tests/support/poster_room.h"
-#include "tests/support/stereo_scene.h"
+#include "tests/support/inverse/gray_sphere.h"
+#include "tests/support/inverse/poster_room.h"
+#include "tests/support/inverse/stereo_scene.h"
 #include "tests/support/study_options.h"
 
 namespace {

@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "apps/charts/line_chart_svg.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/luminance/median.h"
 #include "calib/register/mesh_alignment.h"
 #include "calib/register/registration.h"
-#include "tests/support/feature_room.h"
+#include "tests/support/calib/feature_room.h"
 #include "tests/support/study_options.h"
 
 namespace luxfit {

@@ -21,7 +21,7 @@
 
 #include "apps/charts/line_chart_svg.h"
 #include "calib/luminance/response.h"
-#include "tests/support/camera_model.h"
+#include "tests/support/calib/camera_model.h"
 #include "tests/support/study_options.h"
 
 namespace {

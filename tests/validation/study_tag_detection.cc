@@ -18,12 +18,12 @@
 #include <vector>
 
 #include "apps/charts/line_chart_svg.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
-#include "tests/support/board_render.h"
+#include "tests/support/calib/board_render.h"
+#include "tests/support/calib/tag_scene.h"
 #include "tests/support/study_options.h"
-#include "tests/support/tag_scene.h"
 
 namespace luxfit {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "apps/session/session_luminaires.h"
 #include "apps/stages/simulate/given_session.h"
+#include "apps/text/formats/toml_reader.h"
 #include "apps/text/suggest.h"
-#include "apps/text/toml_reader.h"
 
 namespace luxfit {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "apps/session/session_files.h"
 #include "apps/stages/register/view_tags.h"
-#include "apps/text/csv_table.h"
+#include "apps/text/formats/csv_table.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 

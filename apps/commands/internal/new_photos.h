@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/commands/luxmap_command.h"
+#include "apps/commands/result/luxmap_command.h"
 #include "apps/export/fitted_room.h"
 
 namespace luxfit {

@@ -16,7 +16,7 @@
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stage_cache.h"
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/terminal.h"
 
 namespace luxfit {

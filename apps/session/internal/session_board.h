@@ -8,7 +8,7 @@
 #ifndef LUXFIT_APPS_SESSION_INTERNAL_SESSION_BOARD_H_
 #define LUXFIT_APPS_SESSION_INTERNAL_SESSION_BOARD_H_
 
-#include "apps/text/toml_reader.h"
+#include "apps/text/formats/toml_reader.h"
 #include "calib/targets/board.h"
 
 namespace luxfit {

@@ -7,7 +7,7 @@
 #define LUXFIT_APPS_SESSION_INTERNAL_SESSION_CALIBRATION_H_
 
 #include "apps/session/session.h"
-#include "apps/text/toml_reader.h"
+#include "apps/text/formats/toml_reader.h"
 
 namespace luxfit {
 

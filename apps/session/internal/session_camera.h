@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/session/session.h"
-#include "apps/text/toml_reader.h"
+#include "apps/text/formats/toml_reader.h"
 
 namespace luxfit {
 

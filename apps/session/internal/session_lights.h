@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/session/session.h"
-#include "apps/text/csv_table.h"
-#include "apps/text/toml_reader.h"
+#include "apps/text/formats/csv_table.h"
+#include "apps/text/formats/toml_reader.h"
 
 namespace luxfit {
 

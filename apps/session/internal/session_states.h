@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/session/session.h"
-#include "apps/text/csv_table.h"
+#include "apps/text/formats/csv_table.h"
 
 namespace luxfit {
 

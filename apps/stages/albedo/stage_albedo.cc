@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 #include "inverse/albedo/patch_albedo.h"
 
 namespace luxfit {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/stages/albedo/stereo_photos.h"
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 #include "calib/luminance/image.h"
 #include "calib/luminance/median.h"
 

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "apps/charts/uncertainty_svg.h"
-#include "apps/text/artifact.h"
 #include "apps/text/file_stem.h"
+#include "apps/text/formats/artifact.h"
 #include "calib/lens/camera_file.h"
 #include "calib/lens/lens_family.h"
 #include "calib/targets/corners_file.h"

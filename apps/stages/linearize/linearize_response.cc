@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "apps/stages/linearize/linearize.h"
-#include "apps/text/csv_table.h"
+#include "apps/text/formats/csv_table.h"
 #include "calib/luminance/response.h"
 #include "calib/luminance/vignetting.h"
 

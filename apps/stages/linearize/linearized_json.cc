@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {

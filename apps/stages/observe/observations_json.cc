@@ -4,7 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {

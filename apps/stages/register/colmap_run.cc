@@ -10,7 +10,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "apps/text/artifact.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/process.h"
 #include "calib/lens/camera_file.h"
 #include "calib/register/colmap_files.h"

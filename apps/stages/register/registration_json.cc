@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/text/json_vectors.h"
+#include "apps/text/formats/json_vectors.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {

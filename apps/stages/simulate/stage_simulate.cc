@@ -9,7 +9,7 @@
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 #include "forward/direct/luminaire_body.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "calib/targets/internal/solve_symmetric.h"
+#include "calib/targets/internal/boards/solve_symmetric.h"
 
 namespace luxfit {
 namespace {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "calib/register/feature_model.h"
-#include "calib/register/internal/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
 
 namespace luxfit {
 

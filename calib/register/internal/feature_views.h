@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "calib/register/feature_model.h"
-#include "calib/register/internal/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
 
 namespace luxfit {
 

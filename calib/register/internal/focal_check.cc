@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "calib/register/internal/pose_start.h"
+#include "calib/register/internal/bundle/pose_start.h"
 #include "calib/register/internal/view_sample.h"
 
 namespace luxfit {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "calib/register/internal/pose_start.h"
+#include "calib/register/internal/bundle/pose_start.h"
 #include "calib/register/internal/view_sample.h"
 
 namespace luxfit {

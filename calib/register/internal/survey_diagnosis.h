@@ -5,7 +5,7 @@
 //   mirrored (a left-handed frame, two axes swapped), normals into the wall,
 //   every tag turned in its plane (another library's convention of "up"),
 //   all sizes wrong by one factor (another printout, another unit).
-// A tag agrees if it agrees with the pose that its view's tags give (calib/register/internal/pose_start.h).
+// A tag agrees if it agrees with the pose that its view's tags give (calib/register/internal/bundle/pose_start.h).
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_SURVEY_DIAGNOSIS_H_
 #define LUXFIT_CALIB_REGISTER_INTERNAL_SURVEY_DIAGNOSIS_H_
 
@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "calib/register/internal/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
 
 namespace luxfit {
 

@@ -9,9 +9,9 @@
 #include <set>
 #include <string>
 
+#include "calib/register/internal/bundle/pose_start.h"
 #include "calib/register/internal/feature_alignment.h"
 #include "calib/register/internal/feature_views.h"
-#include "calib/register/internal/pose_start.h"
 #include "calib/register/internal/tag_views.h"
 
 namespace luxfit {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "calib/register/internal/bundle/pose_start.h"
 #include "calib/register/internal/leave_out.h"
-#include "calib/register/internal/pose_start.h"
 
 namespace luxfit {
 namespace {

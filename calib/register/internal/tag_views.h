@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/register/internal/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
 
 namespace luxfit {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "calib/register/internal/bundle_adjustment.h"
+#include "calib/register/internal/bundle/bundle_adjustment.h"
 
 namespace luxfit {
 

@@ -8,9 +8,9 @@
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/choose/internal/left_out.h"
 #include "inverse/model/fit_luminaires.h"
-#include "inverse/model/internal/first_guess.h"
 #include "inverse/model/internal/light_model.h"
-#include "inverse/model/internal/sparse_luminaires.h"
+#include "inverse/model/internal/search/first_guess.h"
+#include "inverse/model/internal/search/sparse_luminaires.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {

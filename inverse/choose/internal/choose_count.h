@@ -1,7 +1,7 @@
 // Estimates how many luminaires give the light, where nobody states their number.
 //
 // For each number n, a fifth of the patches (or readings) is left out:
-// 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/first_guess.h).
+// 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/search/first_guess.h).
 // 2. They are refined together as cosine-power discs of free size, so that a large one is not mistaken for
 //    several.
 // 3. They predict the data left out. The score is the mean of min(z^2, 9).

@@ -13,7 +13,7 @@
 #include "forward/luminaire/luminaire_parts.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/fit/internal/words.h"
-#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/search/first_guess.h"
 
 namespace luxfit {
 namespace {

@@ -14,7 +14,7 @@
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/fit/fit_room.h"
-#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/search/first_guess.h"
 
 namespace luxfit {
 

@@ -10,8 +10,8 @@
 #include "apps/session/session.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
-#include "tests/support/board_render.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/calib/board_render.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_rng.h"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -6,10 +6,10 @@
 #include <regex>
 #include <set>
 
-#include "apps/commands/explain_command.h"
+#include "apps/commands/result/explain_command.h"
 #include "apps/session/session.h"
 #include "tests/paths.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

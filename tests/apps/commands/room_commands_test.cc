@@ -12,8 +12,8 @@
 #include <string>
 
 #include "forward/room/mesh_file.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

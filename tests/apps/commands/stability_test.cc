@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "tests/paths.h"
-#include "tests/support/program.h"
-#include "tests/support/small_room.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/apps/small_room.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/text/base64.h"
+#include "apps/text/formats/base64.h"
 
 namespace luxfit {
 namespace {

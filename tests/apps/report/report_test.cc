@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/program.h"
-#include "tests/support/report_data.h"
-#include "tests/support/small_room.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/apps/report_data.h"
+#include "tests/support/apps/small_room.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/tiny_session.h"
+#include "tests/support/apps/tiny_session.h"
 
 namespace luxfit {
 namespace {

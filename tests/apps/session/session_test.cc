@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "tests/paths.h"
-#include "tests/support/tiny_session.h"
+#include "tests/support/apps/tiny_session.h"
 
 namespace luxfit {
 namespace {

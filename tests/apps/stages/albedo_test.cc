@@ -11,8 +11,8 @@
 #include <random>
 #include <string>
 
-#include "tests/support/program.h"
-#include "tests/support/stereo_scene.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/inverse/stereo_scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -6,8 +6,8 @@
 
 #include "calib/lens/camera_file.h"
 #include "calib/targets/corners_file.h"
-#include "tests/support/board_views.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_rng.h"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "calib/register/colmap_files.h"
-#include "tests/support/colmap_installed.h"
-#include "tests/support/feature_room.h"
+#include "tests/support/calib/colmap_installed.h"
+#include "tests/support/calib/feature_room.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_rng.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/apps/program.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

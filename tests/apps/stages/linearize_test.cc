@@ -9,9 +9,9 @@
 #include <random>
 
 #include "apps/stages/observe/observed_light.h"
-#include "tests/support/camera_model.h"
+#include "tests/support/calib/camera_model.h"
+#include "tests/support/calib/test_dng.h"
 #include "tests/support/temp_folder.h"
-#include "tests/support/test_dng.h"
 
 namespace luxfit {
 namespace {

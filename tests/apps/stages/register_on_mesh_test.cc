@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/colmap_files.h"
-#include "tests/support/feature_room.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/calib/colmap_files.h"
+#include "tests/support/calib/feature_room.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/test_rng.h"
 

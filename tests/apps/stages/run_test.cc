@@ -15,8 +15,8 @@
 
 #include "apps/export/fitted_room.h"
 #include "tests/paths.h"
-#include "tests/support/program.h"
-#include "tests/support/report_data.h"
+#include "tests/support/apps/program.h"
+#include "tests/support/apps/report_data.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

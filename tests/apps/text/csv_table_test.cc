@@ -1,4 +1,4 @@
-#include "apps/text/csv_table.h"
+#include "apps/text/formats/csv_table.h"
 
 #include <gmock/gmock.h>
 

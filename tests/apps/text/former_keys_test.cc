@@ -1,4 +1,4 @@
-#include "apps/text/former_keys.h"
+#include "apps/text/formats/former_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/paths.h"
-#include "tests/support/program.h"
+#include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

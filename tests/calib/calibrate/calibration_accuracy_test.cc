@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "calib/calibrate/calibration.h"
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 
 namespace luxfit {
 namespace {

@@ -6,7 +6,7 @@
 #include "calib/calibrate/internal/calibration_seed.h"
 #include "calib/calibrate/internal/mrcal_calibration.h"
 #include "calib/calibrate/internal/target_adjustment.h"
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "tests/support/office_camera.h"
+#include "tests/support/calib/office_camera.h"
 
 namespace luxfit {
 namespace {

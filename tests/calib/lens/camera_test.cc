@@ -1,5 +1,5 @@
 #include "calib/lens/camera.h"
-#include "tests/support/office_camera.h"
+#include "tests/support/calib/office_camera.h"
 #include "tests/support/test_rng.h"
 
 #include <gtest/gtest.h>

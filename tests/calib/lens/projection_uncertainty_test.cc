@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "calib/calibrate/calibration.h"
-#include "tests/support/board_views.h"
+#include "tests/support/calib/board_views.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

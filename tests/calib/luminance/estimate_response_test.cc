@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/support/camera_model.h"
+#include "tests/support/calib/camera_model.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

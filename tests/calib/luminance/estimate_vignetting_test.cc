@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "calib/luminance/luminance.h"
-#include "tests/support/camera_model.h"
+#include "tests/support/calib/camera_model.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -6,8 +6,8 @@
 
 #include "calib/luminance/exposure.h"
 #include "calib/luminance/image.h"
+#include "tests/support/calib/test_dng.h"
 #include "tests/support/temp_folder.h"
-#include "tests/support/test_dng.h"
 
 namespace luxfit {
 namespace {

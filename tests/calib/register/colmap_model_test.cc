@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "tests/support/colmap_installed.h"
+#include "tests/support/calib/colmap_installed.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "calib/register/registration.h"
-#include "tests/support/feature_room.h"
+#include "tests/support/calib/feature_room.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

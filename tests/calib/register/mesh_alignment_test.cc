@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "calib/register/internal/triangle_tree.h"
-#include "tests/support/feature_room.h"
+#include "tests/support/calib/feature_room.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

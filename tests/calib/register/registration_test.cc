@@ -1,6 +1,6 @@
 #include "calib/register/registration.h"
-#include "tests/support/look_at.h"
-#include "tests/support/office_camera.h"
+#include "tests/support/calib/look_at.h"
+#include "tests/support/calib/office_camera.h"
 #include "tests/support/test_rng.h"
 
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib/targets/board.h"
-#include "tests/support/board_render.h"
+#include "tests/support/calib/board_render.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "calib/targets/tags.h"
-#include "tests/support/blur.h"
-#include "tests/support/tag_render.h"
-#include "tests/support/tag_scene.h"
+#include "tests/support/calib/blur.h"
+#include "tests/support/calib/tag_render.h"
+#include "tests/support/calib/tag_scene.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "calib/targets/internal/tag_family.h"
-#include "calib/targets/internal/tag_image_model.h"
-#include "tests/support/tag_render.h"
-#include "tests/support/tag_scene.h"
+#include "calib/targets/internal/tags/tag_family.h"
+#include "calib/targets/internal/tags/tag_image_model.h"
+#include "tests/support/calib/tag_render.h"
+#include "tests/support/calib/tag_scene.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/support/tag_render.h"
+#include "tests/support/calib/tag_render.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "forward/direct/direct_light.h"
-#include "tests/support/test_lamps.h"
+#include "tests/support/forward/test_lamps.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -11,10 +11,10 @@
 
 #include "forward/direct/internal/shadowed_light.h"
 #include "forward/luminaire/photometry.h"
-#include "tests/support/adaptive_integral.h"
 #include "tests/support/closed_forms.h"
+#include "tests/support/forward/adaptive_integral.h"
+#include "tests/support/forward/test_lamps.h"
 #include "tests/support/scenes.h"
-#include "tests/support/test_lamps.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

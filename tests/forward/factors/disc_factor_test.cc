@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/adaptive_integral.h"
 #include "tests/support/closed_forms.h"
+#include "tests/support/forward/adaptive_integral.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -128,7 +128,7 @@ TEST(Distributions, DerivativesAreThoseOfTheIntensity) {
   }
 }
 
-// What callers conclude from a row without asking its functions.
+// Callers read these members of a row without calling its functions.
 TEST(Distributions, AreWhatTheirRowsSay) {
   for (const DistributionOps& ops : Distributions()) {
     const Luminaire luminaire = LuminaireOf(ops);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/closed_forms.h"
-#include "tests/support/photometry_text.h"
+#include "tests/support/forward/photometry_text.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

@@ -7,7 +7,7 @@
 
 #include "forward/luminaire/internal/ies_file.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/photometry_text.h"
+#include "tests/support/forward/photometry_text.h"
 
 namespace luxfit {
 namespace {

@@ -18,7 +18,7 @@
 #include "forward/luminaire/internal/ldt_file.h"
 #include "tests/paths.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/test_lamps.h"
+#include "tests/support/forward/test_lamps.h"
 
 namespace luxfit {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/cube_photos.h"
+#include "tests/support/inverse/cube_photos.h"
 
 namespace luxfit {
 namespace {

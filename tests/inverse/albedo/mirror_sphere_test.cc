@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/support/stereo_scene.h"
+#include "tests/support/inverse/stereo_scene.h"
 
 namespace luxfit {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "tests/support/poster_room.h"
+#include "tests/support/inverse/poster_room.h"
 
 namespace luxfit {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "tests/support/gray_sphere.h"
-#include "tests/support/stereo_scene.h"
+#include "tests/support/inverse/gray_sphere.h"
+#include "tests/support/inverse/stereo_scene.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

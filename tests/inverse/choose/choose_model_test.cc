@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "tests/support/closed_forms.h"
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

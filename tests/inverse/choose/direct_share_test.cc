@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 

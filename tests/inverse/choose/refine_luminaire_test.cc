@@ -9,7 +9,7 @@
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 

@@ -6,10 +6,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/search/first_guess.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/partition_readings.h"
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/partition_readings.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

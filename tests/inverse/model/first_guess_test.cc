@@ -1,4 +1,4 @@
-#include "inverse/model/internal/first_guess.h"
+#include "inverse/model/internal/search/first_guess.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include "forward/light/light_tracer.h"
 #include "inverse/model/internal/measured_indirect.h"
 #include "tests/support/closed_forms.h"
-#include "tests/support/cube_photos.h"
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/cube_photos.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -8,8 +8,8 @@
 #include <cstdio>
 
 #include "tests/support/closed_forms.h"
-#include "tests/support/cube_photos.h"
-#include "tests/support/plane_readings.h"
+#include "tests/support/inverse/cube_photos.h"
+#include "tests/support/inverse/plane_readings.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

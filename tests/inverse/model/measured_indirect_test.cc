@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "inverse/model/internal/light_model.h"
-#include "tests/support/cube_photos.h"
+#include "tests/support/inverse/cube_photos.h"
 
 namespace luxfit {
 namespace {

@@ -1,4 +1,4 @@
-#include "inverse/model/internal/nonnegative_least_squares.h"
+#include "inverse/model/internal/search/nonnegative_least_squares.h"
 
 #include <gtest/gtest.h>
 

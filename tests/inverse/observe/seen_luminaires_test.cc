@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "tests/support/lamp_photos.h"
-#include "tests/support/look_at.h"
+#include "tests/inverse/observe/lamp_photos.h"
+#include "tests/support/calib/look_at.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

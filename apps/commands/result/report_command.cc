@@ -1,0 +1,58 @@
+#include "apps/commands/result/report_command.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/report/report.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+std::string PlusMinusInUnit(const json& value, const json& sigma, const char* unit) {
+  const std::string number = fmt::format("{:.4g}", value.get<double>());
+  if (!sigma.is_number()) return number + unit + " (uncertainty not determined)";
+  return number + fmt::format(" ± {:.2g}{}", 1.96 * sigma.get<double>(), unit);
+}
+
+std::string SummaryText(const json& summary) {
+  std::string text;
+  const json& states = summary.at("states");
+  const char* unit = summary.at("is_absolute") ? " lx" : " (relative)";
+  for (const json& area : summary.at("areas")) {
+    for (size_t s = 0; s < states.size(); ++s) {
+      const json& statistics = area.at("statistics").at(s);
+      if (states[s] != summary.at("state")) continue;
+      text +=
+          fmt::format("{}, state {}: {} points, mean {}, least {}, U0 {}\n", area.at("id").get<std::string>(),
+                      states[s].get<std::string>(), statistics.at("points").get<int>(),
+                      PlusMinusInUnit(statistics.at("average_lx"), statistics.at("average_sigma_lx"), unit),
+                      PlusMinusInUnit(statistics.at("least_lx"), statistics.at("least_sigma_lx"), unit),
+                      PlusMinusInUnit(statistics.at("uniformity"), statistics.at("uniformity_sigma"), ""));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+int ReportCommand(const ReportCommandOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
+  const json data = ReportData(fitted, {options.targets, options.state, options.command_line});
+  const std::string path = WriteReport(fitted, data);
+  json summary = ReportSummary(data);
+  summary["report"] = path;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  std::fputs((options.json ? summary.dump(2) + "\n" : SummaryText(summary)).c_str(), stdout);
+  std::fprintf(stderr, "done      %.1f s, %s, %.1f MB\n", elapsed.count(), path.c_str(),
+               1e-6 * static_cast<double>(std::filesystem::file_size(path)));
+  return 0;
+}
+
+}  // namespace luxfit

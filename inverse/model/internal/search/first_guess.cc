@@ -1,0 +1,143 @@
+#include "inverse/model/internal/search/first_guess.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "inverse/model/internal/search/sparse_luminaires.h"
+
+namespace luxfit {
+namespace {
+
+using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
+
+std::vector<SparseSource> HeldSources(const LuminaireGroup& group, const KnownPositions& known) {
+  std::vector<SparseSource> held;
+  for (const int k : group.luminaires) {
+    if (known.empty() || !known[static_cast<size_t>(k)]) continue;
+    held.emplace_back();
+    held.back().luminaire.position = *known[static_cast<size_t>(k)];
+    held.back().is_held = true;
+  }
+  return held;
+}
+
+// Returns indices of the places that are bright in states of the group and in none where it is off.
+std::vector<int> SeenOf(const LuminaireGroup& group, const LightData& data,
+                        const std::vector<SeenPlace>& seen) {
+  std::vector<int> own;
+  for (size_t i = 0; i < seen.size(); ++i) {
+    const bool always_on = std::all_of(seen[i].states.begin(), seen[i].states.end(), [&](int state) {
+      return data.dimming[static_cast<size_t>(state)][group.luminaires[0]] > 0;
+    });
+    if (always_on) own.push_back(static_cast<int>(i));
+  }
+  return own;
+}
+
+// Moves a place into the room: a luminaire hangs inside, whatever the error of the seen place.
+Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p) {
+  if (box.isEmpty()) return p;
+  const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
+  return p.cwiseMax(box.min() + inner).cwiseMin(box.max() - inner);
+}
+
+struct SeenPositions {
+  std::vector<int> index;
+  std::vector<Eigen::Vector3d> position;
+
+  std::optional<int> IndexAt(const Eigen::Vector3d& p) const {
+    const auto at = std::find(position.begin(), position.end(), p);
+    return at == position.end() ? std::nullopt
+                                : std::optional(index[static_cast<size_t>(at - position.begin())]);
+  }
+};
+
+bool ComesFirst(const SparseSource& a, const SparseSource& b) {
+  const Eigen::Vector3d &p = a.luminaire.position, &q = b.luminaire.position;
+  return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
+}
+
+// Assigns a group's sources to its luminaires: held ones to those of a known position, in their order.
+// `seen`: positions of the places seen, with their indices.
+void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const KnownPositions& known,
+            const SeenPositions& seen, double flux_per_strength, FirstGuess& guess) {
+  std::vector<SparseSource> held, free;
+  for (const SparseSource& source : found.sources) (source.is_held ? held : free).push_back(source);
+  std::sort(free.begin(), free.end(), ComesFirst);
+  size_t next_held = 0, next_free = 0;
+  for (size_t i = 0; i < group.luminaires.size(); ++i) {
+    const auto k = static_cast<size_t>(group.luminaires[i]);
+    const bool is_held = !known.empty() && known[k].has_value();
+    std::vector<SparseSource>& pool = is_held ? held : free;
+    size_t& next = is_held ? next_held : next_free;
+    if (next >= pool.size()) continue;
+    const SparseSource& source = pool[next++];
+    LuminaireGuess& luminaire = guess.luminaires[k];
+    luminaire.found = true;
+    luminaire.position = source.luminaire.position;
+    luminaire.aim = source.luminaire.aim;
+    luminaire.distribution = source.luminaire.distribution;
+    luminaire.cosine_exponent = source.luminaire.cosine_exponent;
+    luminaire.flux = flux_per_strength * source.strength / group.share[i];
+    if (!is_held) luminaire.seen = seen.IndexAt(source.luminaire.position);
+    luminaire.seen_candidates = is_held ? 0 : static_cast<int>(seen.index.size());
+    luminaire.rivals = source.rivals;
+    luminaire.was_searched = found.was_searched;
+    luminaire.relative_residual = 0.1 * std::sqrt(found.mean_square);
+  }
+}
+
+// Averages albedo geometrically over the groups. Groups that explain their light better weigh more.
+class AlbedoMean {
+ public:
+  explicit AlbedoMean(Eigen::Index materials)
+      : sum_(Eigen::VectorXd::Zero(materials)), weight_(Eigen::VectorXd::Zero(materials)) {}
+
+  void Add(const SparseLuminaires& found) {
+    const double weight = 1 / (1e-3 + found.mean_square);
+    for (const auto& [material, albedo] : found.albedo) {
+      sum_[material] += weight * std::log(albedo);
+      weight_[material] += weight;
+    }
+  }
+
+  Eigen::VectorXd Value() const {
+    Eigen::VectorXd albedo = Eigen::VectorXd::Constant(sum_.size(), 0.5);
+    for (Eigen::Index m = 0; m < sum_.size(); ++m) {
+      if (weight_[m] > 0) albedo[m] = std::clamp(std::exp(sum_[m] / weight_[m]), 0.05, 0.9);
+    }
+    return albedo;
+  }
+
+ private:
+  Eigen::VectorXd sum_, weight_;
+};
+
+}  // namespace
+
+FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownPositions& known_positions,
+                           const std::vector<SeenPlace>& seen, const FirstGuessOptions& options) {
+  FirstGuess guess;
+  guess.luminaires.resize(data.dimming.empty() ? 0 : static_cast<size_t>(data.dimming[0].size()));
+  const GroupedLight light = GroupLight(room, data, options.max_elements);
+  guess.separable = light.separable;
+  if (!light.separable) guess.message = "the observed states do not tell the luminaires apart";
+  for (const LuminaireGroup& group : light.groups) guess.groups.push_back(group.luminaires);
+  AlbedoMean albedo(static_cast<Eigen::Index>(room.scene.materials.size()));
+  const SparseSearch search(room, light, options.grid_m, options.refinements);
+  for (size_t g = 0; g < light.groups.size(); ++g) {
+    const LuminaireGroup& group = light.groups[g];
+    SeenPositions own{SeenOf(group, data, seen), {}};
+    for (const int i : own.index)
+      own.position.push_back(Inside(room.scene.Bounds(), seen[static_cast<size_t>(i)].position));
+    const SparseLuminaires found = search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
+                                               HeldSources(group, known_positions), own.position);
+    Assign(group, found, known_positions, own, data.observations.empty() ? 1 : M_PI, guess);
+    if (!found.sources.empty()) albedo.Add(found);
+  }
+  guess.albedo = albedo.Value();
+  return guess;
+}
+
+}  // namespace luxfit

@@ -1,0 +1,72 @@
+// Solves the light of a group of luminaires as linear equations in 1 / albedo and fluxes at given places.
+//
+//   sum_j g_j D_ij - q_m(i) Y_i = -I_i     photos: q = 1 / albedo of the place's material
+//   sum_j g_j D_ij + b          = E_i      readings alone: b, light from other surfaces, taken as even
+//   g, q, b >= 0
+//
+// Symbols are those of sparse_luminaires.h. Rows are weighted by a relative error of 10 %, with a floor where
+// there is little light. Weighted() weights the columns of sources likewise.
+// Source: Lawson and Hanson (1974), ch. 23 (NNLS).
+#ifndef LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_GROUP_EQUATIONS_H_
+#define LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_GROUP_EQUATIONS_H_
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "inverse/model/internal/search/grouped_light.h"
+
+namespace luxfit {
+
+class GroupEquations {
+ public:
+  GroupEquations(const GroupedLight& light, int group);
+
+  // The places that show the group's light, and the materials whose q is unknown; -1 stands for b.
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  const std::vector<int>& materials() const { return materials_; }
+
+  // Returns the group's rows of a column of D over all places, weighted.
+  Eigen::VectorXd Weighted(const Eigen::VectorXf& column) const {
+    return column(rows_).cast<double>().cwiseProduct(root_weight_);
+  }
+
+  // Lowers the weight of rows that a solution with these sources does not explain (Cauchy, at three times the
+  // median residual's sigma). There the mesh is wrong about the surface.
+  void Reweigh(const Eigen::MatrixXd& sources);
+
+  struct Solution {
+    Eigen::VectorXd strength, other;  // g; q or b by material
+    double cost = std::numeric_limits<double>::infinity();
+  };
+  // Holds the solution for the present sources: what one more source does not change is computed once.
+  struct Base {
+    Eigen::MatrixXd columns, gram;
+    Eigen::VectorXd moment, residual;
+    Eigen::MatrixXd positive;             // columns of the unknowns above 0
+    Eigen::LDLT<Eigen::MatrixXd> factor;  // their normal equations
+    Solution solution;
+  };
+  Base Solve(const Eigen::MatrixXd& sources) const;
+  // Solves with one more source, whose strength comes last.
+  Solution SolveWith(const Base& base, const Eigen::VectorXd& source) const;
+  // Returns by how much one more source lowers the squares while no unknown meets its bound; 0 where it does
+  // not help. It takes a hundredth of the work of SolveWith.
+  static double Gain(const Base& base, const Eigen::VectorXd& source);
+
+ private:
+  void SetUp(const std::vector<int>& material, const Eigen::VectorXd& value, const Eigen::VectorXd& indirect);
+  // Reads the solution from the unknowns, `other` first.
+  Solution SolutionOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& gram,
+                      const Eigen::VectorXd& moment) const;
+
+  std::vector<Eigen::Index> rows_;
+  std::vector<int> materials_;
+  Eigen::VectorXd root_weight_, target_;
+  Eigen::MatrixXd others_;  // columns of q and b
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_GROUP_EQUATIONS_H_

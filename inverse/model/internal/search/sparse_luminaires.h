@@ -1,0 +1,80 @@
+// Finds point luminaires that explain a group's light, by sparse non-negative least squares over places.
+//
+//   sum_j g_j D_ij + I_i = q_m(i) Y_i     photos: g_j = c Phi_j / pi, q = 1 / albedo of the place's material
+//   sum_j g_j D_ij + b   = E_i            readings alone: g_j = Phi_j
+//
+// The equations are those of inverse/model/internal/search/group_equations.h.
+//
+// D: direct illuminance per lumen. Places are the cells of a grid through the room, with a few lobes at each.
+// Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
+// solved anew. Halving the grid about the place refines it; the other places are refined in turn.
+//
+// For robustness the search runs twice. The second run lowers the weight of rows that the first did not
+// explain. Rows are weighted by a relative error of 10 %, with a floor where there is little light. Distances
+// are in m.
+//
+// Sources: Lawson and Hanson (1974), ch. 23 (NNLS); Boyd, Schiebinger, Recht (2017), "The alternating descent
+// conditional gradient method for sparse inverse problems" (add, solve, move).
+#ifndef LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_SPARSE_LUMINAIRES_H_
+#define LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_SPARSE_LUMINAIRES_H_
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "inverse/model/internal/search/grouped_light.h"
+#include "inverse/model/internal/search/lit_places.h"
+
+namespace luxfit {
+
+struct SparseSource {
+  Luminaire luminaire;  // position, aim, lobe
+  double strength = 0;  // g
+  bool is_held = false;
+  size_t lobe = 0;  // index into Lobes()
+  // Luminaires at other places, at least a grid step away. Those of the places seen alone come first, then
+  // those that leave less than half more squares, best first.
+  std::vector<Luminaire> rivals;
+};
+
+struct SparseLuminaires {
+  std::vector<SparseSource> sources;
+  std::map<int, double> albedo;  // by material, from photos
+  double mean_square = 0;        // mean square of the weighted residuals: 1 is 10 %
+  bool was_searched = true;      // false: only the places seen were tried
+};
+
+class SparseSearch {
+ public:
+  // Traces the grid's light once for all groups, when it is first needed. Keeps references. Not to be shared
+  // by threads.
+  SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements);
+  ~SparseSearch();
+  SparseSearch(const SparseSearch&) = delete;
+  SparseSearch& operator=(const SparseSearch&) = delete;
+
+  // Explains the light of one group by `count` luminaires, `start` among them; held ones stay where they are.
+  // Returns fewer sources where no more would help, and none where fewer than 20 places show the group's
+  // light.
+  //
+  // Places `seen` in photos are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
+  // the light unexplained, nothing else is searched. Else they are among the places of the search.
+  SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
+                        const std::vector<Eigen::Vector3d>& seen = {}) const;
+
+ private:
+  const LitPlaces& Grid() const;
+
+  const Room& room_;
+  const GroupedLight& light_;
+  int refinements_;
+  Eigen::AlignedBox3d box_;
+  double step_m_;
+  mutable std::unique_ptr<LitPlaces> grid_;  // traced when first needed
+};
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_SPARSE_LUMINAIRES_H_
