@@ -42,6 +42,10 @@ double ChartAxis::operator()(double value) const {
   return from_px + share * (to_px - from_px);
 }
 
-std::vector<double> ChartAxis::Ticks() const { return is_log ? LogTicks(min, max) : LinearTicks(min, max); }
+std::vector<double> ChartAxis::Ticks() const {
+  std::vector<double> ticks = is_log ? LogTicks(min, max) : std::vector<double>();
+  if (ticks.size() < 3) ticks = LinearTicks(min, max);
+  return ticks;
+}
 
 }  // namespace luxfit

@@ -14,7 +14,7 @@ struct ChartAxis {
   double operator()(double value) const;
 
   // Returns 1, 2 and 5 of each decade, or the decades alone where there are more than four. A linear axis
-  // gets about six round numbers.
+  // gets about six round numbers, and so does a logarithmic one where fewer than three of those lie.
   std::vector<double> Ticks() const;
 };
 

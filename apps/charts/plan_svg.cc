@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -89,15 +90,20 @@ std::string LuxmeterPoints(const Plan& plan, const Session& session, const json&
     double x = 0, y = 0, worst_percent = 0;
   };
   std::map<std::string, Point> points;
-  for (size_t i = 0; i < session.luxmeter.readings.size() && i < luxmeter.size(); ++i) {
-    const SessionReading& reading = session.luxmeter.readings[i];
-    Point& point = points[reading.id];
-    point.x = plan.X(reading.position_m.x());
-    point.y = plan.Y(reading.position_m.y());
-    if (luxmeter[i]["predicted_lx"].is_number() && reading.illuminance_lx > 0) {
-      const double error = 100 * (luxmeter[i]["predicted_lx"].get<double>() / reading.illuminance_lx - 1);
-      if (std::abs(error) > std::abs(point.worst_percent)) point.worst_percent = error;
-    }
+  const std::vector<SessionReading>& readings = session.luxmeter.readings;
+  for (const json& checked : luxmeter) {
+    const std::string id = checked["id"], state = checked["state"];
+    const auto reading = std::find_if(readings.begin(), readings.end(), [&](const SessionReading& r) {
+      return r.id == id && r.state == state;
+    });
+    if (reading == readings.end()) continue;
+    Point& point = points[id];
+    point.x = plan.X(reading->position_m.x());
+    point.y = plan.Y(reading->position_m.y());
+    const json &measured = checked["measured_lx"], &predicted = checked["predicted_lx"];
+    if (!predicted.is_number() || !measured.is_number() || !(measured.get<double>() > 0)) continue;
+    const double error = 100 * (predicted.get<double>() / measured.get<double>() - 1);
+    if (std::abs(error) > std::abs(point.worst_percent)) point.worst_percent = error;
   }
   std::string text;
   for (const auto& [id, point] : points) {
@@ -118,7 +124,7 @@ std::string PlanSvg(const Session& session, const Scene& scene, const json& resu
   if (plan.box.isEmpty()) return "";
   plan.scale = (kPlanWidthPx - 2 * kPlanMarginPx) / plan.box.sizes().x();
   const double height = plan.scale * plan.box.sizes().y() + 2 * kPlanMarginPx;
-  const json& summary = result["summary"];
+  const json &summary = result["summary"], &mean = summary["mean_abs_error_percent"];
   std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
                      LuxmeterPoints(plan, session, result["luxmeter"]) +
                      Luminaires(plan, result["luminaires"]);
@@ -131,8 +137,9 @@ std::string PlanSvg(const Session& session, const Scene& scene, const json& resu
       kPlanMarginPx, height + 28,
       fmt::format(
           "Dots: luxmeter points with the worst error of their states (green below 2 %, orange below 5 "
-          "%); mean {:.2f} % over {} readings.",
-          summary["mean_abs_error_percent"].get<double>(), summary["readings_checked"].get<int>()));
+          "%); mean {} over {} readings.",
+          mean.is_number() ? fmt::format("{:.2f} %", mean.get<double>()) : "-",
+          summary["readings_checked"].get<int>()));
   return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
 }
 

@@ -10,9 +10,9 @@
 namespace luxfit {
 namespace {
 
-using Options = std::shared_ptr<CommandOptions>;
-
-void AddSessionAndOut(CLI::App& command, CommandOptions& options, Invocation& invocation) {
+// `Options` is SimulateCommandOptions or ChartCommandOptions.
+template <typename Options>
+void AddSessionAndOut(CLI::App& command, Options& options, Invocation& invocation) {
   command.add_option("SESSION", options.session, "the session file (TOML)")->required();
   command.add_option("-o,--out", options.out, "folder for the results; nothing is written outside it")
       ->required();
@@ -28,7 +28,7 @@ void AddSessionAndOut(CLI::App& command, CommandOptions& options, Invocation& in
 void AddSimulate(CLI::App& app, Invocation& invocation) {
   CLI::App* const command = app.add_subcommand(
       "simulate", "illuminance at the readings' places, everything given and nothing fitted");
-  const Options options = std::make_shared<CommandOptions>();
+  const auto options = std::make_shared<SimulateCommandOptions>();
   AddSessionAndOut(*command, *options, invocation);
   command->final_callback([&invocation, options] {
     options->command_line = invocation.command_line;
@@ -43,7 +43,7 @@ void AddSimulate(CLI::App& app, Invocation& invocation) {
 }
 
 // Adds the options that chart the whole fit instead of the forward model.
-void AddFitCharts(CLI::App& chart, CommandOptions& options) {
+void AddFitCharts(CLI::App& chart, ChartCommandOptions& options) {
   StabilityOptions& stability = options.stability_options;
   CLI::Option* const degrade = chart.add_flag(
       "--stability", options.stability,
@@ -80,7 +80,7 @@ void AddFitCharts(CLI::App& chart, CommandOptions& options) {
 void AddChart(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("chart", "chart speed against accuracy, of the forward model or of the whole fit");
-  const Options options = std::make_shared<CommandOptions>();
+  const auto options = std::make_shared<ChartCommandOptions>();
   AddSessionAndOut(*command, *options, invocation);
   command
       ->add_option("--budget", options->budget_s, "seconds in all; points that would take longer are skipped")

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -18,12 +20,6 @@ namespace {
 
 // These are the exit statuses of docs/session-format.md.
 constexpr int kBadInput = 2, kMissingProgram = 3, kDefect = 70;
-
-std::string CommandLine(int argc, char** argv) {
-  std::string line;
-  for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + std::string(argv[i]);
-  return line;
-}
 
 int Run(const luxfit::Invocation& invocation) {
   const luxfit::ThreadLimit limit(invocation.threads);
@@ -53,7 +49,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", luxfit::kVersion);
   app.require_subcommand(1);
   luxfit::Invocation invocation;
-  invocation.command_line = CommandLine(argc, argv);
+  invocation.command_line = fmt::format("{}", fmt::join(argv, argv + argc, " "));
   luxfit::AddStartCommands(app, invocation);
   luxfit::AddSessionCommands(app, invocation);
   luxfit::AddForwardCommands(app, invocation);

@@ -36,8 +36,7 @@ std::string Title(const std::string& name, const std::string& version) {
 }
 
 std::string OptionText(const OptionDescription& option) {
-  std::string flags;
-  for (const std::string& flag : option.flags) flags += (flags.empty() ? "" : ", ") + flag;
+  std::string flags = fmt::format("{}", fmt::join(option.flags, ", "));
   if (option.takes_value && !option.is_positional) flags += " VALUE";
   return fmt::format(".TP\n\\fB{}\\fR\n{}{}\n", Roff(flags), Roff(option.help),
                      option.is_required ? " (required)" : "");

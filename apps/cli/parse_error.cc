@@ -31,7 +31,7 @@ const CLI::App* CommandOf(const CLI::App& app, const std::vector<std::string>& a
   return nullptr;
 }
 
-// Returns the flags that the command does not have.
+// Returns the first flag that the command does not have; "" where it has all.
 std::string UnknownFlag(const CLI::App& command, const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument.rfind("--", 0) != 0 || argument == "--") continue;

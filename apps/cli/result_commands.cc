@@ -12,7 +12,7 @@ namespace {
 void AddCheck(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("check", "measured against predicted luxmeter readings of an earlier run");
-  const auto options = std::make_shared<CommandOptions>();
+  const auto options = std::make_shared<CheckCommandOptions>();
   AddRunFolder(*command, options->out);
   command->add_option("--subset", options->subset,
                       "a row for the readings of this pattern too: id or id@state, * for any text");

@@ -8,18 +8,17 @@
 namespace luxfit {
 namespace {
 
-using Options = std::shared_ptr<CommandOptions>;
-using Command = int (*)(const CommandOptions&);
-
+template <typename Options>
 struct Added {
   CLI::App* command;
-  Options options;
+  std::shared_ptr<Options> options;
 };
 
-Added AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string& name,
-                        const std::string& help, Command run) {
+template <typename Options>
+Added<Options> AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string& name,
+                                 const std::string& help, int (*run)(const Options&)) {
   CLI::App* const command = app.add_subcommand(name, help);
-  const auto options = std::make_shared<CommandOptions>();
+  const auto options = std::make_shared<Options>();
   command->add_option("SESSION", options->session, "the session file (TOML)")->required();
   command->add_option("-o,--out", options->out, "folder for the results; nothing is written outside it")
       ->required();
@@ -32,13 +31,14 @@ Added AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string
   return {command, options};
 }
 
-void AddRunOptions(const Added& added) {
+template <typename Options>
+void AddRunOptions(const Added<Options>& added) {
   added.command->add_flag("--dry-run", added.options->dry_run,
                           "tell which stages would run and why, and do nothing");
   added.command->add_flag("--fresh", added.options->fresh, "reuse nothing of an earlier run in OUT");
 }
 
-void AddLuminairesOption(const Added& added) {
+void AddLuminairesOption(const Added<RunCommandOptions>& added) {
   AddRunOptions(added);
   AddEarlierResult(*added.command, "--luminaires", added.options->earlier_luminaires,
                    "earlier fit (folder or result.json): its luminaires count as given, such as those read "
@@ -46,7 +46,7 @@ void AddLuminairesOption(const Added& added) {
 }
 
 void AddRun(CLI::App& app, Invocation& invocation) {
-  const Added run = AddSessionCommand(
+  const auto run = AddSessionCommand(
       app, invocation, "run",
       "everything: register the photos, observe, fit, check against the luxmeter, report", RunCommand);
   AddLuminairesOption(run);
@@ -59,7 +59,7 @@ void AddRun(CLI::App& app, Invocation& invocation) {
       "A           1.501  2.002  2.790  ± 0.9 1.5 8.2             3592 ± 72         lambertian disc 0.65 m\n"
       "...\n"
       "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
-  const Added fit = AddSessionCommand(
+  const auto fit = AddSessionCommand(
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);
   AddExample(*fit.command, "luxfit fit chamber/session.toml -o out",
@@ -72,27 +72,27 @@ void AddRun(CLI::App& app, Invocation& invocation) {
 }
 
 void AddCalibrate(CLI::App& app, Invocation& invocation) {
-  const Added calibrate = AddSessionCommand(
+  const auto calibrate = AddSessionCommand(
       app, invocation, "calibrate",
       "intrinsics of cameras and rigs, from images of a board or of the room's tags", CalibrateCommand);
   AddExample(*calibrate.command, "luxfit calibrate rig/session.toml -o out",
              "session stereo: done\n"
-             "13 images, OPENCV4: RMS per axis 0.120 px, held out 0.120 px, 0.1 % outliers\n"
+             "13 images, opencv4: RMS per axis 0.120 px, held out 0.120 px, 0.1 % outliers\n"
              "  left     f 534.03 534.16 px (± 0.43), c 341.60 234.28; direction uncertain by 0.12 px in the "
              "middle\n"
              "...");
 }
 
 void AddLinearize(CLI::App& app, Invocation& invocation) {
-  const Added linearize = AddSessionCommand(
+  const auto linearize = AddSessionCommand(
       app, invocation, "linearize", "photos to luminance: exposures, response, vignetting", LinearizeCommand);
   AddExample(*linearize.command, "luxfit linearize office/session.toml -o out",
              "session office: 49 views and states\ncamera cam0: response linear");
 }
 
 void AddRegister(CLI::App& app, Invocation& invocation) {
-  const Added command = AddSessionCommand(app, invocation, "register",
-                                          "a pose for every view, in the scene's frame", RegisterCommand);
+  const auto command = AddSessionCommand(app, invocation, "register",
+                                         "a pose for every view, in the scene's frame", RegisterCommand);
   AddExample(*command.command, "luxfit register office/session.toml -o out",
              "v00      3 tags, reprojection RMS 0.029 px, camera centre ± 1.0 1.2 1.3 mm\n"
              "v01      2 tags, reprojection RMS 0.009 px, camera centre ± 1.0 1.4 1.4 mm\n"
@@ -101,7 +101,7 @@ void AddRegister(CLI::App& app, Invocation& invocation) {
 }
 
 void AddAlbedo(CLI::App& app, Invocation& invocation) {
-  const Added albedo = AddSessionCommand(
+  const auto albedo = AddSessionCommand(
       app, invocation, "albedo",
       "albedo in detail: of a room after its fit, or of an object by photometric stereo", AlbedoCommand);
   AddRunOptions(albedo);

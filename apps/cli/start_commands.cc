@@ -111,7 +111,7 @@ void AddDoctor(CLI::App& app, Invocation& invocation) {
 void AddDemo(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("demo", "run the office that comes with luxfit, photos to report");
-  const auto options = std::make_shared<CommandOptions>();
+  const auto options = std::make_shared<DemoCommandOptions>();
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   AddJson(*command, options->json);
   AddThreads(*command, invocation);

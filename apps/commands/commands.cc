@@ -21,7 +21,7 @@ namespace luxfit {
 namespace {
 
 // Reads the session of a command that needs a room.
-Session ReadRoomSession(const CommandOptions& options) {
+Session ReadRoomSession(const SessionCommandOptions& options) {
   Session session = ReadSession(options.session);
   if (session.lights)
     throw InputError({session.path, session.lights->line}, "lights",
@@ -30,7 +30,7 @@ Session ReadRoomSession(const CommandOptions& options) {
 }
 
 // Charts the stability of a session's fit. Returns exit status 1 where the undegraded session has no fit.
-int ChartStability(const CommandOptions& options, const Session& session) {
+int ChartStability(const ChartCommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
   PrintText(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
@@ -38,7 +38,7 @@ int ChartStability(const CommandOptions& options, const Session& session) {
   return context.undetermined ? 1 : 0;
 }
 
-int ChartWholeFit(const CommandOptions& options, const Session& session) {
+int ChartWholeFit(const ChartCommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = FitChartOfSession(
       session, {options.stability_options.elements, options.stability_options.truth_path}, context);
@@ -49,27 +49,28 @@ int ChartWholeFit(const CommandOptions& options, const Session& session) {
 
 }  // namespace
 
-int RunCommand(const CommandOptions& options) {
+int RunCommand(const RunCommandOptions& options) {
   return RunRoom(ReadRoomSession(options), options, RoomRun::kAll);
 }
 
-int FitCommand(const CommandOptions& options) {
+int FitCommand(const RunCommandOptions& options) {
   return RunRoom(ReadRoomSession(options), options, RoomRun::kFit);
 }
 
-int AlbedoCommand(const CommandOptions& options) {
+int AlbedoCommand(const AlbedoCommandOptions& options) {
   Session session = ReadSession(options.session);
   if (!session.lights) {
     if (session.photos.empty())
       throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
-    return RunRoom(std::move(session), options, RoomRun::kFitAndAlbedo);
+    return RunRoom(std::move(session), {options, options.dry_run, options.fresh, "", true},
+                   RoomRun::kFitAndAlbedo);
   }
   RunContext context = MakeContext(options, session);
   nlohmann::json result;
   {
     const StageTimer total(context, "total", "");
-    session = LinearizeSession(std::move(session), context);
-    result = StereoResultJson(session, StereoSession(session, context), context);
+    const LinearizedSession linearized = LinearizeSession(session, context);
+    result = StereoResultJson(session, StereoSession(session, linearized.photos, context), context);
   }
   result["timing_s"] = context.timing_s;
   WriteJson(context.out + "/result.json", result);
@@ -79,7 +80,7 @@ int AlbedoCommand(const CommandOptions& options) {
   return context.undetermined ? 1 : 0;
 }
 
-int SimulateCommand(const CommandOptions& options) {
+int SimulateCommand(const SimulateCommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
@@ -88,7 +89,7 @@ int SimulateCommand(const CommandOptions& options) {
   return 0;
 }
 
-int ChartCommand(const CommandOptions& options) {
+int ChartCommand(const ChartCommandOptions& options) {
   Session session = ReadRoomSession(options);
   if (options.stability) return ChartStability(options, session);
   if (options.whole_fit) return ChartWholeFit(options, session);
@@ -101,19 +102,19 @@ int ChartCommand(const CommandOptions& options) {
   return 0;
 }
 
-int LinearizeCommand(const CommandOptions& options) {
-  Session session = ReadSession(options.session);
+int LinearizeCommand(const SessionCommandOptions& options) {
+  const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
   if (session.photos.empty())
     throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
-  session = LinearizeSession(std::move(session), context);
+  LinearizeSession(session, context);
   const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
   PrintText(options.json ? artifact.dump(2) + "\n"
                          : LinearizeTable(session, artifact) + WarningText(artifact));
   return 0;
 }
 
-int CalibrateCommand(const CommandOptions& options) {
+int CalibrateCommand(const SessionCommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = CalibrateSession(session, context);
@@ -122,34 +123,27 @@ int CalibrateCommand(const CommandOptions& options) {
   return context.undetermined ? 1 : 0;
 }
 
-int RegisterCommand(const CommandOptions& options) {
-  Session session = ReadRoomSession(options);
+int RegisterCommand(const SessionCommandOptions& options) {
+  const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   LoadRoom(session, context);
   const SessionInputs inputs = InputsOfStages(session, "");
-  session = LinearizeKept(std::move(session), inputs, context);
-  RegisterKept(session, inputs, context);
+  const LinearizedSession linearized = LinearizeKept(session, inputs, context);
+  RegisterKept(session, linearized.photos, inputs, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
     PrintText(result.dump(2) + "\n");
     return context.undetermined ? 1 : 0;
   }
-  for (const nlohmann::json& view : result["views"]) {
-    const nlohmann::json& sigma = view["position_sigma_m"];
-    std::printf("%-8s %d tags, reprojection RMS %.3f px, camera centre ± %.1f %.1f %.1f mm\n",
-                view["view"].get<std::string>().c_str(), view["tags_used"].get<int>(),
-                view["reprojection_rms_px"].get<double>(), 1e3 * sigma[0].get<double>(),
-                1e3 * sigma[1].get<double>(), 1e3 * sigma[2].get<double>());
-  }
   nlohmann::json warnings;
   warnings["warnings"] = nlohmann::json::array();
   for (const Warning& w : context.warnings)
     warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
-  PrintText(WarningText(warnings));
+  PrintText(RegistrationTable(result) + WarningText(warnings));
   return context.undetermined ? 1 : 0;
 }
 
-int CheckCommand(const CommandOptions& options) {
+int CheckCommand(const CheckCommandOptions& options) {
   const nlohmann::json result = ReadResult(options.out + "/result.json");
   nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
   AddFormerKeys(check);

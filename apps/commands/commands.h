@@ -13,48 +13,65 @@
 
 namespace luxfit {
 
-struct CommandOptions {
+// Holds what every command on a session takes.
+struct SessionCommandOptions {
   std::string session;       // path of session.toml
   std::string out;           // folder; nothing is written outside it
   std::string command_line;  // as typed, for the artifacts
   bool json = false;         // print the result as JSON on standard output
-  bool prints = true;        // run and fit: print the result on standard output
-  int threads = 0;           // 0: all cores
-  // For run, fit and albedo:
-  bool dry_run = false;  // tell what would run and why
-  bool fresh = false;    // reuse nothing of an earlier run
-  // For simulate and chart:
-  double error_percent = 1;
-  std::string subset;              // for check: a pattern of readings with a row of its own
-  std::string earlier_luminaires;  // for run and fit: path of a result.json whose luminaires count as given
-  // For chart:
-  double budget_s = 120;
+};
+
+struct RunCommandOptions : SessionCommandOptions {
+  bool dry_run = false;            // tell what would run and why
+  bool fresh = false;              // reuse nothing of an earlier run
+  std::string earlier_luminaires;  // path of a result.json whose luminaires count as given; empty: none
+  bool prints = true;              // print the result on standard output
+};
+// RunCommand runs all stages and writes OUT/report.html; FitCommand ends with OUT/result.json.
+int RunCommand(const RunCommandOptions& options);
+int FitCommand(const RunCommandOptions& options);
+
+struct SimulateCommandOptions : SessionCommandOptions {
+  double error_percent = 1;  // error that patches, rays and bounces may cause, of illuminance
+};
+// Runs the forward model only; writes OUT/illuminance.csv and OUT/stages/simulate.json.
+int SimulateCommand(const SimulateCommandOptions& options);
+
+struct ChartCommandOptions : SessionCommandOptions {
+  double error_percent = 1;    // error asked of the automatic choice
+  double budget_s = 120;       // points that would take longer are skipped
+  int threads = 0;             // number asked for; 0: all cores
   std::string earlier_result;  // path of a result.json whose luminaires and reflectances count as given
   bool stability = false;      // chart the whole fit instead of the forward model
   StabilityOptions stability_options;
   bool whole_fit = false;  // error against time of the whole fit; elements and truth as in stability_options
 };
-
-// RunCommand runs all stages and writes OUT/report.html; FitCommand ends with OUT/result.json.
-int RunCommand(const CommandOptions& options);
-int FitCommand(const CommandOptions& options);
-// Runs the forward model only; writes OUT/illuminance.csv and OUT/stages/simulate.json.
-int SimulateCommand(const CommandOptions& options);
 // Charts speed against accuracy of the forward model; writes OUT/chart.csv, OUT/chart.svg and
 // OUT/stages/chart.json. Or charts the stability of the fit (apps/commands/study/stage_stability.h), or its error
 // against time (apps/commands/study/stage_fit_chart.h).
-int ChartCommand(const CommandOptions& options);
+int ChartCommand(const ChartCommandOptions& options);
+
 // Converts pixels to luminance by exposures, response and vignetting; writes OUT/stages/linearize.json.
-int LinearizeCommand(const CommandOptions& options);
+int LinearizeCommand(const SessionCommandOptions& options);
 // Calibrates cameras from images of boards or of the room's tags; writes OUT/stages/calibrate.json and files
 // of intrinsics (apps/stages/calibrate/stage_calibrate.h).
-int CalibrateCommand(const CommandOptions& options);
-int RegisterCommand(const CommandOptions& options);
+int CalibrateCommand(const SessionCommandOptions& options);
+int RegisterCommand(const SessionCommandOptions& options);
+
+struct AlbedoCommandOptions : SessionCommandOptions {
+  bool dry_run = false, fresh = false;  // of a room, as for run
+};
 // Estimates the albedo of a room (after all stages of RunCommand), or of an object by photometric stereo.
 // Writes OUT/result.json and the files of apps/stages/albedo/stage_albedo.h and apps/stages/albedo/stage_stereo.h.
-int AlbedoCommand(const CommandOptions& options);
+int AlbedoCommand(const AlbedoCommandOptions& options);
+
+struct CheckCommandOptions {
+  std::string out;     // folder of an earlier run
+  std::string subset;  // pattern of readings with a row of its own; empty: none
+  bool json = false;
+};
 // Reads OUT/result.json.
-int CheckCommand(const CommandOptions& options);
+int CheckCommand(const CheckCommandOptions& options);
 
 }  // namespace luxfit
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "apps/commands/commands.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/text/formats/json_vectors.h"
@@ -53,9 +54,13 @@ std::string TruthText(const nlohmann::json& result, const std::string& truth_pat
 
 }  // namespace
 
-int DemoCommand(CommandOptions options) {
-  options.session = OfficeFolder() + "/session.toml";
-  const int status = RunCommand(options);
+int DemoCommand(const DemoCommandOptions& options) {
+  RunCommandOptions run;
+  run.session = OfficeFolder() + "/session.toml";
+  run.out = options.out;
+  run.command_line = options.command_line;
+  run.json = options.json;
+  const int status = RunCommand(run);
   if (!options.json)
     PrintText(TruthText(ReadResult(options.out + "/result.json"), OfficeFolder() + "/truth.json"));
   return status;

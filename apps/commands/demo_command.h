@@ -7,11 +7,14 @@
 
 #include <string>
 
-#include "apps/commands/commands.h"
-
 namespace luxfit {
 
-int DemoCommand(CommandOptions options);
+struct DemoCommandOptions {
+  std::string out;           // folder; nothing is written outside it
+  std::string command_line;  // as typed, for the artifacts
+  bool json = false;         // print the result as JSON on standard output
+};
+int DemoCommand(const DemoCommandOptions& options);
 
 }  // namespace luxfit
 

@@ -11,6 +11,7 @@
 
 #include "apps/commands/internal/examine_session.h"
 #include "apps/session/session.h"
+#include "apps/text/formats/former_keys.h"
 #include "apps/text/process.h"
 #include "apps/text/terminal.h"
 #include "apps/version.h"
@@ -68,7 +69,8 @@ int DoctorCommand(const DoctorCommandOptions& options) {
   if (options.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DoctorFinding& f : findings)
-      list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"mend", f.remedy}});
+      list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"fix", f.remedy}});
+    AddFormerKeys(list);
     text = nlohmann::json{{"findings", list}}.dump(2) + "\n";
   }
   PrintText(text);

@@ -12,7 +12,7 @@
 #include "apps/text/suggest.h"
 #include "forward/factors/form_factors.h"
 #include "forward/room/mesh_check.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 
 namespace luxfit {
 namespace {

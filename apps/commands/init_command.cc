@@ -12,6 +12,7 @@
 
 #include "apps/session/session.h"
 #include "apps/session/session_draft.h"
+#include "apps/session/session_files.h"
 #include "apps/session/tag_map.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
@@ -19,8 +20,8 @@
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/image.h"
 #include "calib/targets/tags.h"
-#include "forward/room/mesh_file.h"
-#include "inverse/check/survey_check.h"
+#include "forward/room/mesh_check.h"
+#include "forward/room/scene.h"
 
 namespace luxfit {
 namespace {
@@ -29,18 +30,12 @@ namespace fs = std::filesystem;
 
 constexpr size_t kPhotosForTags = 8;  // number searched for tags
 
-std::string LowerExtension(const fs::path& path) {
-  std::string text = path.extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 std::vector<std::string> PhotosIn(const std::string& folder) {
   const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".dng", ".cr2",
                                          ".cr3", ".nef", ".arw",  ".raf", ".orf", ".rw2",  ".pef"};
   std::vector<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && endings.count(LowerExtension(entry.path())) > 0)
+    if (entry.is_regular_file() && endings.count(ExtensionOf(entry.path().string())) > 0)
       files.push_back(fs::relative(entry.path(), folder).string());
   }
   std::sort(files.begin(), files.end());
@@ -113,7 +108,7 @@ void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
   for (const fs::path& folder : folders) {
     if (!fs::is_directory(folder)) continue;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      const std::string ending = LowerExtension(entry.path());
+      const std::string ending = ExtensionOf(entry.path().string());
       if (ending != ".yaml" && ending != ".yml" && ending != ".cameramodel" && ending != ".xml") continue;
       try {
         const Camera camera = ReadCamera(entry.path().string());

@@ -13,13 +13,13 @@ namespace {
 
 // Holds one photo for each view, state and camera, in their order, and the names of their files.
 struct NamedPhotos {
-  std::vector<const SessionPhoto*> photos;
+  std::vector<const LinearizedPhoto*> photos;
   std::vector<std::string> stems;
 };
-NamedPhotos PhotosOf(const Session& session) {
+NamedPhotos PhotosOf(const LinearizedPhotos& linearized) {
   NamedPhotos named;
   std::vector<std::string> names;
-  for (const SessionPhoto& photo : session.photos) {
+  for (const LinearizedPhoto& photo : linearized.photos) {
     named.photos.push_back(&photo);
     names.push_back(photo.view + "_" + photo.state);
   }
@@ -39,9 +39,10 @@ ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder,
         "reading with the role scale gives");
     return exported;
   }
-  const SurfaceScale scale = ScaleOfSurfaces(fitted, ReadFitUncertainty(fitted.out));
+  const SurfaceScale scale =
+      ScaleOfSurfaces(fitted.camera_scale, SurfacesOf(fitted), ReadFitUncertainty(fitted.out));
   const PhotoCorrections corrections = ReadPhotoCorrections(fitted.out);
-  const Session session = LinearizeSession(fitted.session, context);
+  const LinearizedPhotos linearized = LinearizeSession(fitted.session, context).photos;
   std::vector<PixelDirections> directions;
   for (const Camera& camera : fitted.registered.cameras) directions.push_back(UnprojectAllPixels(camera));
   std::vector<PhotoView> seen;
@@ -49,15 +50,15 @@ ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder,
   for (const RegisteredView& view : views)
     seen.push_back(
         ViewOf(fitted, view.camera, directions[static_cast<size_t>(view.camera)], view.cam_from_world));
-  const NamedPhotos named = PhotosOf(session);
+  const NamedPhotos named = PhotosOf(linearized);
   std::vector<std::vector<std::string>> written(named.photos.size());
   tbb::parallel_for(size_t{0}, named.photos.size(), [&](size_t i) {
-    const SessionPhoto& photo = *named.photos[i];
+    const LinearizedPhoto& photo = *named.photos[i];
     const auto view = std::find_if(views.begin(), views.end(),
                                    [&](const RegisteredView& v) { return v.view == photo.view; });
     if (view == views.end()) return;
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(photo.camera)];
-    const LuminanceImage image = ReadCorrected(session, photo, camera, corrections);
+    const LuminanceImage image = ReadCorrected(linearized, photo, camera, corrections);
     const PixelMap& map = seen[static_cast<size_t>(view - views.begin())].dense;
     written[i] =
         WriteLuxMap(MapIlluminance(map, image, fitted.room.patches, scale), folder + "/" + named.stems[i],

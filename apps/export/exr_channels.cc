@@ -3,7 +3,6 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
@@ -67,29 +66,6 @@ void WriteExrChannels(const std::string& path, const std::vector<ExrChannel>& ch
     std::filesystem::remove(temporary, error);
     throw std::runtime_error(path + ": expected a writable place; check the folder and the free space");
   }
-}
-
-std::map<std::string, ImagePlane> ReadExrChannels(const std::string& path) {
-  std::map<std::string, ImagePlane> planes;
-  try {
-    Imf::InputFile file(path.c_str());
-    const Imath::Box2i window = file.header().dataWindow();
-    const Eigen::Index width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
-    Imf::FrameBuffer buffer;
-    const Eigen::Index skipped = window.min.x + width * window.min.y;
-    for (auto channel = file.header().channels().begin(); channel != file.header().channels().end();
-         ++channel) {
-      if (channel.channel().type != Imf::FLOAT) continue;
-      ImagePlane& plane = planes[channel.name()];
-      plane.resize(height, width);
-      buffer.insert(channel.name(), SliceOf(plane.data() - skipped, width));
-    }
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-  } catch (const std::exception& e) {
-    throw std::runtime_error(path + ": expected an OpenEXR picture; " + e.what());
-  }
-  return planes;
 }
 
 }  // namespace luxfit

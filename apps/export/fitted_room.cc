@@ -68,12 +68,9 @@ PlaceLight LightOf(const Room& room, const Receivers& receivers, const std::vect
                    const Eigen::VectorXd& albedo) {
   const Illuminance light =
       ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, luminaires), luminaires, albedo);
-  PlaceLight at{light.total.cast<double>(), light.direct.cast<double>()};
-  for (size_t k = 0; k < luminaires.size(); ++k) {
-    at.total_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-    at.direct_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-  }
-  return at;
+  const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
+  return {light.total.cast<double>() * flux_lm.asDiagonal(),
+          light.direct.cast<double>() * flux_lm.asDiagonal()};
 }
 
 PlaceLight LightOfElements(const Room& room, const std::vector<Luminaire>& luminaires,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <stdexcept>
 #include <vector>
@@ -34,11 +33,6 @@ Paper Named(const std::string& name, double width_mm, double height_mm) {
   return {fmt::format("{} ({:g} x {:g} mm)", name, width_mm, height_mm), {width_mm, height_mm}};
 }
 
-std::string LowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 bool FitsOn(const Eigen::Vector2d& paper_mm, const Eigen::Vector2d& needed_mm) {
   return (needed_mm.array() <= paper_mm.array() + 1e-6).all();
 }
@@ -47,7 +41,7 @@ bool FitsOn(const Eigen::Vector2d& paper_mm, const Eigen::Vector2d& needed_mm) {
 
 Paper PaperFrom(const std::string& text) {
   for (const NamedSize& size : kSizes) {
-    if (LowerCase(text) == LowerCase(size.name)) return Named(size.name, size.width_mm, size.height_mm);
+    if (Lowercase(text) == Lowercase(size.name)) return Named(size.name, size.width_mm, size.height_mm);
   }
   double width_mm = 0, height_mm = 0;
   char rest = 0;

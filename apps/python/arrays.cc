@@ -80,17 +80,12 @@ std::vector<Sensor> SensorsFrom(const RowMajorXd& position_m, const RowMajorXd& 
 
 py::dict PatchArrays(const Patches& patches) {
   const auto n = static_cast<Eigen::Index>(patches.patches.size());
-  RowMajorXd center(n, 3), normal(n, 3);
-  Eigen::VectorXd area(n);
-  Eigen::VectorXi material(n);
+  RowMajorXd normal(n, 3);
   py::array_t<double> vertices({n, Eigen::Index{4}, Eigen::Index{3}});
   auto corner = vertices.mutable_unchecked<3>();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Patch& patch = patches.patches[static_cast<size_t>(i)];
-    center.row(i) = patch.center;
     normal.row(i) = patch.edge_u.cross(patch.edge_v).normalized();
-    area[i] = patch.area_m2;
-    material[i] = patch.material;
     const bool triangle = patches.IsTriangle(static_cast<int>(i));
     const Eigen::Vector3d last = patch.origin + patch.edge_v;
     const Eigen::Vector3d corners[] = {patch.origin, patch.origin + patch.edge_u,
@@ -100,31 +95,20 @@ py::dict PatchArrays(const Patches& patches) {
     }
   }
   py::dict arrays;
-  arrays["center_m"] = center;
+  arrays["center_m"] = MemberRows(patches.patches, &Patch::center);
   arrays["normal"] = normal;
-  arrays["area_m2"] = area;
-  arrays["material"] = material;
+  arrays["area_m2"] = MemberColumn(patches.patches, &Patch::area_m2);
+  arrays["material"] = MemberColumn(patches.patches, &Patch::material);
   arrays["vertices_m"] = vertices;
   return arrays;
 }
 
 py::dict ElementArrays(const Patches& patches) {
-  const auto n = static_cast<Eigen::Index>(patches.elements.size());
-  RowMajorXd center(n, 3), normal(n, 3);
-  Eigen::VectorXd area(n);
-  Eigen::VectorXi patch(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Element& element = patches.elements[static_cast<size_t>(i)];
-    center.row(i) = element.center;
-    normal.row(i) = element.normal;
-    area[i] = element.area_m2;
-    patch[i] = element.patch;
-  }
   py::dict arrays;
-  arrays["center_m"] = center;
-  arrays["normal"] = normal;
-  arrays["area_m2"] = area;
-  arrays["patch"] = patch;
+  arrays["center_m"] = MemberRows(patches.elements, &Element::center);
+  arrays["normal"] = MemberRows(patches.elements, &Element::normal);
+  arrays["area_m2"] = MemberColumn(patches.elements, &Element::area_m2);
+  arrays["patch"] = MemberColumn(patches.elements, &Element::patch);
   return arrays;
 }
 

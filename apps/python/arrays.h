@@ -23,6 +23,20 @@ double NumberOrNan(const nlohmann::json& object, const std::string& key);
 // Returns n x 3, one row for each entry of `list`; NaN as above.
 RowMajorXd VectorRows(const nlohmann::json& list, const std::string& key);
 
+// Return a member of every entry: n x 3 of vectors, (n,) of numbers.
+template <typename T>
+RowMajorXd MemberRows(const std::vector<T>& list, Eigen::Vector3d T::*member) {
+  RowMajorXd rows(static_cast<Eigen::Index>(list.size()), 3);
+  for (size_t i = 0; i < list.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = list[i].*member;
+  return rows;
+}
+template <typename T, typename Number>
+Eigen::Matrix<Number, Eigen::Dynamic, 1> MemberColumn(const std::vector<T>& list, Number T::*member) {
+  Eigen::Matrix<Number, Eigen::Dynamic, 1> column(static_cast<Eigen::Index>(list.size()));
+  for (size_t i = 0; i < list.size(); ++i) column[static_cast<Eigen::Index>(i)] = list[i].*member;
+  return column;
+}
+
 // Makes cosine-corrected sensors from two n x 3 arrays; normals may have any length except 0. Throws
 // std::runtime_error for other shapes and for values that are not finite.
 std::vector<Sensor> SensorsFrom(const RowMajorXd& position_m, const RowMajorXd& normal);

@@ -16,7 +16,6 @@
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/image.h"
 #include "forward/room/threads.h"
-#include "inverse/fit/fit_outcome.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/observe/observe_photos.h"
 
@@ -213,20 +212,6 @@ FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std
   return fitted;
 }
 
-RowMajorXd LuminaireRows(const FoundLight& fitted, Eigen::Vector3d EstimatedLuminaire::*member) {
-  RowMajorXd rows(static_cast<Eigen::Index>(fitted.luminaires.size()), 3);
-  for (Eigen::Index k = 0; k < rows.rows(); ++k)
-    rows.row(k) = fitted.luminaires[static_cast<size_t>(k)].*member;
-  return rows;
-}
-
-Eigen::VectorXd LuminaireNumbers(const FoundLight& fitted, double EstimatedLuminaire::*member) {
-  Eigen::VectorXd numbers(static_cast<Eigen::Index>(fitted.luminaires.size()));
-  for (Eigen::Index k = 0; k < numbers.size(); ++k)
-    numbers[k] = fitted.luminaires[static_cast<size_t>(k)].*member;
-  return numbers;
-}
-
 Eigen::VectorXd PredictedLx(const FoundLight& fitted, double PredictedReading::*member) {
   Eigen::VectorXd numbers(static_cast<Eigen::Index>(fitted.readings.size()));
   for (Eigen::Index r = 0; r < numbers.size(); ++r) {
@@ -277,18 +262,21 @@ void BindFit(py::module_& module) {
           },
           "list of K")
       .def_property_readonly(
-          "position_m", [](const FoundLight& f) { return LuminaireRows(f, &EstimatedLuminaire::position); },
+          "position_m",
+          [](const FoundLight& f) { return MemberRows(f.luminaires, &EstimatedLuminaire::position); },
           "(K, 3), world frame.")
       .def_property_readonly(
           "position_sigma_m",
-          [](const FoundLight& f) { return LuminaireRows(f, &EstimatedLuminaire::position_sigma_m); },
+          [](const FoundLight& f) { return MemberRows(f.luminaires, &EstimatedLuminaire::position_sigma_m); },
           "(K, 3)")
       .def_property_readonly(
-          "flux_lm", [](const FoundLight& f) { return LuminaireNumbers(f, &EstimatedLuminaire::flux); },
+          "flux_lm",
+          [](const FoundLight& f) { return MemberColumn(f.luminaires, &EstimatedLuminaire::flux); },
           "(K,); relative where is_absolute is False.")
       .def_property_readonly(
           "flux_sigma_lm",
-          [](const FoundLight& f) { return LuminaireNumbers(f, &EstimatedLuminaire::flux_sigma); }, "(K,)")
+          [](const FoundLight& f) { return MemberColumn(f.luminaires, &EstimatedLuminaire::flux_sigma); },
+          "(K,)")
       .def_property_readonly(
           "is_absolute", [](const FoundLight& f) { return f.fit.absolute; },
           "Whether a reading gives the scale, so that fluxes are in lm.")

@@ -46,13 +46,6 @@ class _Patches(TypedDict):
     material: NDArray[numpy.int32]  # (P,), index of materials
     vertices_m: NDArray[numpy.float64]  # (P, 4, 3); a triangle has its last corner twice
 
-class _LitPatches(_Patches):
-    """The patches of a simulation, with their light by luminaire at full flux."""
-
-    materials: list[str]
-    illuminance_lx: NDArray[numpy.float64]  # (P, K)
-    exitance_lm_m2: NDArray[numpy.float64]  # (P, K); luminance in cd/m2 is exitance / pi
-
 class _Elements(TypedDict):
     """The elements of a room."""
 
@@ -72,6 +65,11 @@ class _PatchLight(TypedDict):
 
     illuminance_lx: NDArray[numpy.float64]  # (P, K)
     exitance_lm_m2: NDArray[numpy.float64]  # (P, K); luminance in cd/m2 is exitance / pi
+
+class _LitPatches(_Patches, _PatchLight):
+    """The patches of a simulation, with their light by luminaire at full flux."""
+
+    materials: list[str]
 
 class _Scene(TypedDict):
     """The [scene] of a session."""
@@ -330,10 +328,32 @@ class Simulation(metaclass=_Pybind11Type):
     def estimated_error_percent(self) -> float:
         """Error of the illuminance at the readings' places, root mean square, %."""
 
-class Result(metaclass=_Pybind11Type):
-    """Result of a fit. Lists of dicts have the keys of result.json; arrays are in the order of those lists, NaN where undetermined."""
+class _Fitted(metaclass=_Pybind11Type):
+    """Holds the properties that Result and RoomFit share. The module itself has no such class."""
 
     def __init__(self, *args: NoReturn, **kwargs: NoReturn) -> None: ...  # no constructor
+    @property
+    def luminaire_ids(self) -> list[str]:
+        """The ids of the luminaires, K."""
+    @property
+    def position_m(self) -> NDArray[numpy.float64]:
+        """(K, 3): centres, world frame, m."""
+    @property
+    def position_sigma_m(self) -> NDArray[numpy.float64]:
+        """(K, 3): their sigmas, m."""
+    @property
+    def flux_sigma_lm(self) -> NDArray[numpy.float64]:
+        """(K,): their sigmas, lm."""
+    @property
+    def predicted_lx(self) -> NDArray[numpy.float64]:
+        """(n,): predicted illuminance, lx."""
+    @property
+    def prediction_sigma_lx(self) -> NDArray[numpy.float64]:
+        """(n,): sigmas of the predictions, model error included, lx."""
+
+class Result(_Fitted):
+    """Result of a fit. Lists of dicts have the keys of result.json; arrays are in the order of those lists, NaN where undetermined."""
+
     @property
     def summary(self) -> dict[str, Any]:
         """The mean and the largest error of the readings that check, lx and %, and their number."""
@@ -362,23 +382,11 @@ class Result(metaclass=_Pybind11Type):
     def status(self) -> str:
         """done, or undetermined (see warnings)."""
     @property
-    def luminaire_ids(self) -> list[str]:
-        """The ids of the luminaires, K."""
-    @property
-    def position_m(self) -> NDArray[numpy.float64]:
-        """(K, 3): centres, world frame, m."""
-    @property
-    def position_sigma_m(self) -> NDArray[numpy.float64]:
-        """(K, 3): their sigmas, m."""
-    @property
     def aim(self) -> NDArray[numpy.float64]:
         """(K, 3), unit: gamma = 0."""
     @property
     def flux_lm(self) -> NDArray[numpy.float64]:
         """(K,): fluxes, lm."""
-    @property
-    def flux_sigma_lm(self) -> NDArray[numpy.float64]:
-        """(K,): their sigmas, lm."""
     @property
     def material_names(self) -> list[str]:
         """The names of the materials, M."""
@@ -404,12 +412,6 @@ class Result(metaclass=_Pybind11Type):
     def measured_lx(self) -> NDArray[numpy.float64]:
         """(n,): measured illuminance, lx."""
     @property
-    def predicted_lx(self) -> NDArray[numpy.float64]:
-        """(n,): predicted illuminance, lx."""
-    @property
-    def prediction_sigma_lx(self) -> NDArray[numpy.float64]:
-        """(n,): sigmas of the predictions, model error included, lx."""
-    @property
     def parameter_names(self) -> list[str]:
         """The names of parameters and of the rows of covariance, p."""
     @property
@@ -423,37 +425,18 @@ class Result(metaclass=_Pybind11Type):
     def position_covariance_m2(self, id: str) -> NDArray[numpy.float64]:
         """Returns the covariance (3, 3) of a luminaire's estimated position, m2."""
 
-class RoomFit(metaclass=_Pybind11Type):
+class RoomFit(_Fitted):
     """Result of fit_room. Luminaires are those that were found; NaN where the data determine nothing."""
 
-    def __init__(self, *args: NoReturn, **kwargs: NoReturn) -> None: ...  # no constructor
-    @property
-    def luminaire_ids(self) -> list[str]:
-        """The ids of the luminaires, K."""
-    @property
-    def position_m(self) -> NDArray[numpy.float64]:
-        """(K, 3): centres, world frame, m."""
-    @property
-    def position_sigma_m(self) -> NDArray[numpy.float64]:
-        """(K, 3): their sigmas, m."""
     @property
     def flux_lm(self) -> NDArray[numpy.float64]:
         """(K,): fluxes, lm; relative where is_absolute is False."""
-    @property
-    def flux_sigma_lm(self) -> NDArray[numpy.float64]:
-        """(K,): their sigmas, lm."""
     @property
     def is_absolute(self) -> bool:
         """Whether a reading gives the scale, so that fluxes are in lm."""
     @property
     def albedo(self) -> dict[str, float]:
         """The reflectance of each material, 0..1."""
-    @property
-    def predicted_lx(self) -> NDArray[numpy.float64]:
-        """(n,): predicted illuminance, lx."""
-    @property
-    def prediction_sigma_lx(self) -> NDArray[numpy.float64]:
-        """(n,): sigmas of the predictions, model error included, lx."""
     @property
     def status(self) -> Literal["done", "undetermined"]:
         """done, or undetermined (see warnings)."""

@@ -35,11 +35,8 @@ PatchLight ComputePatchLight(const Room& room, const std::vector<Luminaire>& lum
       light.exitance_lm_m2.row(j) +=
           share * albedo_rgb(c, room.patches.patches[static_cast<size_t>(j)].material) * channel_lx.row(j);
   }
-  for (Eigen::Index k = 0; k < count; ++k) {
-    light.illuminance_lx.col(k) *= luminaires[static_cast<size_t>(k)].flux_lm;
-    light.exitance_lm_m2.col(k) *= luminaires[static_cast<size_t>(k)].flux_lm;
-  }
-  return light;
+  const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
+  return {light.illuminance_lx * flux_lm.asDiagonal(), light.exitance_lm_m2 * flux_lm.asDiagonal()};
 }
 
 }  // namespace luxfit

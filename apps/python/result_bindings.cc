@@ -12,8 +12,6 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/session/earlier_result.h"
-#include "apps/text/formats/artifact.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/suggest.h"
 #include "forward/room/threads.h"
 
@@ -37,23 +35,17 @@ struct Result {
 
 Result ReadResultOf(const std::filesystem::path& given) {
   const std::filesystem::path path = ResultFileOf(given.string()), out = path.parent_path();
-  Result result{ReadJson(path.string()), {}};
-  if (!result.whole.is_object() || result.whole.value("format", "") != "luxfit-result-1")
-    throw std::runtime_error(
-        path.string() +
-        ": format: expected \"luxfit-result-1\"; give the folder that `luxfit run` wrote into");
-  AddPresentKeys(result.whole);
+  Result result{ReadResult(path.string()), {}};
   if (std::filesystem::exists(out / "stages" / "fit.json")) result.fit = ReadFitUncertainty(out.string());
   return result;
 }
 
 Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads, bool fresh,
            const std::optional<std::filesystem::path>& luminaires) {
-  CommandOptions options;
+  RunCommandOptions options;
   options.session = session.string();
   options.out = out.string();
   if (luminaires) options.earlier_luminaires = ResultFileOf(luminaires->string());
-  options.threads = threads;
   options.fresh = fresh;
   options.prints = false;
   options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";

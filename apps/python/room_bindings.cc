@@ -12,9 +12,9 @@
 #include "apps/session/session_scene.h"
 #include "apps/text/suggest.h"
 #include "forward/factors/form_factors.h"
-#include "forward/light/illuminance.h"
 #include "forward/light/room.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
+#include "inverse/model/fit_uncertainty.h"
 
 namespace luxfit {
 namespace {
@@ -26,14 +26,6 @@ std::vector<std::string> MethodNames() {
   std::vector<std::string> names;
   for (const FormFactorOps& ops : FormFactorMethods()) names.emplace_back(ops.name);
   return names;
-}
-
-// Returns the names of the methods: "hybrid, analytic or malley".
-std::string MethodsInWords() {
-  const std::vector<std::string> names = MethodNames();
-  std::string words = names.front();
-  for (size_t i = 1; i < names.size(); ++i) words += (i + 1 < names.size() ? ", " : " or ") + names[i];
-  return words;
 }
 
 std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::string& unit,
@@ -84,22 +76,14 @@ py::dict SensorLight(const Room& room, const std::vector<Luminaire>& luminaires,
                      const RowMajorXd& normal, const Albedo& given) {
   const std::vector<Sensor> sensors = SensorsFrom(position_m, normal);
   const Eigen::VectorXd albedo = AlbedoOf(room, given);
-  Eigen::MatrixXd total, direct;
+  PredictedPlaces light;
   {
     const py::gil_scoped_release release;
-    const Receivers receivers = MakeReceivers(room, {}, sensors);
-    const LuminaireVisibility visibility = ComputeVisibility(room, receivers, luminaires);
-    const Illuminance light = ComputeIlluminance(room, receivers, visibility, luminaires, albedo);
-    total = light.total.cast<double>();
-    direct = light.direct.cast<double>();
-    for (size_t k = 0; k < luminaires.size(); ++k) {
-      total.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-      direct.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-    }
+    light = PredictPlaces(room, luminaires, albedo, sensors, {});
   }
   py::dict result;
-  result["illuminance_lx"] = total;
-  result["direct_lx"] = direct;
+  result["illuminance_lx"] = light.total_lx;
+  result["direct_lx"] = light.direct_lx;
   return result;
 }
 
@@ -126,7 +110,7 @@ void BindRoom(py::module_& module) {
       "all that light needs of geometry.\n\n"
       "unit: of the mesh (m, cm, mm, in, ft). Elements (patch_size_m / 4 by default) receive light, "
       "patches send it. method: " +
-      MethodsInWords() + ", with so many rays over the hemisphere of an element.";
+      ListNames(MethodNames()) + ", with so many rays over the hemisphere of an element.";
   py::class_<Room>(module, "Room", about.c_str())
       .def(py::init(&ReadRoom), py::arg("mesh"), py::arg("unit") = "m", py::kw_only(),
            py::arg("patch_size_m") = 0.4, py::arg("element_size_m") = py::none(),

@@ -9,6 +9,7 @@
 #include "apps/python/bindings.h"
 #include "apps/session/earlier_result.h"
 #include "apps/session/session.h"
+#include "apps/stages/session_light.h"
 
 namespace luxfit {
 namespace {
@@ -106,10 +107,6 @@ py::list LuminaireList(const Session& session) {
   return list;
 }
 
-std::string RoleName(ReadingRole role) {
-  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
-}
-
 py::dict ReadingColumns(const Session& session) {
   const auto n = static_cast<Eigen::Index>(session.luxmeter.readings.size());
   py::list id, state, role;
@@ -119,7 +116,7 @@ py::dict ReadingColumns(const Session& session) {
     const SessionReading& reading = session.luxmeter.readings[static_cast<size_t>(i)];
     id.append(reading.id);
     state.append(reading.state);
-    role.append(RoleName(reading.role));
+    role.append(ToString(reading.role));
     position.row(i) = reading.position_m;
     normal.row(i) = reading.normal;
     lux[i] = reading.is_measured ? reading.illuminance_lx : kNan;
@@ -141,15 +138,10 @@ py::dict States(const Session& session) {
 }
 
 RowMajorXd Dimming(const Session& session) {
-  RowMajorXd dimming = RowMajorXd::Zero(static_cast<Eigen::Index>(session.states.size()),
-                                        static_cast<Eigen::Index>(session.luminaires.size()));
-  for (size_t s = 0; s < session.states.size(); ++s) {
-    for (size_t k = 0; k < session.luminaires.size(); ++k) {
-      const auto on = session.states[s].dimming.find(session.luminaires[k].id);
-      if (on != session.states[s].dimming.end())
-        dimming(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(k)) = on->second;
-    }
-  }
+  const std::vector<Eigen::VectorXd> by_state = DimmingOf(session);
+  RowMajorXd dimming(static_cast<Eigen::Index>(by_state.size()),
+                     static_cast<Eigen::Index>(session.luminaires.size()));
+  for (size_t s = 0; s < by_state.size(); ++s) dimming.row(static_cast<Eigen::Index>(s)) = by_state[s];
   return dimming;
 }
 

@@ -8,6 +8,7 @@
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/python/patch_light.h"
+#include "apps/stages/session_light.h"
 #include "apps/stages/simulate/given_session.h"
 #include "forward/light/choose_accuracy.h"
 #include "forward/room/threads.h"
@@ -33,17 +34,13 @@ Eigen::MatrixXd AtFullFlux(const Eigen::MatrixXf& per_lumen, const Eigen::Vector
 }
 
 Eigen::MatrixXd DimmingOfReadings(const Session& session) {
-  Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(session.luxmeter.readings.size()),
+  const std::vector<SessionReading>& readings = session.luxmeter.readings;
+  const std::vector<Eigen::VectorXd> by_state = DimmingOf(session);
+  Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(readings.size()),
                                                   static_cast<Eigen::Index>(session.luminaires.size()));
-  for (size_t i = 0; i < session.luxmeter.readings.size(); ++i) {
-    for (const SessionState& state : session.states) {
-      if (state.id != session.luxmeter.readings[i].state) continue;
-      for (size_t k = 0; k < session.luminaires.size(); ++k) {
-        const auto on = state.dimming.find(session.luminaires[k].id);
-        if (on != state.dimming.end())
-          dimming(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = on->second;
-      }
-    }
+  for (size_t i = 0; i < readings.size(); ++i) {
+    for (size_t s = 0; s < by_state.size(); ++s)
+      if (session.states[s].id == readings[i].state) dimming.row(static_cast<Eigen::Index>(i)) = by_state[s];
   }
   return dimming;
 }
@@ -59,11 +56,8 @@ Simulation Simulate(const Session& session, double error_percent, int threads) {
   result.accuracy = std::move(accurate.choice);
   result.scene_light.emplace(std::move(accurate.light));
   const std::vector<Luminaire>& luminaires = result.given.lit.luminaires;
-  result.flux_lm.resize(static_cast<Eigen::Index>(luminaires.size()));
-  for (size_t k = 0; k < luminaires.size(); ++k) {
-    result.flux_lm[static_cast<Eigen::Index>(k)] = luminaires[k].flux_lm;
-    result.luminaire_ids.push_back(luminaires[k].id);
-  }
+  result.flux_lm = FluxesLm(luminaires);
+  for (const Luminaire& luminaire : luminaires) result.luminaire_ids.push_back(luminaire.id);
   result.patches = ComputePatchLight(result.scene_light->room, luminaires, result.given.lit.albedo_rgb,
                                      result.given.lit.channel_weights);
   result.dimming_of_reading = DimmingOfReadings(session);
@@ -78,13 +72,6 @@ Eigen::VectorXd AtReadings(const Simulation& s, const Eigen::MatrixXf& by_place)
     lx[i] =
         full.row(s.given.places.sensor_of_reading[static_cast<size_t>(i)]).dot(s.dimming_of_reading.row(i));
   return lx;
-}
-
-RowMajorXd SensorRows(const Simulation& s, Eigen::Vector3d Sensor::*member) {
-  const std::vector<Sensor>& sensors = s.given.places.sensors;
-  RowMajorXd rows(static_cast<Eigen::Index>(sensors.size()), 3);
-  for (size_t i = 0; i < sensors.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = sensors[i].*member;
-  return rows;
 }
 
 py::dict PatchesOf(const Simulation& s) {
@@ -105,10 +92,12 @@ void BindSimulation(py::module_& module) {
       .def_readonly("luminaire_ids", &Simulation::luminaire_ids)
       .def_readonly("flux_lm", &Simulation::flux_lm, "(K,)")
       .def_property_readonly(
-          "sensor_position_m", [](const Simulation& s) { return SensorRows(s, &Sensor::position); },
+          "sensor_position_m",
+          [](const Simulation& s) { return MemberRows(s.given.places.sensors, &Sensor::position); },
           "(S, 3): the places of the readings, each once.")
       .def_property_readonly(
-          "sensor_normal", [](const Simulation& s) { return SensorRows(s, &Sensor::normal); }, "(S, 3)")
+          "sensor_normal",
+          [](const Simulation& s) { return MemberRows(s.given.places.sensors, &Sensor::normal); }, "(S, 3)")
       .def_property_readonly(
           "illuminance_lx",
           [](const Simulation& s) { return AtFullFlux(s.scene_light->light.total, s.flux_lm); },

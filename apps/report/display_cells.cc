@@ -83,7 +83,7 @@ DisplayCells MergeForDisplay(const Patches& patches, int max_cells) {
   display.merged = LeastMerge(patches, max_cells);
   std::vector<std::vector<int>> elements_of(patches.facets.size());
   for (size_t e = 0; e < patches.elements.size(); ++e) {
-    const Patch& patch = patches.patches[static_cast<size_t>(patches.elements[e].patch)];
+    const Patch& patch = patches.PatchOf(static_cast<int>(e));
     elements_of[static_cast<size_t>(patch.facet)].push_back(static_cast<int>(e));
   }
   for (size_t f = 0; f < patches.facets.size(); ++f) {

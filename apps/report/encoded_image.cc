@@ -60,8 +60,9 @@ ImagePlane Reduced(const ImagePlane& plane, int width_px) {
   return reduced;
 }
 
-std::vector<uint8_t> EncodeJpeg(const DisplayPicture& picture, int quality) {
-  return Encode(picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, quality});
+std::vector<uint8_t> EncodeJpeg(const DisplayPicture& picture) {
+  constexpr int kQuality = 85;
+  return Encode(picture, ".jpg", {cv::IMWRITE_JPEG_QUALITY, kQuality});
 }
 
 std::vector<uint8_t> EncodePng(const DisplayPicture& picture) { return Encode(picture, ".png", {}); }

@@ -28,7 +28,7 @@ DisplayPicture ToDisplay(const std::array<ImagePlane, 3>& linear_rgb, double whi
 // plane itself where it has no more columns. Throws std::invalid_argument where width_px < 1.
 ImagePlane Reduced(const ImagePlane& plane, int width_px);
 
-std::vector<uint8_t> EncodeJpeg(const DisplayPicture& picture, int quality = 85);
+std::vector<uint8_t> EncodeJpeg(const DisplayPicture& picture);
 std::vector<uint8_t> EncodePng(const DisplayPicture& picture);
 
 }  // namespace luxfit

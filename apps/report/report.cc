@@ -3,7 +3,9 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
+#include "apps/export/fit_uncertainty.h"
 #include "apps/report/report_page.h"
+#include "apps/report/report_places.h"
 #include "apps/report/report_room.h"
 #include "apps/report/report_views.h"
 #include "apps/text/formats/artifact.h"
@@ -48,18 +50,12 @@ json ConditionsJson(const FittedRoom& fitted) {
       entry["size_px"] = {fitted.registered.cameras[c].width_px, fitted.registered.cameras[c].height_px};
     cameras.push_back(entry);
   }
-  double largest_ambient_lx = 0;
-  bool has_ambient = false;
-  for (const SessionReading& reading : session.luxmeter.readings) {
-    largest_ambient_lx = std::max(largest_ambient_lx, reading.ambient_lx);
-    has_ambient = has_ambient || reading.ambient_lx > 0;
-  }
   return {{"photos", photos},
           {"cameras", cameras},
           {"meter_class", session.luxmeter.meter_class},
           {"sensitivity",
            session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
-          {"ambient_lx", has_ambient ? json(largest_ambient_lx) : json()},
+          {"ambient_lx", nullptr},  // the room holds the readings as they were read
           {"mesh", session.scene ? json(session.scene->mesh) : json()},
           {"unit", session.scene ? json(session.scene->unit) : json()},
           {"tags", session.tags.survey.size()},
@@ -103,11 +99,12 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
                {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
   data["result"] = *fitted.result;
   data["states"] = StatesJson(fitted);
-  data["luminaires"] = ReportLuminairesJson(fitted);
+  const FitUncertainty fit = ReadFitUncertainty(fitted.out);
+  data["luminaires"] = ReportLuminairesJson(fitted, fit);
   data["room"] = ReportRoomJson(fitted);
   data["cameras"] = ReportCamerasJson(fitted);
   data["tags"] = ReportTagsJson(fitted);
-  data["places"] = PlacesJson(fitted, PlacesOf(fitted, targets));
+  data["places"] = ReportPlacesJson(fitted, fit, targets);
   data["views"] = ReportViewsJson(fitted);
   data["conditions"] = ConditionsJson(fitted);
   data["tasks"] = TasksJson();

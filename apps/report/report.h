@@ -9,8 +9,6 @@
 #include <string>
 
 #include "apps/export/fitted_room.h"
-#include "apps/report/report_places.h"
-#include "apps/session/report_targets.h"
 
 namespace luxfit {
 

@@ -14,7 +14,7 @@
 
 namespace luxfit {
 
-// The build makes it from apps/report/ (CMakeLists.txt).
+// The build makes it from apps/report/page/ (CMakeLists.txt).
 struct ReportAssets {
   std::string_view html, css, script;
 };

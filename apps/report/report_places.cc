@@ -4,15 +4,46 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "apps/export/fit_uncertainty.h"
+#include "apps/stages/simulate/given_session.h"
 #include "apps/text/formats/base64.h"
 #include "apps/text/formats/json_vectors.h"
+#include "forward/views/glare.h"
+#include "forward/views/illuminance_plane.h"
 
 namespace luxfit {
 namespace {
 
 using nlohmann::json;
 
+struct ReportPlane {
+  TargetArea area;
+  IlluminancePlane plane;
+  PlaneGrid grid;
+  std::vector<GridPointKind> kinds;
+  Eigen::Index first_place = 0;
+  // The same rectangle with `refined` times as many points a side, for lines of equal illuminance. It has
+  // total_lx alone, from fewer rays (about 0.3 % of the indirect light).
+  int refined = 1;
+  PlaneGrid fine_grid;
+  std::vector<GridPointKind> fine_kinds;
+  Eigen::MatrixXd fine_lx;  // points x luminaires
+};
+
+struct ReportObserver {
+  TargetObserver target;
+  bool is_inside = false;            // inside a solid: no glare is computed
+  std::vector<GlareSource> sources;  // by luminaire
+  Eigen::Index place = 0;
+};
+
+struct ReportPlaces {
+  ReadingPlaces readings;  // places 0..
+  std::vector<ReportPlane> planes;
+  std::vector<ReportObserver> observers;
+  PredictedPlaces light;
+  double relative_model_error = 0;
+  std::vector<std::string> undetermined;  // parameters of the fit
+};
 // Refines the grid by an odd factor, so that the standard's points are among the fine ones.
 void Refine(const FittedRoom& fitted, ReportPlane& plane) {
   constexpr Eigen::Index kMaxFinePoints = 800;
@@ -88,6 +119,73 @@ std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
 // Returns the sensor at the eye: a meter that faces where the observer looks.
 Sensor EyeOf(const TargetObserver& target) { return {target.eye_m, target.looking, {}}; }
 
+ReportPlaces PlacesOf(const FittedRoom& fitted, const FitUncertainty& fit, const ReportTargets& targets) {
+  ReportPlaces places;
+  places.readings = PlacesOfReadings(fitted.session);
+  std::vector<Sensor> sensors = places.readings.sensors;
+  if (!fitted.room.scene.facets.empty()) {
+    places.planes = PlanesOf(fitted, targets.areas);
+    LightFinePoints(fitted, places.planes);
+    places.observers = ObserversOf(fitted, targets.observers);
+  }
+  for (ReportPlane& plane : places.planes) {
+    plane.first_place = static_cast<Eigen::Index>(sensors.size());
+    sensors.reserve(sensors.size() + static_cast<size_t>(plane.grid.points.cols()));
+    for (const auto& point : plane.grid.points.colwise()) sensors.push_back({point, plane.grid.normal, {}});
+  }
+  for (ReportObserver& observer : places.observers) {
+    observer.place = static_cast<Eigen::Index>(sensors.size());
+    sensors.push_back(EyeOf(observer.target));
+  }
+  places.relative_model_error = fit.relative_model_sigma;
+  places.undetermined = NamesOf(fit.Undetermined());
+  places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors,
+                               fit.covariance.size() > 0 ? ParameterCovariance{fit.parameters, fit.covariance}
+                                                         : ParameterCovariance{});
+  // Sigmas would be too small where a parameter is not known at all.
+  if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
+  return places;
+}
+
+// Returns the factor of the covariance for places from `first` on, under dimming.
+Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming, Eigen::Index first,
+                            Eigen::Index count) {
+  if (light.factor.size() == 0) return {};
+  const Eigen::Index lamps = dimming.size();
+  Eigen::MatrixXd factor(count, light.factor.cols());
+  for (Eigen::Index i = 0; i < count; ++i)
+    factor.row(i) = dimming.transpose() * light.factor.middleRows((first + i) * lamps, lamps);
+  return factor;
+}
+
+PlaneStatistics StatisticsUnder(const ReportPlaces& places, const ReportPlane& plane,
+                                const Eigen::VectorXd& dimming) {
+  const Eigen::Index count = plane.grid.points.cols();
+  std::vector<bool> counts;
+  counts.reserve(plane.kinds.size());
+  for (const GridPointKind kind : plane.kinds) counts.push_back(kind == GridPointKind::kCounts);
+  return StatisticsOf(places.light.total_lx.middleRows(plane.first_place, count) * dimming, counts,
+                      FactorUnder(places.light, dimming, plane.first_place, count),
+                      places.relative_model_error);
+}
+
+// Returns the glare rating. It is NaN where it is undefined: no background light, or a luminaire that is on
+// without a known luminous area.
+double GlareUnder(const ReportPlaces& places, const ReportObserver& observer,
+                  const Eigen::VectorXd& dimming) {
+  constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
+  if (observer.is_inside) return kNotDefined;
+  double sum = 0, indirect_lx = 0;
+  for (Eigen::Index k = 0; k < dimming.size(); ++k) {
+    const GlareSource& source = observer.sources[static_cast<size_t>(k)];
+    if (dimming[k] > 0 && !source.is_defined) return kNotDefined;
+    sum += dimming[k] * dimming[k] * source.sum;
+    indirect_lx +=
+        dimming[k] * (places.light.total_lx(observer.place, k) - places.light.direct_lx(observer.place, k));
+  }
+  return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / M_PI) : kNotDefined;
+}
+
 // Encodes the light of `count` places from `first` on; the rows of a place are its luminaires.
 json LightJson(const PredictedPlaces& light, Eigen::Index first, Eigen::Index count) {
   const Eigen::Index lamps = light.total_lx.cols();
@@ -157,85 +255,15 @@ json ObserverJson(const FittedRoom& fitted, const ReportPlaces& places, const Re
                                 {"luminance_cd_m2", source.luminance_cd_m2},
                                 {"least_index", source.least_index}});
   for (const SessionState& state : fitted.session.states) {
-    const double rating = GlareUnder(places, observer, DimmingOf(fitted, state.id));
-    entry["rating"].push_back(std::isfinite(rating) ? json(rating) : json());
+    entry["rating"].push_back(NumberOrNull(GlareUnder(places, observer, DimmingOf(fitted, state.id))));
   }
   return entry;
 }
 
 }  // namespace
 
-ReportPlaces PlacesOf(const FittedRoom& fitted, const ReportTargets& targets) {
-  ReportPlaces places;
-  places.readings = PlacesOfReadings(fitted.session);
-  std::vector<Sensor> sensors = places.readings.sensors;
-  if (!fitted.room.scene.facets.empty()) {
-    places.planes = PlanesOf(fitted, targets.areas);
-    LightFinePoints(fitted, places.planes);
-    places.observers = ObserversOf(fitted, targets.observers);
-  }
-  for (ReportPlane& plane : places.planes) {
-    plane.first_place = static_cast<Eigen::Index>(sensors.size());
-    sensors.reserve(sensors.size() + static_cast<size_t>(plane.grid.points.cols()));
-    for (const auto& point : plane.grid.points.colwise()) sensors.push_back({point, plane.grid.normal, {}});
-  }
-  for (ReportObserver& observer : places.observers) {
-    observer.place = static_cast<Eigen::Index>(sensors.size());
-    sensors.push_back(EyeOf(observer.target));
-  }
-  const FitUncertainty fit = ReadFitUncertainty(fitted.out);
-  places.relative_model_error = fit.relative_model_sigma;
-  places.undetermined = NamesOf(fit.Undetermined());
-  places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors,
-                               fit.covariance.size() > 0 ? ParameterCovariance{fit.parameters, fit.covariance}
-                                                         : ParameterCovariance{});
-  // Sigmas would be too small where a parameter is not known at all.
-  if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
-  return places;
-}
-
-Eigen::VectorXd IlluminanceUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming,
-                                 Eigen::Index first, Eigen::Index count) {
-  return light.total_lx.middleRows(first, count) * dimming;
-}
-
-Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming, Eigen::Index first,
-                            Eigen::Index count) {
-  if (light.factor.size() == 0) return {};
-  const Eigen::Index lamps = dimming.size();
-  Eigen::MatrixXd factor(count, light.factor.cols());
-  for (Eigen::Index i = 0; i < count; ++i)
-    factor.row(i) = dimming.transpose() * light.factor.middleRows((first + i) * lamps, lamps);
-  return factor;
-}
-
-PlaneStatistics StatisticsUnder(const ReportPlaces& places, const ReportPlane& plane,
-                                const Eigen::VectorXd& dimming) {
-  const Eigen::Index count = plane.grid.points.cols();
-  std::vector<bool> counts;
-  counts.reserve(plane.kinds.size());
-  for (const GridPointKind kind : plane.kinds) counts.push_back(kind == GridPointKind::kCounts);
-  return StatisticsOf(IlluminanceUnder(places.light, dimming, plane.first_place, count), counts,
-                      FactorUnder(places.light, dimming, plane.first_place, count),
-                      places.relative_model_error);
-}
-
-double GlareUnder(const ReportPlaces& places, const ReportObserver& observer,
-                  const Eigen::VectorXd& dimming) {
-  constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
-  if (observer.is_inside) return kNotDefined;
-  double sum = 0, indirect_lx = 0;
-  for (Eigen::Index k = 0; k < dimming.size(); ++k) {
-    const GlareSource& source = observer.sources[static_cast<size_t>(k)];
-    if (dimming[k] > 0 && !source.is_defined) return kNotDefined;
-    sum += dimming[k] * dimming[k] * source.sum;
-    indirect_lx +=
-        dimming[k] * (places.light.total_lx(observer.place, k) - places.light.direct_lx(observer.place, k));
-  }
-  return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / M_PI) : kNotDefined;
-}
-
-json PlacesJson(const FittedRoom& fitted, const ReportPlaces& places) {
+json ReportPlacesJson(const FittedRoom& fitted, const FitUncertainty& fit, const ReportTargets& targets) {
+  const ReportPlaces places = PlacesOf(fitted, fit, targets);
   json page = {{"planes", json::array()}, {"observers", json::array()}};
   const Eigen::Index count = static_cast<Eigen::Index>(places.readings.sensors.size());
   page["points"] = json::array();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/export/fit_uncertainty.h"
 #include "apps/report/display_cells.h"
 #include "apps/stages/simulate/given_luminaire.h"
 #include "apps/text/formats/base64.h"
@@ -15,6 +14,8 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kMaxDisplayCells = 50'000;
 
 json FacetsJson(const FittedRoom& fitted, const DisplayCells& display) {
   const std::vector<Facet>& facets = fitted.room.patches.facets;
@@ -90,10 +91,10 @@ json EllipsoidJson(const Eigen::Matrix3d& covariance_m2) {
 
 }  // namespace
 
-json ReportRoomJson(const FittedRoom& fitted, int max_cells) {
+json ReportRoomJson(const FittedRoom& fitted) {
   const Patches& patches = fitted.room.patches;
   if (patches.elements.empty()) return nullptr;
-  const DisplayCells display = MergeForDisplay(patches, max_cells);
+  const DisplayCells display = MergeForDisplay(patches, kMaxDisplayCells);
   const Eigen::MatrixXd total = CellMeans(patches, display, fitted.element_lx);
   const Eigen::MatrixXd direct = CellMeans(patches, display, fitted.element_direct_lx);
   const Eigen::AlignedBox3d box = fitted.room.scene.Bounds();
@@ -104,8 +105,7 @@ json ReportRoomJson(const FittedRoom& fitted, int max_cells) {
           {"min_m", VectorJson(box.min())},           {"max_m", VectorJson(box.max())}};
 }
 
-json ReportLuminairesJson(const FittedRoom& fitted) {
-  const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
+json ReportLuminairesJson(const FittedRoom& fitted, const FitUncertainty& fit) {
   json luminaires = json::array();
   for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
     const Luminaire& luminaire = fitted.luminaires[k];
@@ -119,7 +119,7 @@ json ReportLuminairesJson(const FittedRoom& fitted) {
                   {"size_m", VectorJson(luminaire.size_m)},
                   {"flux", luminaire.flux_lm},
                   {"curves", CurvesJson(luminaire)},
-                  {"ellipsoid", EllipsoidJson(PositionCovariance(uncertainty, luminaire.id))}};
+                  {"ellipsoid", EllipsoidJson(PositionCovariance(fit, luminaire.id))}};
     const GivenLuminaire given = ReadGivenLuminaire(fitted.session.luminaires[k]);
     if (given.file && given.file->luminaire_flux_lm > 0) {
       Luminaire stated = luminaire;

@@ -10,17 +10,16 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "apps/export/fitted_room.h"
+#include "inverse/model/fit_uncertainty.h"
 
 namespace luxfit {
 
-constexpr int kMaxDisplayCells = 50'000;
-
-nlohmann::json ReportRoomJson(const FittedRoom& fitted, int max_cells = kMaxDisplayCells);
+nlohmann::json ReportRoomJson(const FittedRoom& fitted);
 
 // Describes the luminaires: their geometry, and their luminous intensity (cd) over gamma in the planes
 // C0-C180 and C90-C270 (gamma < 0: C180, C270). `given` is the curve of the photometric file with the flux
 // that it states.
-nlohmann::json ReportLuminairesJson(const FittedRoom& fitted);
+nlohmann::json ReportLuminairesJson(const FittedRoom& fitted, const FitUncertainty& fit);
 
 // Describes the registered views: centre and the directions of the four corners of the image, in world.
 nlohmann::json ReportCamerasJson(const FittedRoom& fitted);

@@ -20,6 +20,9 @@ using nlohmann::json;
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kMaxWidthPx = 400;
+constexpr double kMaxPixels = 1e6;  // in all photos together
+// Residual at which the colour scale ends.
+constexpr double kResidualLimitPercent = 20;
 
 // Holds a photo and its prediction, pixel by pixel, reduced.
 struct ComparedView {
@@ -168,8 +171,8 @@ json ViewJson(const ComparedView& view, double scale) {
           {"largest_tenth_percent", QuantileOf(magnitudes, 0.9)}};
 }
 
-int WidthFor(const Camera& camera, size_t pictures, int max_pixels) {
-  const double pixels = static_cast<double>(max_pixels) / static_cast<double>(std::max<size_t>(1, pictures));
+int WidthFor(const Camera& camera, size_t pictures) {
+  const double pixels = kMaxPixels / static_cast<double>(std::max<size_t>(1, pictures));
   const double width = std::sqrt(pixels * camera.width_px / camera.height_px);
   return std::clamp(static_cast<int>(width), 16, std::min(kMaxWidthPx, camera.width_px));
 }
@@ -179,7 +182,7 @@ int WidthFor(const Camera& camera, size_t pictures, int max_pixels) {
 struct StatePhotos {
   std::string state;
   Eigen::VectorXd dimming;
-  std::vector<const SessionPhoto*> photo_of_view;  // null: no photo in this state
+  std::vector<const LinearizedPhoto*> photo_of_view;  // null: no photo in this state
   std::vector<ComparedView> views;
 };
 
@@ -196,19 +199,19 @@ std::vector<float> RatiosOf(const std::vector<StatePhotos>& states) {
   return ratios;
 }
 
-std::vector<StatePhotos> PhotosByState(const FittedRoom& fitted, const Session& session) {
+std::vector<StatePhotos> PhotosByState(const FittedRoom& fitted, const LinearizedPhotos& photos) {
   std::vector<StatePhotos> all;
-  for (const SessionState& state : session.states) {
-    StatePhotos photos{state.id, DimmingOf(fitted, state.id), {}, {}};
+  for (const SessionState& state : fitted.session.states) {
+    StatePhotos own{state.id, DimmingOf(fitted, state.id), {}, {}};
     bool has_one = false;
     for (const RegisteredView& view : fitted.registered.registration.views) {
       const auto found = std::find_if(
-          session.photos.begin(), session.photos.end(),
-          [&](const SessionPhoto& photo) { return photo.view == view.view && photo.state == state.id; });
-      photos.photo_of_view.push_back(found == session.photos.end() ? nullptr : &*found);
-      has_one = has_one || photos.photo_of_view.back() != nullptr;
+          photos.photos.begin(), photos.photos.end(),
+          [&](const LinearizedPhoto& photo) { return photo.view == view.view && photo.state == state.id; });
+      own.photo_of_view.push_back(found == photos.photos.end() ? nullptr : &*found);
+      has_one = has_one || own.photo_of_view.back() != nullptr;
     }
-    if (has_one && photos.dimming.maxCoeff() > 0) all.push_back(std::move(photos));
+    if (has_one && own.dimming.maxCoeff() > 0) all.push_back(std::move(own));
   }
   return all;
 }
@@ -223,16 +226,16 @@ std::vector<LitRoom> LightOfEach(const FittedRoom& fitted) {
 }
 
 // Compares the photos of one view in every state.
-void CompareView(const FittedRoom& fitted, const Session& session, const PhotoCorrections& corrections,
-                 const std::vector<LitRoom>& lit, size_t index, int width_px,
-                 std::vector<StatePhotos>& states) {
+void CompareView(const FittedRoom& fitted, const LinearizedPhotos& photos,
+                 const PhotoCorrections& corrections, const std::vector<LitRoom>& lit, size_t index,
+                 int width_px, std::vector<StatePhotos>& states) {
   const RegisteredView& view = fitted.registered.registration.views[index];
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(view.camera)];
   std::vector<ComparedView> compared(states.size());
   tbb::parallel_for(size_t{0}, states.size(), [&](size_t s) {
-    const SessionPhoto* photo = states[s].photo_of_view[index];
+    const LinearizedPhoto* photo = states[s].photo_of_view[index];
     if (photo == nullptr) return;
-    compared[s] = ReducedPhoto(ReadCorrected(session, *photo, camera, corrections), view.view, width_px);
+    compared[s] = ReducedPhoto(ReadCorrected(photos, *photo, camera, corrections), view.view, width_px);
   });
   std::vector<Eigen::MatrixXd> luminance;
   for (size_t s = 0; s < states.size(); ++s) {
@@ -249,21 +252,21 @@ void CompareView(const FittedRoom& fitted, const Session& session, const PhotoCo
 
 }  // namespace
 
-json ReportViewsJson(const FittedRoom& fitted, const ReportViewsOptions& options) {
+json ReportViewsJson(const FittedRoom& fitted) {
   json page = {
       {"limit_percent", kResidualLimitPercent}, {"scale_is_of_fit", true}, {"states", json::array()}};
   const auto& registered = fitted.registered.registration.views;
   if (registered.empty() || fitted.session.photos.empty()) return page;
   RunContext context;
   context.is_quiet = true;
-  const Session session = LinearizeSession(fitted.session, context);
-  std::vector<StatePhotos> states = PhotosByState(fitted, session);
+  const LinearizedPhotos photos = LinearizePhotos(fitted.session, context);
+  std::vector<StatePhotos> states = PhotosByState(fitted, photos);
   const PhotoCorrections corrections = ReadPhotoCorrections(fitted.out);
   const std::vector<LitRoom> lit = LightOfEach(fitted);
   for (size_t v = 0; v < registered.size(); ++v) {
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(registered[v].camera)];
-    CompareView(fitted, session, corrections, lit, v,
-                WidthFor(camera, registered.size() * states.size(), options.max_pixels), states);
+    CompareView(fitted, photos, corrections, lit, v, WidthFor(camera, registered.size() * states.size()),
+                states);
   }
   double scale = fitted.camera_scale;
   page["scale_is_of_fit"] = scale > 0;

@@ -15,16 +15,9 @@
 
 namespace luxfit {
 
-// Residual in percent at which the colour scale ends.
-constexpr double kResidualLimitPercent = 20;
-
-struct ReportViewsOptions {
-  int max_pixels = 1'000'000;  // in all photos together
-};
-
 // Compares the photos of registered views in every state. Returns an empty list where there are none. Throws
 // as ReadLuminance does.
-nlohmann::json ReportViewsJson(const FittedRoom& fitted, const ReportViewsOptions& options = {});
+nlohmann::json ReportViewsJson(const FittedRoom& fitted);
 
 }  // namespace luxfit
 

@@ -30,11 +30,11 @@ PhotoCorrections ReadPhotoCorrections(const std::string& out) {
   }
 }
 
-PhotoCorrection PhotoCorrections::Of(const Session& session, const SessionPhoto& photo) const {
+PhotoCorrection PhotoCorrections::Of(const std::string& camera, const std::string& file) const {
   PhotoCorrection correction;
-  const auto camera = of_camera.find(session.cameras[static_cast<size_t>(photo.camera)].id);
-  if (camera != of_camera.end()) correction = camera->second;
-  const auto gain = log_gain.find(photo.file);
+  const auto known = of_camera.find(camera);
+  if (known != of_camera.end()) correction = known->second;
+  const auto gain = log_gain.find(file);
   if (gain != log_gain.end()) correction.log_gain = gain->second;
   return correction;
 }

@@ -9,7 +9,6 @@
 #include <map>
 #include <string>
 
-#include "apps/session/session.h"
 #include "calib/luminance/luminance.h"
 
 namespace luxfit {
@@ -20,7 +19,7 @@ struct PhotoCorrections {
   std::map<std::string, double> log_gain;
   std::map<std::string, PhotoCorrection> of_camera;
 
-  PhotoCorrection Of(const Session& session, const SessionPhoto& photo) const;
+  PhotoCorrection Of(const std::string& camera, const std::string& file) const;
 };
 PhotoCorrections ReadPhotoCorrections(const std::string& out);
 

@@ -1,34 +1,30 @@
 #include "apps/session/photo_names.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 #include <set>
+
+#include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 bool IsEverything(const std::string& state) {
   const std::set<std::string> words = {"all", "on", "full"};
-  return words.count(Lower(state)) > 0;
+  return words.count(Lowercase(state)) > 0;
 }
 
 bool IsNothing(const std::string& state) {
   const std::set<std::string> words = {"off", "dark", "ambient", "none", "black"};
-  return words.count(Lower(state)) > 0;
+  return words.count(Lowercase(state)) > 0;
 }
 
 // Tells names of things (A, B2, lamp1, desk_spot) from names of occasions.
 bool IsLuminaireName(const std::string& state) {
-  const std::string lower = Lower(state);
+  const std::string lower = Lowercase(state);
   const bool has_digit = lower.find_first_of("0123456789") != std::string::npos;
   const std::vector<std::string> words = {"lamp", "light", "lum", "spot", "panel", "downlight", "tube"};
   return lower.size() <= 3 || has_digit ||

@@ -153,6 +153,10 @@ std::vector<std::string> InputFiles(const Session& session) {
 
 }  // namespace
 
+std::string ToString(ReadingRole role) {
+  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
+}
+
 Session ReadSession(const std::string& path) {
   ExpectSessionFile(path);
   const toml::table document = ReadTomlFile(path);

@@ -1,7 +1,8 @@
 // Reads a session, one TOML file and the tables that it names, and checks it; paths become absolute.
 //
 // Units are those of the format: m, s, lm, lx. `scene.unit` is converted to metres per mesh unit. A value
-// that the file leaves out is an empty optional or an empty list, never an invented value.
+// that the file leaves out is an empty optional or an empty list, never an invented value. What the stages
+// derive from a session has types of its own (apps/stages/linearize/linearized_session.h).
 //
 // Throws std::runtime_error("FILE:LINE: key: expected ..., got ...") for anything malformed: unknown keys
 // (with the nearest known one), missing files, wrong headers, decimal commas, unknown camera, state or
@@ -18,8 +19,6 @@
 #include <vector>
 
 #include "calib/lens/lens_family.h"
-#include "calib/luminance/response.h"
-#include "calib/luminance/vignetting.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 #include "forward/direct/sensor.h"
@@ -63,20 +62,9 @@ struct SessionCamera {
   double cdm2_per_count_s = 0;  // 0: unknown
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
   int line = 0;  // line of its [[camera]]
-  // The linearize stage fills these in.
-  std::optional<CameraResponse> response_curve;  // absent: linear
-  std::optional<Vignetting> vignetting_model;  // from a flat field; absent: V = 1, or estimated from surfaces
-  double full_scale_counts = 65535;            // counts of its photos, above black for RAW
 };
 
-// Holds one file of a bracket.
-struct SessionExposure {
-  std::string file;
-  // exposure_s * (iso / iso of the camera's first photo) * (f-number of that / f-number)^2, as corrected.
-  double relative_exposure_s = 0;
-  int line = 0;
-};
-
+// Holds one row of the photo table.
 struct SessionPhoto {
   std::string file;  // absolute path, checked to exist
   int camera = 0;    // index into cameras
@@ -85,9 +73,6 @@ struct SessionPhoto {
   double exposure_s = 0;  // 0: the photo's own metadata states it
   std::optional<double> f_number, iso;
   int line = 0;  // in the photo table
-  // The linearize stage fills this in: it makes one photo of the rows of one view, state and camera, with the
-  // longest exposure first.
-  std::vector<SessionExposure> bracket;
 };
 
 struct SessionState {
@@ -134,15 +119,15 @@ struct SessionLuminaire {
 };
 
 enum class ReadingRole { kFit, kScale, kCheck };
+std::string ToString(ReadingRole role);  // as in result.json
 
 struct SessionReading {
   std::string id;
   Eigen::Vector3d position_m;
   Eigen::Vector3d normal;  // unit
   std::string state;
-  bool is_measured = true;    // false: the lux field is empty, to be predicted only
-  double illuminance_lx = 0;  // 0 where not measured; without ambient light after the linearize stage
-  double ambient_lx = 0;      // measured there with all luminaires off, and subtracted
+  bool is_measured = true;    // false: illuminance_lx is empty, to be predicted only
+  double illuminance_lx = 0;  // 0 where not measured; with the ambient light
   ReadingRole role = ReadingRole::kCheck;
   std::string sensor;  // id where a meter has several sensors, each with its own gain; else empty
   int line = 0;        // in the readings table

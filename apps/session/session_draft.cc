@@ -113,7 +113,7 @@ std::string PhotoTable(const SessionDraft& draft) {
   return text;
 }
 
-std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,lux\n"; }
+std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\n"; }
 
 std::vector<std::string> ToDo(const SessionDraft& draft) {
   std::vector<std::string> list;

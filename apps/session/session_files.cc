@@ -3,7 +3,6 @@
 #include <glob.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -74,10 +73,6 @@ std::vector<std::string> FindFiles(const TomlCursor& pattern, const std::string&
 
 std::string AbsolutePath(const std::string& path) { return fs::absolute(path).lexically_normal().string(); }
 
-std::string ExtensionOf(const std::string& name) {
-  std::string extension = fs::path(name).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
+std::string ExtensionOf(const std::string& name) { return Lowercase(fs::path(name).extension().string()); }
 
 }  // namespace luxfit

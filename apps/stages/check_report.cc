@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/name_pattern.h"
 #include "apps/text/suggest.h"
-#include "inverse/check/luxmeter_check.h"
 
 namespace luxfit {
 namespace {
@@ -49,13 +49,14 @@ json Row(const std::string& of, const std::vector<NamedReading>& readings, const
     difference_lx += named.reading.predicted_lx - named.reading.measured_lx;
   }
   const LuxmeterSummary summary = SummarizeLuxmeter(own);
+  const double mean_percent = measured_lx > 0 ? 100 * difference_lx / measured_lx : 0;
   return {{"of", of},
           {"readings", summary.readings_checked},
-          {"mean_lx", own.empty() ? 0 : measured_lx / static_cast<double>(own.size())},
-          {"mean_error_percent", measured_lx > 0 ? 100 * difference_lx / measured_lx : 0},
-          {"mean_abs_error_lx", summary.mean_abs_error_lx},
-          {"mean_abs_error_percent", summary.mean_abs_error_percent},
-          {"max_abs_error_percent", summary.max_abs_error_percent}};
+          {"mean_lx", NumberOrNull(measured_lx / static_cast<double>(own.size()))},
+          {"mean_error_percent", own.empty() ? json() : json(mean_percent)},
+          {"mean_abs_error_lx", NumberOrNull(summary.mean_abs_error_lx)},
+          {"mean_abs_error_percent", NumberOrNull(summary.mean_abs_error_percent)},
+          {"max_abs_error_percent", NumberOrNull(summary.max_abs_error_percent)}};
 }
 
 json TableOf(const std::vector<NamedReading>& readings, const std::string& subset) {
@@ -76,6 +77,13 @@ json TableOf(const std::vector<NamedReading>& readings, const std::string& subse
 }
 
 }  // namespace
+
+json SummaryJson(const LuxmeterSummary& summary) {
+  return {{"mean_abs_error_lx", NumberOrNull(summary.mean_abs_error_lx)},
+          {"mean_abs_error_percent", NumberOrNull(summary.mean_abs_error_percent)},
+          {"max_abs_error_percent", NumberOrNull(summary.max_abs_error_percent)},
+          {"readings_checked", summary.readings_checked}};
+}
 
 json CheckJson(const json& luxmeter, const std::string& subset) {
   const std::vector<NamedReading> readings = CheckedReadings(luxmeter);

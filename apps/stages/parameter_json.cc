@@ -25,10 +25,6 @@ std::string OwnerKey(ParameterKind kind) {
   return "";
 }
 
-bool HasParts(LuminaireQuantity quantity) {
-  return quantity == LuminaireQuantity::kGammaNode || quantity == LuminaireQuantity::kCell;
-}
-
 template <typename Word>
 Word Known(const std::optional<Word>& word, const json& entry) {
   if (!word) throw json::other_error::create(501, "unknown parameter " + entry.dump(), &entry);

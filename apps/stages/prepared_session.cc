@@ -14,7 +14,7 @@
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
 #include "inverse/check/luxmeter_check.h"
-#include "inverse/fit/fit_outcome.h"
+#include "inverse/fit/fit_room.h"
 
 namespace luxfit {
 namespace {
@@ -39,14 +39,14 @@ void ExpectSceneFrame(const Session& session, const RegisteredSession& registere
 }
 
 // Returns the mean error of the readings that only check; NaN where there are none.
-double MeanCheckError(const Session& session, const RoomFit& fit) {
+double MeanCheckError(const std::vector<LuminaireReading>& readings, const RoomFit& fit) {
   std::vector<CheckedReading> checked;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
   for (size_t i = 0; i < predictions.size(); ++i) {
-    const SessionReading& given = session.luxmeter.readings[i];
+    const SessionReading& given = readings[i].given;
     if (given.role != ReadingRole::kCheck || !given.is_measured || !predictions[i].is_known) continue;
-    checked.push_back({given.illuminance_lx, predictions[i].illuminance_lx, fit.data.readings[i].sigma_lx,
-                       predictions[i].sigma_lx});
+    checked.push_back({readings[i].illuminance_lx, predictions[i].illuminance_lx,
+                       fit.data.readings[i].sigma_lx, predictions[i].sigma_lx});
   }
   return checked.empty() ? std::numeric_limits<double>::quiet_NaN()
                          : SummarizeLuxmeter(checked).mean_abs_error_percent;
@@ -54,46 +54,52 @@ double MeanCheckError(const Session& session, const RoomFit& fit) {
 
 }  // namespace
 
-Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context) {
-  session = WithoutAmbientReadings(std::move(session), context);
-  if (session.photos.empty()) return session;
+LinearizedSession LinearizeKept(const Session& session, const SessionInputs& inputs, RunContext& context) {
+  std::vector<LuminaireReading> readings = ReadingsWithoutAmbient(session, context);
+  if (session.photos.empty()) return {LinearizePhotos(session, context), std::move(readings)};
   if (const auto kept = KeptProduct("linearize", inputs.linearize, context))
-    return WithLinearized(std::move(session), *kept);
+    return {LinearizedFromJson(session, *kept), std::move(readings)};
   const StageMark mark(context);
-  session = LinearizePhotos(std::move(session), context);
-  KeepProduct("linearize", inputs.linearize, context, mark, LinearizedJson(session));
-  return session;
+  LinearizedPhotos photos = LinearizePhotos(session, context);
+  KeepProduct("linearize", inputs.linearize, context, mark, LinearizedJson(photos));
+  return {std::move(photos), std::move(readings)};
 }
 
-RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context) {
-  if (linearized.photos.empty()) return {};
+RegisteredSession RegisterKept(const Session& session, const LinearizedPhotos& photos,
+                               const SessionInputs& inputs, RunContext& context) {
+  if (photos.photos.empty()) return {};
   if (const auto kept = KeptProduct("register", inputs.registration, context))
     return RegistrationFromJson(*kept);
   const StageMark mark(context);
-  RegisteredSession registered = RegisterSession(ForRegistration(linearized), context);
-  KeepProduct("register", inputs.registration, context, mark, RegistrationJson(linearized, registered));
+  RegisteredSession registered = RegisterSession(ForRegistration(session), photos, context);
+  KeepProduct("register", inputs.registration, context, mark, RegistrationJson(session, registered));
   return registered;
 }
 
-SessionObservations ObserveKept(const Session& linearized, const RegisteredSession& registered,
-                                const Room& room, const SessionInputs& inputs, RunContext& context) {
+SessionObservations ObserveKept(const Session& session, const LinearizedPhotos& photos,
+                                const RegisteredSession& registered, const Room& room,
+                                const SessionInputs& inputs, RunContext& context) {
   if (registered.registration.views.empty()) return {};
   if (const auto kept = KeptProduct("observe", inputs.observe, context)) return ObservationsFromJson(*kept);
   const StageMark mark(context);
-  SessionObservations observed = ObserveSession(ForObservation(linearized), registered, room, context);
+  SessionObservations observed = ObserveSession(ForObservation(session), photos, registered, room, context);
   KeepProduct("observe", inputs.observe, context, mark, ObservationsJson(observed));
   return observed;
 }
 
-PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context) {
+PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context) {
   Room room = LoadRoom(session, context);
-  session = LinearizeKept(std::move(session), inputs, context);
+  LinearizedSession linearized = LinearizeKept(session, inputs, context);
   context.photos = std::make_shared<PhotoStore>();
-  RegisteredSession registered = RegisterKept(session, inputs, context);
+  RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
-  SessionObservations observed = ObserveKept(session, registered, room, inputs, context);
+  SessionObservations observed = ObserveKept(session, linearized.photos, registered, room, inputs, context);
   context.photos.reset();
-  return {std::move(session), std::move(room), std::move(registered), std::move(observed.observations),
+  return {session,
+          std::move(linearized),
+          std::move(room),
+          std::move(registered),
+          std::move(observed.observations),
           std::move(observed.seen)};
 }
 
@@ -101,17 +107,17 @@ PreparedSession PrepareSession(const Session& session, RunContext& context) {
   return PrepareSession(session, InputsOfStages(session, ""), context);
 }
 
-Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,
-                   const RunContext& context) {
+Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
+                   const SessionObservations& observed, const RunContext& context) {
   RunContext own;
   own.out = context.out;
   own.is_quiet = true;
   Refit refit;
-  refit.fit = FitSession(session, room, observed, own);
+  refit.fit = FitSession(session, linearized, room, observed, own);
   refit.luminaires = EstimatedLuminaires(refit.fit);
   for (const Warning& warning : own.warnings) refit.warnings.push_back(warning.code);
   refit.undetermined = own.undetermined;
-  refit.mean_lux_error_percent = MeanCheckError(session, refit.fit);
+  refit.mean_lux_error_percent = MeanCheckError(linearized.readings, refit.fit);
   return refit;
 }
 

@@ -5,7 +5,7 @@
 // Each stage is kept in OUT/stages/ (apps/stages/stage_cache.h) and runs again only where something that it
 // depends on has changed.
 //
-// A refit may then change the room, the observations or the readings. Throws as the stages do
+// A refit may then change the session, the room, the observations or the readings. Throws as the stages do
 // (apps/stages/stages.h), and where a session with a room has poses in another frame than the mesh's.
 #ifndef LUXFIT_APPS_STAGES_PREPARED_SESSION_H_
 #define LUXFIT_APPS_STAGES_PREPARED_SESSION_H_
@@ -21,19 +21,21 @@
 namespace luxfit {
 
 struct PreparedSession {
-  Session session;  // linearized
+  Session session;  // as it was read
+  LinearizedSession linearized;
   Room room;
   RegisteredSession registered;
   std::vector<Observation> observations;  // from every view, not thinned
   std::vector<SeenPlace> seen;            // where luminaires are visible
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
-PreparedSession PrepareSession(Session session, const SessionInputs& inputs, RunContext& context);
+PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context);
 PreparedSession PrepareSession(const Session& session, RunContext& context);
 
 // Runs the first stages alone.
-Session LinearizeKept(Session session, const SessionInputs& inputs, RunContext& context);
-RegisteredSession RegisterKept(const Session& linearized, const SessionInputs& inputs, RunContext& context);
+LinearizedSession LinearizeKept(const Session& session, const SessionInputs& inputs, RunContext& context);
+RegisteredSession RegisterKept(const Session& session, const LinearizedPhotos& photos,
+                               const SessionInputs& inputs, RunContext& context);
 
 // Fits the session in that state with all steps of `luxfit fit`, without progress lines. Throws as FitSession
 // does.
@@ -44,8 +46,8 @@ struct Refit {
   bool undetermined = false;                   // exit status 1
   double mean_lux_error_percent = 0;           // over the readings that only check; NaN: there are none
 };
-Refit RefitSession(const Session& session, const Room& room, const SessionObservations& observed,
-                   const RunContext& context);
+Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
+                   const SessionObservations& observed, const RunContext& context);
 
 // Reads true luminaires from a JSON file {"lamps": [{"id", "position", "flux_lm"}, ...]}, such as that of
 // fixtures/office. Throws std::runtime_error naming the file where it has another form.

@@ -10,7 +10,7 @@
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/check/luxmeter_check.h"
-#include "inverse/fit/fit_outcome.h"
+#include "inverse/fit/fit_room.h"
 
 namespace luxfit {
 namespace {
@@ -136,22 +136,18 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   return luminaires;
 }
 
-std::string RoleName(ReadingRole role) {
-  return role == ReadingRole::kFit ? "fit" : (role == ReadingRole::kScale ? "scale" : "check");
-}
-
-void AddLuxmeter(const Session& session, const RoomFit& fit, json& result) {
+void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit, json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
   for (size_t i = 0; i < predictions.size(); ++i) {
-    const SessionReading& given = session.luxmeter.readings[i];
+    const SessionReading& given = readings[i].given;
     const PredictedReading& prediction = predictions[i];
-    const CheckedReading reading{given.illuminance_lx, prediction.illuminance_lx,
+    const CheckedReading reading{readings[i].illuminance_lx, prediction.illuminance_lx,
                                  fit.data.readings[i].sigma_lx, prediction.sigma_lx};
     json entry = {{"id", given.id},
                   {"state", given.state},
-                  {"role", RoleName(given.role)},
+                  {"role", ToString(given.role)},
                   {"measured_lx", given.is_measured ? json(reading.measured_lx) : json()}};
     const bool predicted = prediction.is_known;
     entry["predicted_lx"] = predicted ? json(reading.predicted_lx) : json();
@@ -168,11 +164,7 @@ void AddLuxmeter(const Session& session, const RoomFit& fit, json& result) {
     result["luxmeter"].push_back(entry);
     if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
   }
-  const LuxmeterSummary summary = SummarizeLuxmeter(checked);
-  result["summary"] = {{"mean_abs_error_lx", summary.mean_abs_error_lx},
-                       {"mean_abs_error_percent", summary.mean_abs_error_percent},
-                       {"max_abs_error_percent", summary.max_abs_error_percent},
-                       {"readings_checked", summary.readings_checked}};
+  result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);
   for (const char* part : {"luxmeter", "summary", "check"}) AddFormerKeys(result[part]);
 }
@@ -207,8 +199,9 @@ json WarningsJson(const RunContext& context) {
   return warnings;
 }
 
-json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                const RoomFit& fit, const std::vector<LuminaireFiles>& files, const RunContext& context) {
+json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings, const Room& room,
+                const RegisteredSession& registered, const RoomFit& fit,
+                const std::vector<LuminaireFiles>& files, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
   result["session_file"] = session.path;
@@ -219,7 +212,7 @@ json ResultJson(const Session& session, const Room& room, const RegisteredSessio
   result["luminaires"] = LuminairesJson(session, fit, files);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
-  AddLuxmeter(session, fit, result);
+  AddLuxmeter(readings, fit, result);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);

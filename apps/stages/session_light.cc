@@ -39,18 +39,19 @@ KnownLuminaire KnownOf(const SessionLuminaire& given) {
   return known;
 }
 
-Meter MeterOf(const Session& session) {
+Meter MeterOf(const Session& session, const std::vector<LuminaireReading>& readings) {
   const SessionLuxmeter& given = session.luxmeter;
   Meter meter;
   meter.common_sigma = given.common_sigma;
   meter.sensor_sigma = given.sensor_sigma;
   std::map<std::string, int> sensors;
-  for (const SessionReading& reading : given.readings) {
+  for (const LuminaireReading& measured : readings) {
+    const SessionReading& reading = measured.given;
     MeterReading taken;
     taken.sensor = {reading.position_m, reading.normal, given.response};
     taken.state = std::max(0, StateIndex(session, reading.state));
-    taken.illuminance_lx = reading.illuminance_lx;
-    taken.ambient_lx = reading.ambient_lx;
+    taken.illuminance_lx = measured.illuminance_lx;
+    taken.ambient_lx = measured.ambient_lx;
     taken.used = reading.role != ReadingRole::kCheck;
     if (!reading.sensor.empty())
       taken.sensor_index = sensors.emplace(reading.sensor, static_cast<int>(sensors.size())).first->second;
@@ -72,10 +73,10 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
 }
 
 // Returns the given scale of the camera. A relative luminance of 1 is full scale at 1 s.
-std::optional<double> CameraScale(const Session& session) {
-  if (session.cameras.empty() || !(session.cameras[0].cdm2_per_count_s > 0)) return std::nullopt;
-  const SessionCamera& camera = session.cameras[0];
-  return 1 / (camera.cdm2_per_count_s * (camera.full_scale_counts - camera.black_level_counts));
+std::optional<double> CameraScale(const LinearizedPhotos& photos) {
+  if (photos.cameras.empty() || !(photos.cameras[0].given.cdm2_per_count_s > 0)) return std::nullopt;
+  const LinearizedCamera& camera = photos.cameras[0];
+  return 1 / (camera.given.cdm2_per_count_s * (camera.full_scale_counts - camera.given.black_level_counts));
 }
 
 }  // namespace
@@ -93,26 +94,26 @@ std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   return by_state;
 }
 
-RoomObservations RoomObservationsOf(const Session& session, const Room& room,
-                                    const SessionObservations& observed) {
+RoomObservations RoomObservationsOf(const Session& session, const LinearizedSession& linearized,
+                                    const Room& room, const SessionObservations& observed) {
   RoomObservations given;
   for (const SessionLuminaire& luminaire : session.luminaires) given.luminaires.push_back(KnownOf(luminaire));
   given.luminaires_are_named = !session.count_is_estimated;
   given.dimming = DimmingOf(session);
   given.observations = observed.observations;
   given.seen = observed.seen;
-  given.meter = MeterOf(session);
+  given.meter = MeterOf(session, linearized.readings);
   given.albedo = KnownAlbedo(session, room);
-  given.camera_scale = CameraScale(session);
+  given.camera_scale = CameraScale(linearized.photos);
   return given;
 }
 
-Session WithCountedLuminaires(Session session, const Room& room, const SessionObservations& observed,
-                              RunContext& context) {
+Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
+                              const SessionObservations& observed, RunContext& context) {
   if (!session.count_is_estimated) return session;
   const StageTimer timer(context, "count", "how many luminaires there are");
-  const int count =
-      CountLuminaires(room, RoomObservationsOf(session, room, observed), session.max_luminaires, context);
+  const int count = CountLuminaires(room, RoomObservationsOf(session, linearized, room, observed),
+                                    session.max_luminaires, context);
   return WithMoreLuminaires(std::move(session), count);
 }
 

@@ -14,12 +14,12 @@ namespace luxfit {
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session);
 
 // Throws as ReadGivenLuminaire does.
-RoomObservations RoomObservationsOf(const Session& session, const Room& room,
-                                    const SessionObservations& observed);
+RoomObservations RoomObservationsOf(const Session& session, const LinearizedSession& linearized,
+                                    const Room& room, const SessionObservations& observed);
 
 // Returns the session with as many luminaires as its light requires, where it leaves their number open.
-Session WithCountedLuminaires(Session session, const Room& room, const SessionObservations& observed,
-                              RunContext& context);
+Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
+                              const SessionObservations& observed, RunContext& context);
 
 }  // namespace luxfit
 

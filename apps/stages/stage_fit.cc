@@ -7,6 +7,7 @@
 #include "apps/stages/parameter_json.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
+#include "inverse/model/fit_uncertainty.h"
 
 namespace luxfit {
 namespace {
@@ -19,15 +20,15 @@ void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
   artifact["relative_model_error"] = fit.relative_sigma;
   artifact["undetermined"] = NamesOf(fit.undetermined);
   artifact["parameters"] = nlohmann::json::array();
-  const Eigen::VectorXd x = PackParameters(fit.state, fit.parameters);
+  const FitUncertainty uncertainty = UncertaintyOf(fit);
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const Parameter& p = fit.parameters[i];
     nlohmann::json entry = IdJson(p.id());
     entry["name"] = NameOf(p.id());
-    entry["value"] = x[static_cast<Eigen::Index>(i)];
+    entry["value"] = uncertainty.values[static_cast<Eigen::Index>(i)];
     entry["lower"] = p.lower;
     entry["upper"] = p.upper;
-    entry["determined"] = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
+    entry["determined"] = static_cast<bool>(uncertainty.is_determined[i]);
     artifact["parameters"].push_back(std::move(entry));
   }
   artifact["covariance"] = nlohmann::json::array();
@@ -38,16 +39,17 @@ void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
 
 }  // namespace
 
-RoomFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
-                   RunContext& context) {
+RoomFit FitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
+                   const SessionObservations& observed, RunContext& context) {
   if (session.luminaires.empty()) {
     throw std::runtime_error(session.path +
                              ": states: expected the luminaires of at least one state, got none; add "
                              "[states] such as A = { A = 1.0 }");
   }
-  const auto& readings = session.luxmeter.readings;
-  const bool fitted = std::any_of(readings.begin(), readings.end(),
-                                  [](const SessionReading& r) { return r.role == ReadingRole::kFit; });
+  const std::vector<LuminaireReading>& readings = linearized.readings;
+  const bool fitted = std::any_of(readings.begin(), readings.end(), [](const LuminaireReading& r) {
+    return r.given.role == ReadingRole::kFit;
+  });
   if (observed.observations.empty() && !fitted) {
     throw std::runtime_error(session.path +
                              ": expected something to fit to, got neither photos nor readings; add [photos], "
@@ -57,7 +59,7 @@ RoomFit FitSession(const Session& session, const Room& room, const SessionObserv
   options.on_step = [&](const std::string& step, const std::string& words) {
     return std::make_shared<StageTimer>(context, step, words);
   };
-  RoomFit fit = FitRoom(room, RoomObservationsOf(session, room, observed), options);
+  RoomFit fit = FitRoom(room, RoomObservationsOf(session, linearized, room, observed), options);
   context.Add(fit.findings);
   WriteArtifact(fit.fit, context);
   return fit;

@@ -81,7 +81,7 @@ class Parts {
     const bool is_linear = std::all_of(session_.cameras.begin(), session_.cameras.end(),
                                        [](const SessionCamera& c) { return c.response == "linear"; });
     if (has_brackets || !is_linear) return AllPhotos();
-    for (const auto& [view, photos] : PhotosByView(session_)) {
+    for (const auto& [view, photos] : PhotosByView(session_, session_.photos)) {
       for (const SessionPhoto* photo : photos) files.insert(photo->file);
     }
     return files;

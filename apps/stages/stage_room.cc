@@ -9,8 +9,7 @@
 #include "apps/text/seconds.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
-#include "forward/room/mesh_file.h"
-#include "inverse/check/survey_check.h"
+#include "forward/room/scene.h"
 
 namespace luxfit {
 namespace {

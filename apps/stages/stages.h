@@ -21,6 +21,7 @@
 
 #include "apps/session/photo_corrections.h"
 #include "apps/session/session.h"
+#include "apps/stages/linearize/linearized_session.h"
 #include "apps/text/formats/artifact.h"
 #include "calib/lens/camera.h"
 #include "calib/luminance/luminance.h"
@@ -44,7 +45,7 @@ struct RunContext : Findings {
   std::map<std::string, double> expected_s;  // times of the stages in the last run into that folder
   std::shared_ptr<ProgressLine> progress;    // for the running stage, where lines are printed
   std::vector<std::string> reused_stages;    // not run: products of the last run are used
-  std::shared_ptr<PhotoStore> photos;        // decoded photos of the run's linearized session; may be null
+  std::shared_ptr<PhotoStore> photos;        // the run's decoded photos; may be null
   bool is_quiet = false;                     // no progress lines
 
   void Add(const Findings& more);
@@ -80,31 +81,33 @@ void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunC
 // Returns that mesh with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);
 
-// Returns the session with its photos as the later stages use them. There is one for each view, state and
-// camera, with its bracket of exposures; cameras have their response and vignetting. Writes
-// OUT/stages/linearize.json.
-Session LinearizePhotos(Session session, RunContext& context);
+// Returns the session's photos as the later stages use them. There is one for each view, state and camera,
+// with its bracket of exposures; cameras have their response and vignetting. Writes OUT/stages/linearize.json
+// where the session has photos.
+LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context);
 // Does the same, and removes ambient light from the readings.
-Session LinearizeSession(Session session, RunContext& context);
+LinearizedSession LinearizeSession(const Session& session, RunContext& context);
 
 struct RegisteredSession {
   std::vector<Camera> cameras;
   Registration registration;
 };
-RegisteredSession RegisterSession(const Session& session, RunContext& context);
+RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos& photos,
+                                  RunContext& context);
 
 // Returns the source of a view's pose: tags | colmap | both.
 std::string MethodOf(const RegisteredView& view);
 
-// Reads one photo of a linearized session as relative luminance, its bracket merged. Checks that the photo is
-// linear or its camera's response known, and that it has the camera's size.
-LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera);
+// Reads one of the photos as relative luminance, its bracket merged. Checks that the photo is linear or its
+// camera's response known, and that it has the camera's size.
+LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
+                             const Camera& camera);
 // Returns the same from the context's store, where it has one.
-std::shared_ptr<const LuminanceImage> ReadKept(const Session& session, const SessionPhoto& photo,
+std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
                                                const Camera& camera, const RunContext& context);
 // Returns the same with what an earlier run found of the photo and its camera.
-LuminanceImage ReadCorrected(const Session& session, const SessionPhoto& photo, const Camera& camera,
-                             const PhotoCorrections& corrections);
+LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
+                             const Camera& camera, const PhotoCorrections& corrections);
 
 // Holds what photos of registered views show: the relative luminance of every element in each, and the places
 // where luminaires are visible.
@@ -112,11 +115,12 @@ struct SessionObservations {
   std::vector<Observation> observations;
   std::vector<SeenPlace> seen;
 };
-SessionObservations ObserveSession(const Session& session, const RegisteredSession& registered,
-                                   const Room& room, RunContext& context);
+SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
+                                   const RegisteredSession& registered, const Room& room,
+                                   RunContext& context);
 
-RoomFit FitSession(const Session& session, const Room& room, const SessionObservations& observed,
-                   RunContext& context);
+RoomFit FitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
+                   const SessionObservations& observed, RunContext& context);
 
 // Simulates a session in which everything is given. Returns the artifact of OUT/stages/simulate.json, which
 // it writes with OUT/illuminance.csv (id, state, illuminance_lx, direct_lx, indirect_lx of every reading). Patches, rays
@@ -143,11 +147,12 @@ struct LuminaireFiles {
 
 // Return OUT/result.json and the tables for the terminal. `registered` may be empty (no photos); `files` is
 // by luminaire.
-nlohmann::json ResultJson(const Session& session, const Room& room, const RegisteredSession& registered,
-                          const RoomFit& fit, const std::vector<LuminaireFiles>& files,
-                          const RunContext& context);
+nlohmann::json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings,
+                          const Room& room, const RegisteredSession& registered, const RoomFit& fit,
+                          const std::vector<LuminaireFiles>& files, const RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);
+std::string RegistrationTable(const nlohmann::json& artifact);
 std::string SimulationTable(const nlohmann::json& artifact);
 std::string ChartTable(const nlohmann::json& artifact);
 std::string LuxmeterTable(const nlohmann::json& result);

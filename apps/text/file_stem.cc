@@ -4,15 +4,9 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/text/suggest.h"
+
 namespace luxfit {
-namespace {
-
-std::string Lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
-}  // namespace
 
 std::string FileName(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -33,7 +27,7 @@ std::vector<std::string> DistinctFileStems(const std::vector<std::string>& ids) 
   for (const std::string& id : ids) {
     const std::string plain = FileStem(id);
     std::string stem = plain;
-    for (int n = 2; !taken.insert(Lower(stem)).second; ++n) stem = plain + "_" + std::to_string(n);
+    for (int n = 2; !taken.insert(Lowercase(stem)).second; ++n) stem = plain + "_" + std::to_string(n);
     stems.push_back(stem);
   }
   return stems;

@@ -15,21 +15,17 @@
 #include <sstream>
 #include <thread>
 
+#include "apps/text/seconds.h"
+
 namespace luxfit {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string SpacedOut(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) line += (line.empty() ? "" : " ") + word;
-  return line;
-}
-
 int OpenLog(const ProcessOptions& options, const std::vector<std::string>& words) {
   const int log = open(options.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (log < 0) throw std::runtime_error(options.log + ": expected a writable file; " + std::strerror(errno));
-  const std::string line = "$ " + SpacedOut(words) + "\n";
+  const std::string line = fmt::format("$ {}\n", fmt::join(words, " "));
   if (write(log, line.data(), line.size()) < 0) {
     close(log);
     throw std::runtime_error(options.log + ": expected room to write; " + std::strerror(errno));
@@ -67,8 +63,7 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
 }
 
 ProcessEnd WaitFor(pid_t child, double time_limit_s) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
+  const double start_s = NowS();
   ProcessEnd end;
   int status = 0;
   while (true) {
@@ -76,8 +71,7 @@ ProcessEnd WaitFor(pid_t child, double time_limit_s) {
     if (waited == child) break;
     if (waited < 0 && errno != EINTR)
       throw std::runtime_error(std::string("cannot wait for a process; ") + std::strerror(errno));
-    if (!end.timed_out && time_limit_s > 0 &&
-        std::chrono::duration<double>(Clock::now() - start).count() > time_limit_s) {
+    if (!end.timed_out && time_limit_s > 0 && NowS() - start_s > time_limit_s) {
       end.timed_out = true;
       kill(-child, SIGKILL);
     }

@@ -4,14 +4,11 @@
 #include <cctype>
 
 namespace luxfit {
-namespace {
 
 std::string Lowercase(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
-
-}  // namespace
 
 int EditDistance(const std::string& a_any_case, const std::string& b_any_case) {
   const std::string a = Lowercase(a_any_case), b = Lowercase(b_any_case);

@@ -15,6 +15,9 @@
 
 namespace luxfit {
 
+// Lowers the case of the ASCII letters.
+std::string Lowercase(std::string text);
+
 int EditDistance(const std::string& a, const std::string& b);
 
 // Returns the nearest of `known`, the first among equals; nothing where none is near.

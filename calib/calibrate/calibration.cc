@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +21,9 @@ namespace {
 
 constexpr int kMapColumns = 24, kMapRows = 18;
 constexpr std::size_t kLeastCornersOfImage = 6;
-constexpr int kSetsOfBend = 4;        // fewer views of a board cannot tell its bend from the lens
+constexpr int kSetsOfBend = 4;  // fewer views of a board cannot tell its bend from the lens
+constexpr char kRejectedRemedy[] =
+    "check that it shows this board, sharp and unmirrored; leave it out otherwise";
 constexpr double kWideFieldDeg = 90;  // beyond it a fisheye lens is a candidate
 
 double ShareAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
@@ -98,12 +101,29 @@ CalibrationInput WithoutLost(CalibrationInput input, const CalibrationSeed& seed
     notes.push_back({"image_rejected", false,
                      fmt::format("{}: its {} corners {}", ShortName(image.name), image.corners.size(),
                                  is_poor ? "are too few for a pose" : "fit no view of the target"),
-                     is_poor
-                         ? "come nearer, or leave it out"
-                         : "check that it shows this board, sharp and unmirrored; leave it out otherwise"});
+                     is_poor ? "come nearer, or leave it out" : kRejectedRemedy});
     image.corners.clear();
   }
   return input;
+}
+
+// Notes the images of the sets that the fit left out whole.
+void NoteLeftOut(const CalibrationInput& input, Calibration& out) {
+  const auto set_of = [&](const ImageCalibration& image) {
+    return input.images[static_cast<std::size_t>(image.image)].set;
+  };
+  std::set<int> in_use;
+  for (const ImageCalibration& image : out.images) {
+    if (image.outliers < image.corners) in_use.insert(set_of(image));
+  }
+  for (const ImageCalibration& image : out.images) {
+    if (in_use.count(set_of(image)) > 0) continue;
+    const std::string& name = input.images[static_cast<std::size_t>(image.image)].name;
+    out.notes.push_back(
+        {"image_rejected", false,
+         fmt::format("{}: too few of its {} corners fit for a pose", ShortName(name), image.corners),
+         kRejectedRemedy});
+  }
 }
 
 class ResultWriter {
@@ -360,6 +380,7 @@ Calibration CalibrateCameras(const CalibrationInput& given, const CalibrateCamer
   out.held_out_px = chosen.score.PerAxisPx();
   out.converged = true;
   WriteResult(problem, chosen, fit_options, options, out);
+  NoteLeftOut(input, out);
   Judge(input, options.gates, out);
   return out;
 }

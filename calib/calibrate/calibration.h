@@ -5,7 +5,8 @@
 //     sum_corners w^2 |f(lens_c, cam_from_rig_c rig_from_target_s p) - q|^2,   px^2
 // w is the median corner's sigma divided by the corner's own. libmrcal minimises it, with its weak
 // regularisation of distortion, or OpenCV. No prior is needed: focal lengths are scanned. Wrong corners (more
-// than `outlier_sigmas` off) are left out and named.
+// than `outlier_sigmas` off) are left out and named. A set that keeps fewer than six is left out whole, and its
+// images are named.
 //
 // The lens is the simplest candidate that images held out support. The sets are divided into k folds. The
 // lens of the other folds places each left-out set by the set's own corners, which takes 6 degrees of
@@ -53,7 +54,7 @@ struct CalibrationGates {
 };
 
 struct CalibrateCamerasOptions {
-  // Candidates in order of complexity. Empty: OPENCV4, 5, 8, 12 and two splined lenses, and FISHEYE where the
+  // Candidates in order of complexity. Empty: opencv4, 5, 8, 12 and two splined lenses, and fisheye where the
   // field of view is wide. A single candidate is taken without a choice.
   std::vector<LensKind> lenses;
   CalibrationBackEnd back_end = CalibrationBackEnd::kMrcal;

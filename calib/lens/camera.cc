@@ -3,6 +3,7 @@
 #include "calib/lens/internal/lens.h"
 
 namespace luxfit {
+
 Projection ProjectWithJacobian(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
   const LensImage image = OpsOf(camera.lens).image(camera, p_in_cam);
   const Eigen::Vector2d focal_px(camera.fx_px, camera.fy_px);

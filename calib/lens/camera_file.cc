@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -14,18 +15,15 @@ namespace {
 
 enum class Format { kOpenCv, kMrcal, kKalibr, kColmap };
 
-bool EndsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 Format FormatOf(const std::string& path) {
   std::ifstream file(path);
   if (!file || file.peek() == std::ifstream::traits_type::eof()) {
     throw std::runtime_error(path +
                              ": cannot read the calibration, expected an existing file that is not empty");
   }
-  if (EndsWith(path, ".cameramodel")) return Format::kMrcal;
-  if (EndsWith(path, ".txt") || EndsWith(path, ".bin")) return Format::kColmap;
+  const std::filesystem::path ending = std::filesystem::path(path).extension();
+  if (ending == ".cameramodel") return Format::kMrcal;
+  if (ending == ".txt" || ending == ".bin") return Format::kColmap;
   // A Kalibr camchain is a list of cam0:, cam1:, ...; OpenCV's files never have such a key.
   for (std::string line; std::getline(file, line);) {
     if (line.compare(0, 3, "cam") == 0 && line.find_first_not_of("0123456789", 3) == line.find(':') &&

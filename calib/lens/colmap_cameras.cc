@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -136,9 +137,7 @@ Eigen::Vector2d FromColmapPixel(const Eigen::Vector2d& colmap_px) { return colma
 Eigen::Vector2d ToColmapPixel(const Eigen::Vector2d& pixel) { return pixel + kFirstPixelCentre; }
 
 std::map<int, Camera> ReadColmapCameras(const std::string& path) {
-  const std::string end = ".bin";
-  const bool is_binary = path.size() > end.size() && path.substr(path.size() - end.size()) == end;
-  return is_binary ? ReadBinary(path) : ReadText(path);
+  return std::filesystem::path(path).extension() == ".bin" ? ReadBinary(path) : ReadText(path);
 }
 
 ColmapCameraModel ToColmapModel(const Camera& camera) {

@@ -51,16 +51,16 @@ double ParameterCount(const LensKind& kind, double height_over_width) {
 
 std::string ToString(const LensKind& kind) {
   const LensOps& ops = OpsOf(kind.lens);
-  return ops.size == nullptr ? ops.name : ops.name + std::to_string(kind.*ops.size);
+  return ops.size == nullptr ? ops.key : ops.key + std::to_string(kind.*ops.size);
 }
 
 std::optional<LensKind> LensKindOf(const std::string& name) {
-  std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string lower = name;
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const LensOps& ops : Lenses()) {
-    if (ops.size == nullptr && upper == ops.name) return KindOfSize(ops.lens, ops.coefficients);
-    const int size = ops.size == nullptr ? -1 : NumberAfter(upper, ops.name);
+    if (ops.size == nullptr && lower == ops.key) return KindOfSize(ops.lens, ops.coefficients);
+    const int size = ops.size == nullptr ? -1 : NumberAfter(lower, ops.key);
     if (size >= 0 && ops.has_size(size)) return KindOfSize(ops.lens, size);
   }
   return std::nullopt;

@@ -2,9 +2,9 @@
 //
 //   (x', y') = image(direction),   pixel = (fx x', fy y') + (cx, cy)      (calib/lens/camera.h)
 //
-// A kind is a family and its number of parameters. In order of complexity: OPENCV4, 5, 8, 12 (coefficients of
-// kOpenCv in calib/lens/camera.h), FISHEYE (Kannala and Brandt's four), SPLINED followed by the number of
-// control points along the image's width (SPLINED8). SPLINED0 is the plain stereographic lens: a wide lens
+// A kind is a family and its number of parameters. In order of complexity: opencv4, 5, 8, 12 (coefficients of
+// kOpenCv in calib/lens/camera.h), fisheye (Kannala and Brandt's four), splined followed by the number of
+// control points along the image's width (splined8). splined0 is the plain stereographic lens: a wide lens
 // without distortion, where fits start.
 //
 // A row has the family's functions and what readers, fits and writers need. A new family is a value of
@@ -41,7 +41,7 @@ LensKind KindOfSize(LensModel lens, int size);
 // approximate for control points, whose rows follow the image's shape.
 double ParameterCount(const LensKind& kind, double height_over_width);
 
-// Returns the name of a kind, such as OPENCV8.
+// Returns the name of a kind as session files spell it, such as opencv8.
 std::string ToString(const LensKind& kind);
 
 // Returns the kind of a name, in letters of either case; nothing where no kind has that name.
@@ -54,8 +54,7 @@ struct LensImage {
 
 struct LensOps {
   LensModel lens = LensModel::kOpenCv;
-  const char* key = "";   // in artifacts
-  const char* name = "";  // before the size in the names of its kinds
+  const char* key = "";  // in artifacts, and before the size in the names of its kinds
 
   // Sizes: the field of LensKind that tells them apart, which sizes exist, and which a calibration tries.
   int LensKind::*size = nullptr;  // nullptr: there is only one

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "calib/lens/internal/cross_matrix.h"
 #include "calib/lens/internal/lens_function.h"
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {

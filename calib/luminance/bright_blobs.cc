@@ -25,11 +25,8 @@ float BrightLimit(const LuminanceImage& image, double times_surfaces) {
 
 // Marks saturated pixels that show at least half of the most. NaN and infinity count as more than anything.
 PixelMask FullySaturated(const LuminanceImage& image) {
-  float most = 0;
-  for (Eigen::Index i = 0; i < image.saturated.size(); ++i) {
-    const float value = image.relative_luminance.data()[i];
-    if (image.saturated.data()[i] && std::isfinite(value)) most = std::max(most, value);
-  }
+  const auto counts = image.saturated && image.relative_luminance.isFinite();
+  const float most = std::max(0.0f, counts.select(image.relative_luminance, 0.0f).maxCoeff());
   return image.saturated && !(image.relative_luminance < 0.5f * most);
 }
 
@@ -46,13 +43,11 @@ cv::Mat ToMat(const PixelMask& mask) {
 struct Moments {
   double count = 0, saturated = 0;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
 
   void Add(const Eigen::Vector2d& p, bool is_saturated) {
     count += 1;
     saturated += is_saturated ? 1 : 0;
     sum += p;
-    square += p * p.transpose();
   }
 };
 
@@ -83,9 +78,6 @@ std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const Brigh
     if (m.count < options.min_area_px2) continue;
     BrightBlob blob;
     blob.center_px = m.sum / m.count;
-    // Each pixel is a unit square, whose own variance is 1 / 12 px2.
-    blob.spread_px2 =
-        m.square / m.count - blob.center_px * blob.center_px.transpose() + Eigen::Matrix2d::Identity() / 12;
     const int left = stats.at<int>(label, cv::CC_STAT_LEFT), top = stats.at<int>(label, cv::CC_STAT_TOP);
     const int right = left + stats.at<int>(label, cv::CC_STAT_WIDTH);
     const int bottom = top + stats.at<int>(label, cv::CC_STAT_HEIGHT);

@@ -23,9 +23,8 @@
 namespace luxfit {
 
 struct BrightBlob {
-  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();   // mean of its pixels
-  Eigen::Matrix2d spread_px2 = Eigen::Matrix2d::Zero();  // their covariance: size and shape of the outline
-  Eigen::AlignedBox2d extent_px;                         // outer edges of its outermost pixels
+  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();  // mean of its pixels
+  Eigen::AlignedBox2d extent_px;                        // outer edges of its outermost pixels
   double area_px2 = 0;
   double saturated_share = 0;
   bool touches_edge = false;  // the photo's edge: the blob's centre is not the luminaire's

@@ -1,8 +1,9 @@
 #include "calib/luminance/response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -33,10 +34,9 @@ std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOpt
       {"linear", [&options](const auto&) { return FixedResponse(options, LinearDecoded); }},
       {"sRGB", [&options](const auto&) { return FixedResponse(options, SrgbDecoded); }}};
   for (const double smoothing : {1e3, 1.0, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4}) {
-    std::array<char, 64> name{};
-    std::snprintf(name.data(), name.size(), "debevec, smoothing %g", smoothing);
-    candidates.push_back({name.data(), [&options, smoothing](const std::vector<BracketSamples>& training) {
-                            return SolveDebevec(training, options, {smoothing});
+    candidates.push_back({fmt::format("debevec, smoothing {:g}", smoothing),
+                          [&options, smoothing](const std::vector<BracketSamples>& training) {
+                            return SolveDebevec(training, options, smoothing);
                           }});
   }
   candidates.push_back({"robertson", [&options](const std::vector<BracketSamples>& training) {

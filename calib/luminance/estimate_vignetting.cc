@@ -34,8 +34,8 @@ std::vector<Row> RowsOf(const std::vector<VignettingSample>& samples, int photos
       throw std::invalid_argument(
           "EstimateVignetting: expected samples of known photos, values and sigmas > 0");
     const int surface = surfaces.emplace(sample.surface, static_cast<int>(surfaces.size())).first->second;
-    const double r2 = (sample.pixel - none.center_px).squaredNorm() / (none.radius_px * none.radius_px);
-    rows.push_back({sample.photo, surface, 0, r2, std::log(sample.value), sample.relative_sigma});
+    rows.push_back({sample.photo, surface, 0, none.Radius2At(sample.pixel), std::log(sample.value),
+                    sample.relative_sigma});
   }
   // Whole surfaces are held out, unless there are too few of them: a flat field is only one.
   const bool by_surface = static_cast<int>(surfaces.size()) >= 2 * kFolds;
@@ -220,10 +220,8 @@ VignettingEstimate EstimateVignetting(const std::vector<VignettingSample>& sampl
   }
   std::vector<Eigen::VectorXd> losses;
   losses.reserve(static_cast<size_t>(options.max_order) + 1);
-  for (int order = 0; order <= options.max_order; ++order) {
+  for (int order = 0; order <= options.max_order; ++order)
     losses.push_back(HeldOutLosses(Problem(rows, photos, order, options.gain_prior)));
-    estimate.held_out_error.push_back(losses.back().mean());
-  }
   const int order = SimplestWithinOneStandardError(losses);
   const Problem problem(rows, photos, order, options.gain_prior);
   const Solution solution = problem.Solve(-1);

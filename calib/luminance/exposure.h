@@ -49,16 +49,12 @@ struct ExposureRatio {
   int pixels = 0;
 };
 
-// Measures the ratio over pixels that are valid, and show at least `min_share` of full scale, in both photos.
+// Measures the ratio over pixels that are valid, and show at least 2 % of full scale, in both photos.
 // Takes every third pixel in each direction. `exposure_s` as in ToRelativeLuminance, to know that share.
 // Empty for fewer than 100 such pixels. The sigma is the median's, from the median absolute deviation. It is
 // never below 0.1 %, since neighbours are not independent evidence.
-struct RatioOptions {
-  double min_share = 0.02;
-};
 std::optional<ExposureRatio> MeasureRatio(const LuminanceImage& first, double first_exposure_s,
-                                          const LuminanceImage& second, double second_exposure_s,
-                                          const RatioOptions& options = {});
+                                          const LuminanceImage& second, double second_exposure_s);
 
 struct ExposureGains {
   Eigen::VectorXd log_gain;  // delta, one for each photo; 0 where no ratio includes the photo

@@ -12,14 +12,14 @@ namespace {
 
 constexpr Eigen::Index kStride = 3;
 constexpr size_t kMinPixels = 100;
+constexpr double kLeastShare = 0.02;  // of full scale: less is mostly noise
 constexpr double kLeastGainSigma = 1e-3;
 constexpr int kGainRounds = 30;
 
 }  // namespace
 
 std::optional<ExposureRatio> MeasureRatio(const LuminanceImage& first, double first_exposure_s,
-                                          const LuminanceImage& second, double second_exposure_s,
-                                          const RatioOptions& options) {
+                                          const LuminanceImage& second, double second_exposure_s) {
   if (first.valid.rows() != second.valid.rows() || first.valid.cols() != second.valid.cols())
     throw std::invalid_argument("MeasureRatio: expected images of one size");
   std::vector<double> ratios;
@@ -28,7 +28,7 @@ std::optional<ExposureRatio> MeasureRatio(const LuminanceImage& first, double fi
     for (Eigen::Index u = 0; u < first.valid.cols(); u += kStride) {
       if (!first.valid(v, u) || !second.valid(v, u)) continue;
       const double a = first.relative_luminance(v, u), b = second.relative_luminance(v, u);
-      if (a * first_exposure_s < options.min_share || b * second_exposure_s < options.min_share) continue;
+      if (a * first_exposure_s < kLeastShare || b * second_exposure_s < kLeastShare) continue;
       ratios.push_back(std::log(a / b));
     }
   }

@@ -62,12 +62,8 @@ void Deinterleave(const cv::Mat& image, Photo& photo) {
 
 double LargestFiniteCount(const Photo& photo) {
   float largest = 0;
-  for (const ImagePlane& plane : photo.rgb_counts) {
-    for (Eigen::Index i = 0; i < plane.size(); ++i) {
-      const float count = plane.data()[i];
-      if (std::isfinite(count)) largest = std::max(largest, count);
-    }
-  }
+  for (const ImagePlane& plane : photo.rgb_counts)
+    largest = std::max(largest, plane.isFinite().select(plane, 0.0f).maxCoeff());
   return largest;
 }
 

@@ -169,8 +169,7 @@ LuminanceImage WithCorrection(LuminanceImage image, const PhotoCorrection& corre
     for (Eigen::Index u = 0; u < plane.cols(); ++u) {
       const double y = plane(v, u);
       if (!(y > 0)) continue;
-      const Eigen::Vector2d pixel(static_cast<double>(u), static_cast<double>(v));
-      const double radius2 = (pixel - frame.center_px).squaredNorm() / (frame.radius_px * frame.radius_px);
+      const double radius2 = frame.Radius2At({static_cast<double>(u), static_cast<double>(v)});
       const auto factor =
           static_cast<float>(std::exp(correction.LogFactor(std::log(y * exposure_s), radius2)));
       plane(v, u) *= factor;

@@ -88,14 +88,10 @@ struct ResponseOptions {
   double saturation_fraction = 0.97;
 };
 
-struct DebevecOptions {
-  double smoothing = 1e-3;  // lambda over the data's weight per unknown
-};
-
-// Return the response by each method. Throw std::invalid_argument for no samples, exposures that are not > 0
-// and sizes that do not agree.
+// Return the response by each method; `smoothing` is lambda over the data's weight per unknown. Throw
+// std::invalid_argument for no samples, exposures that are not > 0 and sizes that do not agree.
 CameraResponse SolveDebevec(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
-                            const DebevecOptions& debevec = {});
+                            double smoothing = 1e-3);
 CameraResponse SolveRobertson(const std::vector<BracketSamples>& brackets, const ResponseOptions& options);
 
 struct ResponseScore {

@@ -4,8 +4,12 @@
 
 namespace luxfit {
 
+double Vignetting::Radius2At(const Eigen::Vector2d& pixel) const {
+  return (pixel - center_px).squaredNorm() / (radius_px * radius_px);
+}
+
 double Vignetting::At(const Eigen::Vector2d& pixel) const {
-  const double r2 = (pixel - center_px).squaredNorm() / (radius_px * radius_px);
+  const double r2 = Radius2At(pixel);
   double exponent = 0;
   for (Eigen::Index i = coefficients.size(); i-- > 0;) exponent = (exponent + coefficients[i]) * r2;
   return std::exp(exponent);

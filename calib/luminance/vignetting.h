@@ -42,6 +42,7 @@ struct Vignetting {
   Eigen::VectorXd coefficients;  // k_1, k_2, ...; none: V = 1
 
   double At(const Eigen::Vector2d& pixel) const;
+  double Radius2At(const Eigen::Vector2d& pixel) const;  // r^2
 };
 
 // Returns V = 1 with the centre and radius of an image of that size.
@@ -68,10 +69,9 @@ struct VignettingEstimate {
   bool is_determined = false;
   std::string message;  // says why V is not determined
   Vignetting vignetting;
-  Eigen::VectorXd log_gain;            // one for each photo: exposure = stated * exp(log_gain)
-  double corner_sigma = 0;             // in ln V at r = 1
-  double residual_rms = 0;             // in ln value, robust
-  std::vector<double> held_out_error;  // mean robust squared residual for each order from 0
+  Eigen::VectorXd log_gain;  // one for each photo: exposure = stated * exp(log_gain)
+  double corner_sigma = 0;   // in ln V at r = 1
+  double residual_rms = 0;   // in ln value, robust
 };
 
 // Estimates V from samples. `none` gives the centre and radius (NoVignetting).

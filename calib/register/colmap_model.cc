@@ -32,13 +32,8 @@ std::string FileOf(const std::string& folder, const std::string& name) {
 
 bool IsBinary(const std::string& path) { return fs::path(path).extension() == ".bin"; }
 
-struct Quaternion {
-  double w = 1, x = 0, y = 0, z = 0;
-};
-
-Eigen::Isometry3d ToIsometry(const Quaternion& q, const Eigen::Vector3d& translation,
+Eigen::Isometry3d ToIsometry(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation,
                              const std::string& place) {
-  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!(std::abs(rotation.norm() - 1) < 1e-3) || !translation.allFinite())
     throw std::runtime_error(
         place + ": expected a unit quaternion QW QX QY QZ and finite TX TY TZ, got one of length " +
@@ -88,10 +83,11 @@ std::map<int, ColmapImage> ReadImagesText(const std::string& path) {
   while (text.NextEntry()) {
     std::istringstream words(text.line);
     int id = 0;
-    Quaternion q;
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     Eigen::Vector3d t;
     ColmapImage image;
-    if (!(words >> id >> q.w >> q.x >> q.y >> q.z >> t.x() >> t.y() >> t.z() >> image.camera >> std::ws) ||
+    if (!(words >> id >> q.w() >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >> image.camera >>
+          std::ws) ||
         !std::getline(words, image.name))
       throw LineError(text, "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
     while (!image.name.empty() && (image.name.back() == '\r' || image.name.back() == ' '))
@@ -119,8 +115,8 @@ std::map<int, ColmapImage> ReadImagesBinary(const std::string& path) {
   const auto count = file.Read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto id = static_cast<int>(file.Read<std::uint32_t>());
-    Quaternion q;
-    for (double* value : {&q.w, &q.x, &q.y, &q.z}) *value = file.Read<double>();
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    for (double* value : {&q.w(), &q.x(), &q.y(), &q.z()}) *value = file.Read<double>();
     Eigen::Vector3d t;
     for (double& value : t) value = file.Read<double>();
     ColmapImage image;

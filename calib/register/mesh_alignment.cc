@@ -1,14 +1,15 @@
 #include "calib/register/mesh_alignment.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
-#include "calib/lens/internal/cross_matrix.h"
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/luminance/median.h"
 #include "calib/register/internal/triangle_tree.h"
 #include "calib/targets/internal/boards/solve_symmetric.h"
@@ -51,8 +52,7 @@ Laid LayDown(const Eigen::Matrix3Xd& points, const TriangleTree& tree, const Sim
     laid.counts.push_back(nearest.squared_distance < gate_m * gate_m && normal.squaredNorm() > 0);
     if (laid.counts.back()) near_m.push_back(std::abs(laid.distances_m.back()));
   }
-  constexpr double kSigmaOfMedian = 1.4826;  // for errors of a normal distribution
-  if (!near_m.empty()) laid.scatter_m = kSigmaOfMedian * Median(near_m);
+  if (!near_m.empty()) laid.scatter_m = kSigmaPerMad * Median(near_m);
   laid.share =
       points.cols() == 0 ? 0 : static_cast<double>(near_m.size()) / static_cast<double>(points.cols());
   return laid;
@@ -84,9 +84,8 @@ constexpr double kDamping = 1e-3;
 Similarity Step(const Similarity& now, const Normal& normal, const Eigen::Vector3d& middle) {
   const Vector7 step = SolveSymmetric(normal.left + kDamping * Matrix7::Identity(), normal.right);
   Similarity next = now;
-  const double angle = step.head<3>().norm(), grow = std::exp(std::clamp(step[6], -0.2, 0.2));
-  const Eigen::Matrix3d turn = angle > 0 ? Eigen::AngleAxisd(angle, step.head<3>() / angle).toRotationMatrix()
-                                         : Eigen::Matrix3d::Identity();
+  const double grow = std::exp(std::clamp(step[6], -0.2, 0.2));
+  const Eigen::Matrix3d turn = RotationBy(step.head<3>());
   next.scale = now.scale * grow;
   next.rotation = turn * now.rotation;
   next.translation = grow * (turn * (now.translation - middle)) + middle + step.segment<3>(3);
@@ -175,18 +174,18 @@ SurfaceAlignment AlignPointsToSurface(const Eigen::Matrix3Xd& points, const Tria
     if (laid.counts[i]) alignment.planes[i].sigma_m = plane_sigma_m;
   }
   const double grown = alignment.world_from_points.scale / start.scale;
-  std::ostringstream why;
-  why.precision(2);
   if (!(laid.share >= options.least_share)) {
-    why << 100 * laid.share
-        << " % of the points lie on the mesh: it shows another room, or the start is too rough";
+    alignment.message = fmt::format(
+        "{:.2g} % of the points lie on the mesh: it shows another room, or the start is too rough",
+        100 * laid.share);
   } else if (!(sigma_m <= options.most_sigma_m)) {
-    why << "the points leave a direction free by " << 1000 * sigma_m
-        << " mm: surfaces of three directions are needed";
+    alignment.message =
+        fmt::format("the points leave a direction free by {:.2g} mm: surfaces of three directions are needed",
+                    1000 * sigma_m);
   } else if (grown < 0.5 || grown > 2) {
-    why << "the size came out " << grown << " times that of the start: the start is too rough";
+    alignment.message =
+        fmt::format("the size came out {:.2g} times that of the start: the start is too rough", grown);
   }
-  alignment.message = why.str();
   alignment.is_determined = alignment.message.empty();
   return alignment;
 }

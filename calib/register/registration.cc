@@ -1,12 +1,13 @@
 #include "calib/register/registration.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "calib/register/internal/bundle/bundle_adjustment.h"
@@ -70,13 +71,12 @@ void LeaveOutUncertain(double max_rotation_sigma_rad, Registration& registration
       kept.push_back(view);
       continue;
     }
-    std::ostringstream message;
-    message.precision(2);
-    message << "The tags in view " << view.view << " leave its direction uncertain by "
-            << sigma_rad * 180 / M_PI << " degrees and its place by " << 1000 * view.position_sigma_m.norm()
-            << " mm; it is left out.";
-    registration.notes.push_back({view.view, -1, "pose_uncertain", message.str(),
-                                  "Show the view more tags, larger tags, or tags on a second surface."});
+    registration.notes.push_back(
+        {view.view, -1, "pose_uncertain",
+         fmt::format("The tags in view {} leave its direction uncertain by {:.2g} "
+                     "degrees and its place by {:.2g} mm; it is left out.",
+                     view.view, sigma_rad * 180 / M_PI, 1000 * view.position_sigma_m.norm()),
+         "Show the view more tags, larger tags, or tags on a second surface."});
   }
   registration.views = kept;
 }
@@ -89,7 +89,7 @@ RegisteredView ViewOf(const BundleContext& context, const BundleAdjustment& adju
   out.cam_from_world = view.CamFromWorld();
   out.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
   out.position_sigma_m.setConstant(std::numeric_limits<double>::quiet_NaN());
-  out.tags_used = static_cast<int>(std::count(view.used.begin(), view.used.end(), true));
+  out.tags_used = view.TagsUsed();
   // Tags that the starting pose already contradicted count with all their corners.
   out.corners_rejected = 4 * (static_cast<int>(view.tags.size()) - out.tags_used);
   double sum = 0;
@@ -111,12 +111,11 @@ void NameSizeError(const RegisterViewsOptions& options, Registration& registrati
   constexpr double kSigmas = 4;
   if (options.tag_size_sigma == 0 || std::abs(registration.tag_size_error) < kSigmas * options.tag_size_sigma)
     return;
-  std::ostringstream message;
-  message.precision(3);
-  message << "All tags come out " << 100 * std::abs(registration.tag_size_error) << " % "
-          << (registration.tag_size_error > 0 ? "larger" : "smaller") << " than surveyed.";
   registration.notes.push_back(
-      {"", -1, "tag_sizes_wrong", message.str(),
+      {"", -1, "tag_sizes_wrong",
+       fmt::format("All tags come out {:.3g} % {} than surveyed.",
+                   100 * std::abs(registration.tag_size_error),
+                   registration.tag_size_error > 0 ? "larger" : "smaller"),
        "Measure a printed tag's black square and the distance between two tags again."});
 }
 

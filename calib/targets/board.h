@@ -1,4 +1,5 @@
 // Defines calibration boards: where their corners lie, where a photo shows them, and what is black on print.
+// Reads and writes mrcal's corners.vnl.
 //
 // Board frame, metres: origin at the first corner, x along a row of the board, y along a column, z away from
 // the viewer. The printed face looks along -z: a camera straight in front of the upright board has the
@@ -14,7 +15,17 @@
 // A drawing's places are x right, y down, metres, from the board's own origin. Its rectangles touch but do
 // not overlap: drawn as one path they leave no seams.
 //
-// Source: Kalibr's wiki, "Calibration targets"; OpenCV 4.6, calib3d and aruco.
+// corners.vnl says where images show a board's corners:
+//
+//   # filename x y level
+//   left01.jpg 244.4 94.1 0        one row per corner, all of a board in order
+//   left01.jpg - - -               "-": not found
+//
+// level: the corner was found in the image shrunk by 2^level, so its weight is 2^-level. An image without any
+// corner may be a single row of "-". Other columns are ignored. The header gives the order of the columns.
+//
+// Source: Kalibr's wiki, "Calibration targets"; OpenCV 4.6, calib3d and aruco; mrcal 2.2, "Calibration object
+// corner finding"; vnlog.
 #ifndef LUXFIT_CALIB_TARGETS_BOARD_H_
 #define LUXFIT_CALIB_TARGETS_BOARD_H_
 
@@ -60,6 +71,19 @@ struct BoardDetection {
 // Finds the board in a grey plane (height x width, any monotonic scale). Boards may be seen in part
 // (aprilgrid, charuco). Throws std::invalid_argument as BoardCorners does.
 BoardDetection DetectBoard(const ImagePlane& grey, const Board& board);
+
+struct ImageCorners {
+  std::string file;                  // as the table names it
+  std::vector<BoardCorner> corners;  // only those found; sigma_px: 0.3 px 2^level
+};
+
+// Reads the images of a corners.vnl in the order of the table. `count`: corners of the board. Throws
+// std::runtime_error("FILE:LINE: expected ..., got ...").
+std::vector<ImageCorners> ReadCornersFile(const std::string& path, int count);
+
+// Returns the content of a corners.vnl. A corner's level is that of its sigma over the least sigma, in whole
+// steps.
+std::string CornersFile(const std::vector<ImageCorners>& images, int count);
 
 struct BlackRectangle {
   Eigen::Vector2d min_m, max_m;

@@ -1,4 +1,4 @@
-#include "calib/targets/corners_file.h"
+#include "calib/targets/board.h"
 
 #include <fmt/format.h>
 

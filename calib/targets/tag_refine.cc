@@ -347,14 +347,11 @@ std::optional<TagDetection> RefineOne(const ImagePlane& grey, const Camera& came
   TagDetection refined = detection;
   const double max_shift_px = std::max(1.0, options.max_shift_cells / cells_per_px);
   const std::array<Eigen::Vector2d, 4> st = CornersInCells(picture);
-  double side_px = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     refined.corners_px[i] = CornerPixel(camera, frame, fit.homography, st[i]);
     if (!((refined.corners_px[i] - detection.corners_px[i]).norm() <= max_shift_px)) return std::nullopt;
   }
-  for (std::size_t i = 0; i < 4; ++i)
-    side_px += (refined.corners_px[(i + 1) % 4] - refined.corners_px[i]).norm() / 4;
-  refined.side_px = side_px;
+  refined.side_px = MeanSidePx(refined.corners_px);
   const double sigma_px = CornerSigmaPx(camera, frame, picture, fit);
   // Too few edges were left for corners better than the detector's.
   if (!(sigma_px < detection.corner_sigma_px)) return std::nullopt;

@@ -19,12 +19,6 @@ namespace {
 using DetectorPtr = std::unique_ptr<apriltag_detector_t, void (*)(apriltag_detector_t*)>;
 using DetectionsPtr = std::unique_ptr<zarray_t, void (*)(zarray_t*)>;
 
-double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
-  double sum_px = 0;
-  for (std::size_t i = 0; i < 4; ++i) sum_px += (corners_px[(i + 1) % 4] - corners_px[i]).norm();
-  return sum_px / 4;
-}
-
 // Returns the reduction to use. Decimation by 2 misses a third of the tags below 40 px: small tags are
 // searched for where time allows.
 double DecimationOf(const ImagePlane& grey, double asked) {
@@ -44,7 +38,7 @@ TagDetection ToHouse(const apriltag_detection_t& found) {
     const double* p = found.p[kTheirCorner[i]];
     tag.corners_px[i] = Eigen::Vector2d(p[0] - 0.5, p[1] - 0.5);
   }
-  tag.side_px = MeanSide(tag.corners_px);
+  tag.side_px = MeanSidePx(tag.corners_px);
   tag.corner_sigma_px = DetectorCornerSigmaPx(tag.side_px);
   return tag;
 }
@@ -79,7 +73,7 @@ std::vector<TagDetection> DetectInEnlarged(const ImagePlane& grey, apriltag_dete
   std::vector<TagDetection> tags = DetectIn(large, detector, options.display_gamma);
   for (TagDetection& tag : tags) {
     for (Eigen::Vector2d& corner : tag.corners_px) corner = ((corner.array() + 0.5) / scale - 0.5).matrix();
-    tag.side_px = MeanSide(tag.corners_px);
+    tag.side_px = MeanSidePx(tag.corners_px);
     tag.corner_sigma_px = DetectorCornerSigmaPx(tag.side_px);
   }
   return tags;
@@ -170,7 +164,7 @@ TagDetection CombineCluster(const Cluster& cluster, double systematic_fraction) 
   const double scatter_of_mean = degrees_of_freedom > 0 ? chi2 / degrees_of_freedom / weight_sum : 0;
   combined.corner_sigma_px =
       std::sqrt(common * single_variance + std::max((1 - common) * single_variance / count, scatter_of_mean));
-  combined.side_px = MeanSide(combined.corners_px);
+  combined.side_px = MeanSidePx(combined.corners_px);
   return combined;
 }
 
@@ -182,6 +176,12 @@ std::array<Eigen::Vector3d, 4> TagCornersInWorld(const SurveyedTag& tag) {
   const Eigen::Vector3d right = half_m * tag.up_in_world.cross(tag.normal_in_world);
   const Eigen::Vector3d& c = tag.center_in_world;
   return {c - right + up, c + right + up, c + right - up, c - right - up};
+}
+
+double MeanSidePx(const std::array<Eigen::Vector2d, 4>& corners_px) {
+  double sum_px = 0;
+  for (std::size_t i = 0; i < 4; ++i) sum_px += (corners_px[(i + 1) % 4] - corners_px[i]).norm();
+  return sum_px / 4;
 }
 
 double DetectorCornerSigmaPx(double side_px) {

@@ -54,10 +54,13 @@ std::array<Eigen::Vector3d, 4> TagCornersInWorld(const SurveyedTag& tag);
 struct TagDetection {
   int id = 0;
   std::array<Eigen::Vector2d, 4> corners_px;  // in the project's order
-  double side_px = 0;                         // mean side length
+  double side_px = 0;                         // MeanSidePx of the corners
   double corner_sigma_px = 0;                 // expected corner error per axis, by side length
   double decision_margin = 0;                 // as libapriltag gives it
 };
+
+// Returns the mean length of a tag's sides.
+double MeanSidePx(const std::array<Eigen::Vector2d, 4>& corners_px);
 
 struct DetectTagsOptions {
   std::string family = "tag36h11";

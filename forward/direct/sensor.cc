@@ -53,15 +53,11 @@ Eigen::Matrix3d FrameOf(const Sensor& sensor) {
   return frame;
 }
 
-// Returns points that share the unit square evenly: the additive recurrence of the plastic number (x^3 = x +
-// 1).
+// Returns points that share the unit square evenly.
 std::vector<Eigen::Vector2d> Recurrence(int count) {
-  constexpr double kStepX = 0.75487766624669276, kStepY = 0.56984029099805327;
   std::vector<Eigen::Vector2d> points;
-  for (int k = 1; k <= count; ++k) {
-    const double x = 0.5 + kStepX * k, y = 0.5 + kStepY * k;
-    points.emplace_back(Fraction(x), Fraction(y));
-  }
+  points.reserve(static_cast<size_t>(count));
+  for (int k = 1; k <= count; ++k) points.push_back(PlasticPoint(k, Eigen::Vector2d::Constant(0.5)));
   return points;
 }
 

@@ -211,10 +211,7 @@ class Chooser {
 
   // Returns the indirect light of all luminaires.
   Eigen::VectorXf IndirectLx(const ColourIlluminance& light) const {
-    Eigen::VectorXf flux_lm(static_cast<Eigen::Index>(lit_.luminaires.size()));
-    for (Eigen::Index k = 0; k < flux_lm.size(); ++k)
-      flux_lm[k] = static_cast<float>(lit_.luminaires[static_cast<size_t>(k)].flux_lm);
-    return light.element_indirect * flux_lm;
+    return light.element_indirect * FluxesLm(lit_.luminaires).cast<float>();
   }
 
   // Returns the error of the finest patches from the last two changes; `before` 0: there was only one.

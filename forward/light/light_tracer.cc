@@ -19,41 +19,23 @@ using Generator = std::mt19937_64;
 
 double Uniform(Generator& rng) { return UnitFrom(rng()); }
 
-// Generates the additive recurrence of the plastic number (x^3 = x + 1) from a random start; it fills the
-// unit square evenly.
-class ShiftedSequence {
- public:
-  explicit ShiftedSequence(Generator& rng) : shift_(Uniform(rng), Uniform(rng)) {}
-  Eigen::Vector2d At(int index) const {
-    const Eigen::Vector2d x = shift_ + index * Eigen::Vector2d(0.75487766624669276, 0.56984029099805327);
-    return x.array() - x.array().floor();
-  }
-
- private:
-  Eigen::Vector2d shift_;
-};
-
-struct Source {
-  LuminousSurface surface;
-
-  // Returns the direct light from one point of the luminaire's surface, taken for all its flux.
-  double DirectLx(const RayScene& rays, const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
-                  const Eigen::Vector2d& unit) const {
-    const Eigen::Vector3d point = surface.PointAt(unit), to_lamp = point - p;
-    const double height = normal.dot(to_lamp);
-    if (height <= 0) return 0;
-    const double r = to_lamp.norm();
-    const double cd_per_lm = IntensityPerLumen(surface.luminaire(), surface.axes(), -to_lamp / r).cd_per_lm;
-    if (cd_per_lm == 0 || rays.Occluded(LiftedOff(p, normal), point)) return 0;
-    return surface.luminaire().flux_lm * cd_per_lm * height / (r * r * r);
-  }
-};
+// Returns the direct light from one point of a luminaire's surface, taken for all its flux.
+double DirectLx(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& p,
+                const Eigen::Vector3d& normal, const Eigen::Vector2d& unit) {
+  const Eigen::Vector3d point = surface.PointAt(unit), to_lamp = point - p;
+  const double height = normal.dot(to_lamp);
+  if (height <= 0) return 0;
+  const double r = to_lamp.norm();
+  const double cd_per_lm = surface.IntensityTowards(-to_lamp / r).cd_per_lm;
+  if (cd_per_lm == 0 || rays.Occluded(LiftedOff(p, normal), point)) return 0;
+  return surface.luminaire().flux_lm * cd_per_lm * height / (r * r * r);
+}
 
 struct Tracer {
   const Scene& scene;
   const RayScene& rays;
   const Eigen::VectorXd& albedo;
-  std::vector<Source> sources;
+  std::vector<LuminousSurface> sources;
 
   // Adds the light of one path, by luminaire.
   void AddPath(const Sensor& sensor, const Eigen::Vector2d& first, Generator& rng,
@@ -70,7 +52,7 @@ struct Tracer {
       const double rho = albedo[facet.material];
       for (size_t k = 0; k < sources.size(); ++k) {
         sum_lx[static_cast<Eigen::Index>(k)] +=
-            rho * sources[k].DirectLx(rays, p, normal, {Uniform(rng), Uniform(rng)});
+            rho * DirectLx(rays, sources[k], p, normal, {Uniform(rng), Uniform(rng)});
       }
       if (Uniform(rng) >= rho) return;
       unit = {Uniform(rng), Uniform(rng)};
@@ -103,7 +85,7 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
   ExpectValid(luminaires);
   ExpectValid(sensors);
   Tracer tracer{scene, rays, albedo, {}};
-  for (const Luminaire& luminaire : luminaires) tracer.sources.push_back({LuminousSurface(luminaire)});
+  for (const Luminaire& luminaire : luminaires) tracer.sources.emplace_back(luminaire);
 
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const size_t replicates = static_cast<size_t>(options.replicates);
@@ -115,15 +97,15 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
     const Sensor& sensor = sensors[task / replicates];
     const Eigen::Index run = static_cast<Eigen::Index>(task % replicates);
     Generator rng(Mix(Mix(options.seed) + task));
-    const ShiftedSequence surface(rng), hemisphere(rng);
+    const Eigen::Vector2d surface(Uniform(rng), Uniform(rng)), hemisphere(Uniform(rng), Uniform(rng));
     Eigen::VectorXd direct_lx = Eigen::VectorXd::Zero(lamps), indirect_lx = direct_lx;
     for (int i = 0; i < paths; ++i) {
-      const Eigen::Vector2d unit = surface.At(i);
+      const Eigen::Vector2d unit = PlasticPoint(i, surface);
       for (Eigen::Index k = 0; k < lamps; ++k) {
         direct_lx[k] +=
-            tracer.sources[static_cast<size_t>(k)].DirectLx(rays, sensor.position, sensor.normal, unit);
+            DirectLx(rays, tracer.sources[static_cast<size_t>(k)], sensor.position, sensor.normal, unit);
       }
-      tracer.AddPath(sensor, hemisphere.At(i), rng, indirect_lx);
+      tracer.AddPath(sensor, PlasticPoint(i, hemisphere), rng, indirect_lx);
     }
     direct[task / replicates].col(run) = direct_lx / paths;
     indirect[task / replicates].col(run) = indirect_lx / paths;

@@ -127,22 +127,6 @@ IntensityTable TableOfTypeB(const IesFile& file, const std::vector<double>& cd) 
   return table;
 }
 
-std::string FormatName(IesVersion version) {
-  switch (version) {
-    case IesVersion::k1986:
-      return "IES LM-63-1986";
-    case IesVersion::k1991:
-      return "IESNA91";
-    case IesVersion::k1995:
-      return "IESNA:LM-63-1995";
-    case IesVersion::k2002:
-      return "IESNA:LM-63-2002";
-    case IesVersion::k2019:
-      return "IES:LM-63-2019";
-  }
-  return "";
-}
-
 std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
   std::vector<std::string> notes = file.notes;
   if (!opening.note.empty()) notes.push_back(opening.note);
@@ -165,7 +149,7 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   const double scale = ScaleOf(file);
   for (double& value : cd) value *= scale;
   PhotometryFile photometry;
-  photometry.format = FormatName(file.version);
+  photometry.format = file.version == IesVersion::k1986 ? "IES LM-63-1986" : FirstLineOf(file.version);
   photometry.keywords = file.keywords;
   if (file.lumens_per_lamp > 0) photometry.lamp_flux_lm = file.lamps * file.lumens_per_lamp;
   const Opening opening = OpeningOf(file);
@@ -181,10 +165,9 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   return WithTable(std::move(photometry), table, file.name);
 }
 
-IesFile MakeIes(const PhotometryFile& photometry, IesVersion version) {
+IesFile MakeIes(const PhotometryFile& photometry) {
   PhotometryPlanes planes = PlanesOf(photometry.table, photometry.luminaire_flux_lm);
   IesFile file;
-  file.version = version;
   file.keywords = photometry.keywords;
   file.vertical_deg = planes.gamma_deg;
   file.horizontal_deg = planes.c_deg;
@@ -202,9 +185,7 @@ IesFile MakeIes(const PhotometryFile& photometry, IesVersion version) {
     file.length = size_m[0];
     file.width = size_m[1];
   } else if (photometry.shape != LuminaireShape::kPoint) {
-    // Up to 1995 a round opening has no length, later two equal ones.
-    file.width = -size_m[0];
-    file.length = version <= IesVersion::k1995 ? 0 : -size_m[0];
+    file.width = file.length = -size_m[0];  // since 2002 a round opening has two equal measures
     file.height = photometry.shape == LuminaireShape::kSphere ? -size_m[0] : 0;
   }
   return file;

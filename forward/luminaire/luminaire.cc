@@ -1,6 +1,7 @@
 #include "forward/luminaire/luminaire.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -62,6 +63,13 @@ LuminaireAxes AxesOf(const Luminaire& luminaire) {
   if (along.norm() < 1e-6) along = luminaire.aim.unitOrthogonal();
   along.normalize();
   return {along, luminaire.aim.cross(along)};
+}
+
+Eigen::VectorXd FluxesLm(const std::vector<Luminaire>& luminaires) {
+  Eigen::VectorXd flux_lm(static_cast<Eigen::Index>(luminaires.size()));
+  std::transform(luminaires.begin(), luminaires.end(), flux_lm.begin(),
+                 [](const Luminaire& l) { return l.flux_lm; });
+  return flux_lm;
 }
 
 bool DependsOnHeading(const Luminaire& luminaire) {

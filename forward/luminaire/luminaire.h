@@ -69,6 +69,9 @@ struct LuminaireAxes {
 };
 LuminaireAxes AxesOf(const Luminaire& luminaire);
 
+// Luminous fluxes in lm, one for each luminaire.
+Eigen::VectorXd FluxesLm(const std::vector<Luminaire>& luminaires);
+
 // Whether shape or light tells the heading: of a rectangle, or of a table that is not the same all round.
 bool DependsOnHeading(const Luminaire& luminaire);
 

@@ -14,11 +14,16 @@ bool IsRotational(const Luminaire& luminaire) {
          luminaire.table->c_rad.size() == 2;
 }
 
-bool IsUneven(const Luminaire& luminaire) {
-  return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
+Eigen::Index PartCount(const Luminaire& luminaire, PartKind kind) {
+  if (kind == PartKind::kCell) return HasUnevenEmission(luminaire) ? luminaire.emission.size() : 0;
+  return IsRotational(luminaire) ? static_cast<Eigen::Index>(luminaire.table->gamma_rad.size()) : 0;
 }
 
 }  // namespace
+
+bool HasUnevenEmission(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
+}
 
 Eigen::VectorXd NodeFlux(const std::vector<double>& gamma_rad) {
   const size_t n = gamma_rad.size();
@@ -37,22 +42,15 @@ IntensityTable RotationalTable(const std::vector<double>& gamma_rad, const std::
 }
 
 Eigen::VectorXd PartShares(const Luminaire& luminaire, PartKind kind) {
-  if (kind == PartKind::kCell) {
-    if (!IsUneven(luminaire)) return {};
-    return Eigen::Map<const Eigen::VectorXd>(luminaire.emission.data(), luminaire.emission.size());
-  }
-  if (!IsRotational(luminaire)) return {};
+  const Eigen::Index n = PartCount(luminaire, kind);
+  if (n == 0) return {};
+  if (kind == PartKind::kCell) return Eigen::Map<const Eigen::VectorXd>(luminaire.emission.data(), n);
   const IntensityTable& table = *luminaire.table;
-  const auto n = static_cast<Eigen::Index>(table.gamma_rad.size());
   return Eigen::Map<const Eigen::VectorXd>(table.cd_per_lm.data(), n).cwiseProduct(NodeFlux(table.gamma_rad));
 }
 
 Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen::VectorXd& shares) {
-  const bool has_parts = kind == PartKind::kCell ? IsUneven(luminaire) : IsRotational(luminaire);
-  const Eigen::Index parts = !has_parts ? 0
-                             : kind == PartKind::kCell
-                                 ? luminaire.emission.size()
-                                 : static_cast<Eigen::Index>(luminaire.table->gamma_rad.size());
+  const Eigen::Index parts = PartCount(luminaire, kind);
   if (parts == 0 || shares.size() != parts)
     throw std::invalid_argument("WithPartShares: expected one share a part of the luminaire");
   const double sum = shares.sum();
@@ -73,7 +71,7 @@ Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen:
 }
 
 Luminaire PartOf(const Luminaire& luminaire, PartKind kind, int part) {
-  const Eigen::Index parts = PartShares(luminaire, kind).size();
+  const Eigen::Index parts = PartCount(luminaire, kind);
   if (part < 0 || part >= parts)
     throw std::invalid_argument("PartOf: expected a part that the luminaire has");
   Luminaire alone = WithPartShares(luminaire, kind, Eigen::VectorXd::Unit(parts, part));
@@ -87,7 +85,7 @@ Luminaire PartOf(const Luminaire& luminaire, PartKind kind, int part) {
 }
 
 std::vector<LuminaireCell> CellsOf(const Luminaire& luminaire) {
-  if (!IsUneven(luminaire)) return {{luminaire, Eigen::Vector2d::Zero()}};
+  if (!HasUnevenEmission(luminaire)) return {{luminaire, Eigen::Vector2d::Zero()}};
   const Eigen::Array2d counts(static_cast<double>(luminaire.emission.rows()),
                               static_cast<double>(luminaire.emission.cols()));
   const LuminaireAxes axes = AxesOf(luminaire);

@@ -22,6 +22,9 @@ namespace luxfit {
 
 enum class PartKind { kGammaNode, kCell };
 
+// Whether the luminaire is a rectangle whose cells do not share its flux evenly.
+bool HasUnevenEmission(const Luminaire& luminaire);
+
 // Shares of the flux by part; empty for a luminaire that has no such parts.
 Eigen::VectorXd PartShares(const Luminaire& luminaire, PartKind kind);
 

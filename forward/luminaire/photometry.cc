@@ -74,6 +74,11 @@ TableCell CellOf(const std::vector<double>& angles, double x) {
   return {above - angles.begin() - 1, std::clamp((x - low) / width, 0.0, 1.0), width};
 }
 
+// In the luminaire's frame.
+Eigen::Vector3d DirectionOf(double c_rad, double gamma_rad) {
+  return {std::sin(gamma_rad) * std::cos(c_rad), std::sin(gamma_rad) * std::sin(c_rad), -std::cos(gamma_rad)};
+}
+
 }  // namespace
 
 IntensityTable ExpandPlanes(const std::vector<double>& c_rad, const std::vector<double>& gamma_rad,
@@ -139,10 +144,7 @@ bool IsSymmetricAboutAim(const IntensityTable& table) {
     const double gamma = M_PI * g / kGammas;
     double least = table.peak_cd_per_lm, most = 0;
     for (int k = 0; k < kTurns; ++k) {
-      const double c = 2 * M_PI * k / kTurns;
-      const double i = IntensityTowards(table, {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c),
-                                                -std::cos(gamma)})
-                           .cd_per_lm;
+      const double i = IntensityTowards(table, DirectionOf(2 * M_PI * k / kTurns, gamma)).cd_per_lm;
       least = std::min(least, i);
       most = std::max(most, i);
     }
@@ -187,10 +189,8 @@ IntensityTable Resampled(const IntensityTable& table, int c_step_deg, int gamma_
   for (int c = 0; c < 360; c += c_step_deg) c_rad.push_back(c * M_PI / 180);
   for (int g = 0; g <= 180; g += gamma_step_deg) gamma_rad.push_back(g * M_PI / 180);
   for (const double c : c_rad) {
-    for (const double g : gamma_rad) {
-      const Eigen::Vector3d direction(std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g));
-      intensity.push_back(IntensityTowards(table, direction).cd_per_lm);
-    }
+    for (const double g : gamma_rad)
+      intensity.push_back(IntensityTowards(table, DirectionOf(c, g)).cd_per_lm);
   }
   return ExpandPlanes(c_rad, gamma_rad, intensity, PlaneSymmetry::kNone);
 }

@@ -155,15 +155,6 @@ std::string ToString(RadiositySolver solver) {
   return "";
 }
 
-RadiositySolver RadiositySolverFromName(const std::string& name) {
-  std::string names;
-  for (const NamedSolver& named : kNames) {
-    if (named.name == name) return named.solver;
-    names += (names.empty() ? "" : ", ") + std::string(named.name);
-  }
-  throw std::invalid_argument("solver: expected one of " + names + ", got " + name);
-}
-
 RadiositySolution SolveRadiosity(const TransportGeometry& geometry, const Eigen::VectorXd& albedo,
                                  const Eigen::MatrixXf& direct_lx, const RadiositySolverOptions& options) {
   const DenseTransport dense(geometry.coupling);

@@ -53,8 +53,6 @@ enum class RadiositySolver {
   kBicgstab,
 };
 std::string ToString(RadiositySolver solver);
-// Returns the solver of that name. Throws std::invalid_argument that lists the names.
-RadiositySolver RadiositySolverFromName(const std::string& name);
 
 struct RadiositySolverOptions {
   RadiositySolver solver = RadiositySolver::kAuto;

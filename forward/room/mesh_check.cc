@@ -22,6 +22,9 @@ constexpr double kSliverAspect = 1000;  // longest side over height
 // Rays that leak between facets that do close: 0 of 2e6 in Embree's robust mode.
 constexpr double kEscapedShare = 1e-3;
 constexpr double kBackShare = 0.05;  // elements partly under a solid have honest ones
+constexpr char kCloseMesh[] = "close the mesh, or expect less interreflection than the real room has";
+constexpr char kTurnFacets[] =
+    "turn the facets so that their corners run counter-clockwise seen from inside the room";
 
 std::string Text(const char* format, double value) {
   std::array<char, 64> text{};
@@ -109,7 +112,7 @@ MeshFinding OpenEdges(const Scene& scene, const MeshTopology& mesh, const BoxTre
   }
   Describe(finding, "edges", "m", "end in the open");
   finding.effect = "light leaves the room there and does not come back";
-  finding.remedy = "close the mesh, or expect less interreflection than the real room has";
+  finding.remedy = kCloseMesh;
   return finding;
 }
 
@@ -130,7 +133,7 @@ MeshFinding FlippedFacets(const Scene& scene, const Shells& shells) {
   Describe(finding, "facets", "m2", "are wound against their neighbours");
   finding.affects_light = finding.count > 0;
   finding.effect = "a back reflects nothing: these facets are black to the room";
-  finding.remedy = "turn the facets so that their corners run counter-clockwise seen from inside the room";
+  finding.remedy = kTurnFacets;
   return finding;
 }
 
@@ -275,6 +278,16 @@ MeshFinding Dropped(const Scene& scene) {
   return finding;
 }
 
+MeshFinding SeenByRays(MeshDefect defect, const std::string& message, const std::string& remedy) {
+  MeshFinding finding;
+  finding.defect = defect;
+  finding.count = 1;
+  finding.affects_light = true;
+  finding.message = message;
+  finding.remedy = remedy;
+  return finding;
+}
+
 }  // namespace
 
 std::string ToString(MeshDefect defect) {
@@ -334,27 +347,11 @@ std::vector<MeshFinding> WithRayShares(std::vector<MeshFinding> findings, const 
   const bool flipped = find(MeshDefect::kFlippedFacets) != findings.end();
   if (find(MeshDefect::kOpenMesh) == findings.end() && shares.escaped > kEscapedShare && !explained &&
       !flipped) {
-    findings.push_back({MeshDefect::kOpenMesh,
-                        1,
-                        0,
-                        {},
-                        {},
-                        true,
-                        "the mesh does not enclose the room",
-                        "light leaves the room and does not come back",
-                        "close the mesh, or expect less interreflection than the real room has"});
+    findings.push_back(SeenByRays(MeshDefect::kOpenMesh, "the mesh does not enclose the room", kCloseMesh));
   }
   if (find(MeshDefect::kFlippedFacets) == findings.end() && shares.back > kBackShare && !explained) {
     findings.push_back(
-        {MeshDefect::kFlippedFacets,
-         1,
-         0,
-         {},
-         {},
-         true,
-         "facets turn their backs to the room",
-         "a back reflects nothing: these facets are black to the room",
-         "turn the facets so that their corners run counter-clockwise seen from inside the room"});
+        SeenByRays(MeshDefect::kFlippedFacets, "facets turn their backs to the room", kTurnFacets));
   }
   for (MeshFinding& finding : findings) {
     if (finding.defect == MeshDefect::kOpenMesh) {

@@ -16,6 +16,9 @@
 // ways are no overlap: they are a sheet with two sides, or a solid that stands on a larger face. Overlaps
 // narrower than 20 um are rounding of the file and stay. Areas are in m2.
 //
+// CheckSurvey tells whether surveyed points on surfaces and the mesh have the same frame and unit. Points are
+// near the mesh where they have. A mesh in another unit than declared is off by a known factor.
+//
 // Source: Baum, Mann, Smith, Winget (1991), "Making radiosity usable: automatic preprocessing and meshing
 // techniques for the generation of accurate radiosity solutions"; solid angle of a triangle: Van Oosterom and
 // Strackee (1983); clipping: Sutherland and Hodgman (1974), "Reentrant polygon clipping".
@@ -70,6 +73,16 @@ struct RayShares {
 // backs that only rays saw become findings. Elements that see nothing of the room do not count: the back of a
 // cabinet that stands flush with the wall lies outside.
 std::vector<MeshFinding> WithRayShares(std::vector<MeshFinding> findings, const RayShares& shares);
+
+struct SurveyCheck {
+  double distance_m = 0;    // three quarters of the points are no farther from the mesh
+  bool fits = true;         // below tolerance_m
+  std::string better_unit;  // m, cm, mm, in or ft where the mesh fits in that unit; else empty
+};
+
+// `declared_metres_per_unit`: the scale with which the mesh was read. Without points, `fits` is true.
+SurveyCheck CheckSurvey(const Scene& scene, const std::vector<Eigen::Vector3d>& points_in_world,
+                        double declared_metres_per_unit, double tolerance_m = 0.1);
 
 struct FacetOverlap {
   int on_top = 0, below = 0;  // facets

@@ -1,4 +1,4 @@
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 
 #include <algorithm>
 #include <cctype>

@@ -50,11 +50,11 @@ double FreeShare(const Scene& scene, const RayScene& rays, const Element& elemen
   int free = 0, total = 0;
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
-      double u = (i + 0.41) / kSide, v = (j + 0.57) / kSide;
+      const double u = (i + 0.41) / kSide, v = (j + 0.57) / kSide;
       if (triangle && u + v > 1) continue;
-      const Eigen::Vector3d origin = element.origin + u * element.edge_u + v * element.edge_v;
+      const Eigen::Vector3d p = element.origin + u * element.edge_u + v * element.edge_v;
       ++total;
-      if (!IsInsideSolid(scene, rays, origin, element.normal)) ++free;
+      if (!IsInsideSolid(scene, rays, p, element.normal)) ++free;
     }
   }
   return static_cast<double>(free) / total;

@@ -75,9 +75,13 @@ struct Patches {
   std::vector<FacetGrid> grids;  // one per facet
   std::vector<Facet> facets;     // those of the scene
 
-  bool IsTriangle(int patch) const {
-    const int facet = patches[static_cast<size_t>(patch)].facet;
-    return facets[static_cast<size_t>(facet)].kind == FacetKind::kTriangle;
+  const Facet& FacetOf(int patch) const {
+    return facets[static_cast<size_t>(patches[static_cast<size_t>(patch)].facet)];
+  }
+  bool IsTriangle(int patch) const { return FacetOf(patch).kind == FacetKind::kTriangle; }
+  // Returns the patch to which an element belongs.
+  const Patch& PatchOf(int element) const {
+    return patches[static_cast<size_t>(elements[static_cast<size_t>(element)].patch)];
   }
   // Returns the element that holds point (u, v) of a facet; -1 where that lies inside a solid.
   int ElementAt(int facet, double u, double v) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "forward/room/internal/facet_corners.h"
+
 namespace luxfit {
 namespace {
 
@@ -63,14 +65,8 @@ std::vector<Facet> Triangulate(std::vector<Eigen::Vector3d> polygon, int materia
 
 double DistanceToFacet(const Facet& facet, const Eigen::Vector3d& p) {
   // Least squares for (u, v), clamped: exact for rectangles, an upper bound within the shear for others.
-  const double uu = facet.edge_u.squaredNorm(), vv = facet.edge_v.squaredNorm(),
-               uv = facet.edge_u.dot(facet.edge_v);
-  const Eigen::Vector3d d = p - facet.origin;
-  const double det = uu * vv - uv * uv;
-  double u = (vv * d.dot(facet.edge_u) - uv * d.dot(facet.edge_v)) / det;
-  double v = (uu * d.dot(facet.edge_v) - uv * d.dot(facet.edge_u)) / det;
-  u = std::clamp(u, 0.0, 1.0);
-  v = std::clamp(v, 0.0, 1.0);
+  const Eigen::Vector2d at = facet.CoordinatesOf(p);
+  double u = std::clamp(at[0], 0.0, 1.0), v = std::clamp(at[1], 0.0, 1.0);
   if (facet.kind == FacetKind::kTriangle && u + v > 1) {
     const double excess = 0.5 * (u + v - 1);
     u = std::clamp(u - excess, 0.0, 1.0);
@@ -89,12 +85,7 @@ Eigen::Vector2d Facet::CoordinatesOf(const Eigen::Vector3d& p) const {
 
 Eigen::AlignedBox3d Scene::Bounds() const {
   Eigen::AlignedBox3d box;
-  for (const Facet& facet : facets) {
-    box.extend(facet.origin);
-    box.extend(facet.PointAt(1, 0));
-    box.extend(facet.PointAt(0, 1));
-    if (facet.kind == FacetKind::kParallelogram) box.extend(facet.PointAt(1, 1));
-  }
+  for (const Facet& facet : facets) box.extend(BoxOf(facet, 0));
   return box;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "forward/room/internal/expect_valid.h"
+#include "forward/room/internal/facet_corners.h"
 
 namespace luxfit {
 namespace {
@@ -98,10 +99,7 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
     const Facet& facet = scene.facets[f];
     const bool quad = facet.kind == FacetKind::kParallelogram;
     std::vector<RayCorner>& vertices = quad ? quads : triangles;
-    vertices.push_back(ToRayCorner(facet.origin));
-    vertices.push_back(ToRayCorner(facet.PointAt(1, 0)));
-    if (quad) vertices.push_back(ToRayCorner(facet.PointAt(1, 1)));
-    vertices.push_back(ToRayCorner(facet.PointAt(0, 1)));
+    for (const Eigen::Vector3d& corner : CornersOf(facet)) vertices.push_back(ToRayCorner(corner));
     (quad ? state_->facet_of_quad : state_->facet_of_triangle).push_back(static_cast<int>(f));
   }
   state_->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);

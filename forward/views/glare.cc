@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "forward/direct/internal/luminous_surface.h"
+
 namespace luxfit {
 namespace {
 
@@ -40,19 +42,18 @@ double RelativeEmission(const Luminaire& luminaire, const SurfaceSample& sample)
 }
 
 std::vector<Piece> PiecesOfSurface(const Luminaire& luminaire, const Eigen::Vector3d& eye, int order) {
-  const LuminaireAxes axes = AxesOf(luminaire);
-  const bool disc = luminaire.shape == LuminaireShape::kDisc;
-  const double across_m = disc ? luminaire.size_m[0] : luminaire.size_m[1];
-  const double area_m2 = luminaire.size_m[0] * across_m * (disc ? M_PI / 4 : 1.0);
+  const LuminousSurface surface(luminaire);
+  const Eigen::Vector2d& sides_m = surface.sides();
+  const double area_m2 = surface.area_m2();
   std::vector<Piece> pieces;
   for (const SurfaceSample& sample : SampleSurface(luminaire.shape, order)) {
-    const Eigen::Vector3d at =
-        luminaire.position + sample.a * luminaire.size_m[0] * axes.along + sample.b * across_m * axes.across;
+    const Eigen::Vector3d at = luminaire.position + sample.a * sides_m[0] * surface.axes().along +
+                               sample.b * sides_m[1] * surface.axes().across;
     const Eigen::Vector3d to_eye = eye - at;
     const double distance_m = to_eye.norm();
     const Eigen::Vector3d direction = to_eye / distance_m;
     const double cosine = std::abs(direction.dot(luminaire.aim));
-    const double intensity_cd = luminaire.flux_lm * IntensityPerLumen(luminaire, axes, direction).cd_per_lm;
+    const double intensity_cd = luminaire.flux_lm * surface.IntensityTowards(direction).cd_per_lm;
     if (cosine < 1e-6 || !(intensity_cd > 0)) continue;
     pieces.push_back({at, sample.weight * area_m2 * cosine / (distance_m * distance_m),
                       RelativeEmission(luminaire, sample) * intensity_cd / (area_m2 * cosine)});

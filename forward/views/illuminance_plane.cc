@@ -1,13 +1,9 @@
 #include "forward/views/illuminance_plane.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "forward/direct/internal/shadowed_light.h"
 
 namespace luxfit {
 namespace {
@@ -44,27 +40,6 @@ PlaneGrid GridOf(const IlluminancePlane& plane, int count_u, int count_v) {
     grid.points.col(k) = plane.origin + u * plane.edge_u + v * plane.edge_v;
   }
   return grid;
-}
-
-PlaneIlluminance ComputePlane(const Room& room, const LitRoom& lit, const IlluminancePlane& plane,
-                              const PlaneOptions& options) {
-  PlaneIlluminance result;
-  result.grid = GridOf(plane);
-  const Eigen::Index count = result.grid.points.cols();
-  result.direct_lx.setZero(count);
-  result.indirect_lx.setZero(count, lit.element_exitance.cols());
-  result.is_inside.assign(static_cast<size_t>(count), 0);
-  const Eigen::Vector3d normal = result.grid.normal;
-  const SensorRays rays = SampleResponse({Eigen::Vector3d::Zero(), normal, {}}, options.ray_count);
-  tbb::parallel_for(Eigen::Index{0}, count, [&](Eigen::Index k) {
-    const Eigen::Vector3d p = result.grid.points.col(k);
-    for (const Luminaire& luminaire : lit.luminaires)
-      result.direct_lx[k] += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal);
-    const Gathered gathered = GatherIlluminance(room, lit.element_exitance, {p, normal, {}}, rays);
-    result.indirect_lx.row(k) = gathered.illuminance_lx;
-    result.is_inside[static_cast<size_t>(k)] = gathered.back_share > 0.5 ? 1 : 0;
-  });
-  return result;
 }
 
 }  // namespace luxfit

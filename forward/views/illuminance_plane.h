@@ -1,4 +1,4 @@
-// Computes the illuminance over a plane, finds work planes, and judges their light as the standards ask.
+// Lays the standards' grid over planes, finds work planes, and gives the statistics of their light.
 //
 //   p = 0.2 * 5^(log10 d)                                                         grid spacing and side d, m
 //   E_avg = mean E_i,   E_min = min E_i,   U0 = E_min / E_avg,   Ud = E_min / E_max                       lx
@@ -7,9 +7,7 @@
 //
 // Points are the centres of equal cells, as many along each edge as come nearest to the spacing. A spacing of
 // 0 is that of EN 12464-1: p, at most 10 m. Here d is the plane's longer side (its shorter one if they differ
-// twofold and more). Direct light (occlusion tested) is the same in all channels; indirect light has one
-// column for each channel of the LitRoom. Points inside a solid see backs alone. They are marked, and hold
-// the light that reaches them, about none.
+// twofold and more).
 //
 // The floor is what faces up within 5 cm of the lowest such facet. The work plane is the least rectangle over
 // it that lies along an edge of it, at a height, less a margin. Points in a solid, points off the floor (a
@@ -34,7 +32,6 @@
 
 #include "forward/light/room.h"
 #include "forward/room/scene.h"
-#include "forward/views/surface_view.h"
 
 namespace luxfit {
 
@@ -52,19 +49,6 @@ struct PlaneGrid {
 PlaneGrid GridOf(const IlluminancePlane& plane);
 // Returns the grid with so many points along its edges, whatever its spacing. Throws for counts below 1, too.
 PlaneGrid GridOf(const IlluminancePlane& plane, int count_u, int count_v);
-
-struct PlaneOptions {
-  int ray_count = 1024;  // per point, for indirect light: about 0.5 %
-};
-
-struct PlaneIlluminance {
-  PlaneGrid grid;
-  Eigen::VectorXd direct_lx;
-  Eigen::MatrixXd indirect_lx;           // points x channels
-  std::vector<unsigned char> is_inside;  // 1: in a solid
-};
-PlaneIlluminance ComputePlane(const Room& room, const LitRoom& lit, const IlluminancePlane& plane,
-                              const PlaneOptions& options = {});
 
 // A negative margin stands for the standard's band.
 constexpr double kStandardMargin = -1;
@@ -98,11 +82,6 @@ struct PlaneStatistics {
 // any, or empty.
 PlaneStatistics StatisticsOf(const Eigen::VectorXd& illuminance_lx, const std::vector<bool>& counts,
                              const Eigen::MatrixXd& factor = {}, double relative_model_error = 0);
-
-// States whether a value meets a limit: at 95 %, two-sided.
-enum class Verdict { kMet, kMissed, kOpen };
-Verdict AtLeast(double value, double sigma, double asked);
-Verdict AtMost(double value, double sigma, double asked);
 
 }  // namespace luxfit
 

@@ -6,14 +6,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kTwoSided95 = 1.96;
-
-Verdict Compare(double margin, double sigma) {
-  if (!std::isfinite(margin) || !std::isfinite(sigma)) return Verdict::kOpen;
-  if (std::abs(margin) < kTwoSided95 * sigma) return Verdict::kOpen;
-  return margin >= 0 ? Verdict::kMet : Verdict::kMissed;
-}
-
 void AddUncertainty(const Eigen::MatrixXd& factor, const std::vector<bool>& counts, Eigen::Index least,
                     double model, PlaneStatistics& s) {
   Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(factor.cols());
@@ -55,8 +47,5 @@ PlaneStatistics StatisticsOf(const Eigen::VectorXd& illuminance_lx, const std::v
   if (factor.size() > 0) AddUncertainty(factor, counts, least, relative_model_error, s);
   return s;
 }
-
-Verdict AtLeast(double value, double sigma, double asked) { return Compare(value - asked, sigma); }
-Verdict AtMost(double value, double sigma, double asked) { return Compare(asked - value, sigma); }
 
 }  // namespace luxfit

@@ -10,7 +10,6 @@
 
 #include "forward/direct/internal/shadowed_light.h"
 #include "forward/light/illuminance.h"
-#include "forward/light/internal/gather.h"
 #include "forward/views/internal/vertex_interpolation.h"
 
 namespace luxfit {
@@ -59,14 +58,9 @@ LuminousHit MeetLuminaire(const Luminaire& luminaire, const Eigen::Vector3d& ori
   return {distance, IntensityTowards(luminaire, -direction) / (area_m2 * cosine)};
 }
 
-// Returns rays about +z, to be turned to each point's normal.
-SensorRays CanonicalRays(const ViewOptions& options) {
-  if (options.gather_rays <= 0) return {};
-  return SampleResponse({Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ(), {}}, options.gather_rays);
-}
-
+// Returns the illuminance (lx, one per channel) of a point of a facet's front.
 Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet, double u, double v,
-                                 const ViewOptions& options, const SensorRays& rays) {
+                                 const ViewOptions& options) {
   const Facet& surface = room.scene.facets[static_cast<size_t>(facet)];
   const Eigen::Vector3d p = surface.PointAt(u, v), normal = surface.Normal();
   ShadowOptions shadows;
@@ -74,17 +68,8 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
   double direct_lx = 0;
   for (const Luminaire& luminaire : lit.luminaires)
     direct_lx += luminaire.flux_lm * VisibleIlluminancePerLumen(room.rays, luminaire, p, normal, shadows);
-  Eigen::RowVectorXd indirect_lx;
-  if (options.gather_rays > 0) {
-    SensorRays turned;
-    turned.directions =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal).toRotationMatrix() *
-        rays.directions;
-    indirect_lx = GatherIlluminance(room, lit.element_exitance, {p, normal, {}}, turned).illuminance_lx;
-  } else {
-    indirect_lx =
-        Interpolate(*lit.interpolation, lit.vertex_indirect_lx, facet, u, v).cast<double>().cwiseMax(0.0);
-  }
+  const Eigen::RowVectorXd indirect_lx =
+      Interpolate(*lit.interpolation, lit.vertex_indirect_lx, facet, u, v).cast<double>().cwiseMax(0.0);
   return indirect_lx.array() + direct_lx;
 }
 
@@ -98,60 +83,31 @@ LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, co
   lit.luminaires = luminaires;
   lit.albedo = albedo;
   const LuminaireVisibility visibility = ComputeVisibility(room, {}, luminaires);
-  lit.element_direct_lx = Eigen::MatrixXf::Zero(elements, 1);
+  Eigen::MatrixXf element_direct_lx = Eigen::MatrixXf::Zero(elements, 1);
   tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
     const Element& element = room.patches.elements[static_cast<size_t>(e)];
     for (size_t k = 0; k < luminaires.size(); ++k) {
       const float visible = visibility.elements(e, static_cast<Eigen::Index>(k));
       if (visible == 0) continue;
-      lit.element_direct_lx(e, 0) +=
+      element_direct_lx(e, 0) +=
           visible * static_cast<float>(
                         luminaires[k].flux_lm *
                         DirectIlluminancePerLumen(luminaires[k], element.center, element.normal).lx_per_lm);
     }
   });
-  const Eigen::MatrixXf patch_direct = PatchMean(room.patches, lit.element_direct_lx);
+  const Eigen::MatrixXf patch_direct = PatchMean(room.patches, element_direct_lx);
   Eigen::MatrixXf patch_exitance(patch_direct.rows(), albedo.cols());
   for (Eigen::Index c = 0; c < albedo.cols(); ++c)
     patch_exitance.col(c) = Transport(room.transport, albedo.col(c)).Exitance(patch_direct);
   const Eigen::MatrixXf indirect_lx = IndirectAtElements(room, patch_exitance);
-  lit.element_exitance.resize(elements, albedo.cols());
-  for (Eigen::Index c = 0; c < albedo.cols(); ++c)
-    lit.element_exitance.col(c) =
-        ElementAlbedo(room.patches, albedo.col(c)).cwiseProduct(lit.element_direct_lx + indirect_lx.col(c));
   lit.interpolation =
       std::make_shared<const VertexInterpolation>(MakeVertexInterpolation(room.scene, room.patches));
   lit.vertex_indirect_lx = AtVertices(*lit.interpolation, indirect_lx);
   return lit;
 }
 
-Gathered GatherIlluminance(const Room& room, const Eigen::MatrixXf& element_exitance, const Sensor& sensor,
-                           const SensorRays& sensor_rays) {
-  const Eigen::Vector3d start = RayOrigin(sensor);
-  Gathered gathered;
-  gathered.illuminance_lx = Eigen::RowVectorXd::Zero(element_exitance.cols());
-  const Eigen::Index count = sensor_rays.directions.cols();
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const RayHit hit = room.rays.Trace(start, sensor_rays.directions.col(k));
-    if (hit.facet < 0) continue;
-    if (!hit.front) {
-      gathered.back_share += 1 / static_cast<double>(count);
-    } else if (const int element = room.patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0) {
-      gathered.illuminance_lx += element_exitance.row(element).cast<double>();
-    }
-  }
-  gathered.illuminance_lx *= sensor_rays.total / static_cast<double>(count);
-  return gathered;
-}
-
-Eigen::RowVectorXd SurfaceIlluminance(const Room& room, const LitRoom& lit, int facet, double u, double v,
-                                      const ViewOptions& options) {
-  return IlluminanceAt(room, lit, facet, u, v, options, CanonicalRays(options));
-}
-
 Eigen::MatrixXd RenderView(const Room& room, const LitRoom& lit, const Eigen::Vector3d& origin,
                            const Eigen::Matrix3Xd& directions, const ViewOptions& options) {
-  const SensorRays rays = CanonicalRays(options);
   Eigen::MatrixXd luminance = Eigen::MatrixXd::Zero(directions.cols(), lit.albedo.cols());
   tbb::parallel_for(Eigen::Index{0}, directions.cols(), [&](Eigen::Index i) {
     const Eigen::Vector3d direction = directions.col(i);
@@ -166,9 +122,9 @@ Eigen::MatrixXd RenderView(const Room& room, const LitRoom& lit, const Eigen::Ve
       luminance.row(i).setConstant(nearest.luminance_cd_m2);
     } else if (hit.facet >= 0 && hit.front) {
       const int material = room.scene.facets[static_cast<size_t>(hit.facet)].material;
-      luminance.row(i) = lit.albedo.row(material).cwiseProduct(
-                             IlluminanceAt(room, lit, hit.facet, hit.u, hit.v, options, rays)) /
-                         M_PI;
+      luminance.row(i) =
+          lit.albedo.row(material).cwiseProduct(IlluminanceAt(room, lit, hit.facet, hit.u, hit.v, options)) /
+          M_PI;
     }
   });
   return luminance;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "forward/room/internal/facet_corners.h"
 #include "forward/room/internal/inside_solid.h"
 
 namespace luxfit {
@@ -30,20 +31,16 @@ std::vector<Facet> FloorFacets(const Scene& scene) {
   return floor;
 }
 
-std::vector<Eigen::Vector2d> CornersOf(const Facet& facet) {
-  std::vector<Eigen::Vector2d> corners = {facet.PointAt(0, 0).head<2>(), facet.PointAt(1, 0).head<2>()};
-  if (facet.kind == FacetKind::kParallelogram) corners.emplace_back(facet.PointAt(1, 1).head<2>());
-  corners.emplace_back(facet.PointAt(0, 1).head<2>());
-  return corners;
-}
-
 Eigen::Vector2d Across(const Eigen::Vector2d& u) { return {-u.y(), u.x()}; }
 
 // Returns the box of the floor, in coordinates along u and across it.
 Eigen::AlignedBox2d BoxAlong(const std::vector<Facet>& floor, const Eigen::Vector2d& u) {
   Eigen::AlignedBox2d box;
   for (const Facet& facet : floor) {
-    for (const Eigen::Vector2d& p : CornersOf(facet)) box.extend(Eigen::Vector2d(p.dot(u), p.dot(Across(u))));
+    for (const Eigen::Vector3d& corner : CornersOf(facet)) {
+      const Eigen::Vector2d p = corner.head<2>();
+      box.extend(Eigen::Vector2d(p.dot(u), p.dot(Across(u))));
+    }
   }
   return box;
 }
@@ -56,9 +53,10 @@ Eigen::Vector2d DirectionOf(const std::vector<Facet>& floor) {
   constexpr size_t kMaxFacets = 200;  // on a finely cut floor each is as good as its neighbour
   const size_t step = floor.size() / kMaxFacets + 1;
   for (size_t f = 0; f < floor.size(); f += step) {
-    const std::vector<Eigen::Vector2d> corners = CornersOf(floor[f]);
-    for (size_t i = 0; i < corners.size(); ++i) {
-      Eigen::Vector2d u = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+    const FacetCorners corners = CornersOf(floor[f]);
+    for (size_t i = 0; i < corners.count; ++i) {
+      const Eigen::Vector3d edge = corners.points[(i + 1) % corners.count] - corners.points[i];
+      Eigen::Vector2d u = edge.head<2>().normalized();
       if (std::abs(u.y()) > std::abs(u.x())) u = Eigen::Vector2d(u.y(), -u.x());
       const double area = BoxAlong(floor, u).volume();
       if (area > 0.999 * least) continue;

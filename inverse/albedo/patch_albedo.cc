@@ -10,6 +10,7 @@
 
 #include "calib/luminance/median.h"
 #include "inverse/albedo/internal/albedo_ratios.h"
+#include "inverse/model/fit_uncertainty.h"
 
 namespace luxfit {
 namespace {
@@ -259,6 +260,19 @@ void CountElements(const MaterialFit& fit, double model_error, MaterialAlbedo& m
   }
 }
 
+// Returns relative sigmas of the fit's reflectances, by material; 0 where the fit held or did not determine
+// one.
+Eigen::VectorXd SigmaOfReflectances(const Room& room, const LuminaireFit& fit) {
+  const FitUncertainty uncertainty = UncertaintyOf(fit);
+  Eigen::VectorXd relative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(room.scene.materials.size()));
+  for (Eigen::Index m = 0; m < relative.size(); ++m) {
+    const double sigma =
+        uncertainty.Sigma({ParameterKind::kAlbedo, room.scene.materials[static_cast<size_t>(m)]});
+    if (sigma > 0) relative[m] = sigma / fit.state.albedo[m];
+  }
+  return relative;
+}
+
 }  // namespace
 
 std::string ToString(AlbedoDetail detail) {
@@ -306,6 +320,12 @@ PatchAlbedo EstimatePatchAlbedo(const Room& room, const LightData& data, const L
     }
   }
   return result;
+}
+
+PatchAlbedo EstimatePatchAlbedo(const Room& room, const LightData& data, const LuminaireFit& fit,
+                                PatchAlbedoOptions options) {
+  if (options.common_sigma.size() == 0) options.common_sigma = SigmaOfReflectances(room, fit);
+  return EstimatePatchAlbedo(room, data, fit.state, options);
 }
 
 }  // namespace luxfit

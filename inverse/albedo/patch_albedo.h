@@ -30,6 +30,7 @@
 #include <string>
 #include <vector>
 
+#include "inverse/model/fit_luminaires.h"
 #include "inverse/model/light_state.h"
 
 namespace luxfit {
@@ -62,6 +63,10 @@ struct MaterialAlbedo {
   AlbedoDetail detail = AlbedoDetail::kMaterial;
   std::vector<DetailScore> scores;
   std::string because;
+
+  // Returns whether more than 2 % of the elements are unlike the rest. A smaller share is the material's border
+  // and its stains.
+  bool IsUneven() const { return unlike_elements > 0.02 * elements; }
 };
 
 // Holds one albedo at the detail chosen for its material.
@@ -83,6 +88,11 @@ struct PatchAlbedo {
 // `light`: luminaires, camera scale, and the albedo by material for unseen surfaces.
 PatchAlbedo EstimatePatchAlbedo(const Room& room, const LightData& data, const LightState& light,
                                 const PatchAlbedoOptions& options = {});
+
+// Does the same by the light of a fit. An empty `common_sigma` is that of the fit's reflectances, which contains
+// the uncertainty of fluxes and camera scale.
+PatchAlbedo EstimatePatchAlbedo(const Room& room, const LightData& data, const LuminaireFit& fit,
+                                PatchAlbedoOptions options = {});
 
 }  // namespace luxfit
 

@@ -90,6 +90,27 @@ struct PhotometricStereo {
 PhotometricStereo SolvePhotometricStereo(const StereoData& data,
                                          const PhotometricStereoOptions& options = {});
 
+// Tells what the pixels show.
+struct StereoRegions {
+  std::vector<bool> is_object, is_reference;  // for every pixel
+  double reference_albedo = 0;                // reflectance of the reference
+};
+
+// Summarizes a solution over the object's pixels. Numbers are NaN where no pixel is determined.
+struct StereoSummary {
+  bool is_absolute = false;  // true: a reference tells the reflectance
+  double factor = 1;         // from the solution's albedo to that of the summary
+  int pixels = 0, determined = 0;
+  double albedo_mean = 0, albedo_variation = 0;   // variation: relative standard deviation
+  double albedo_sigma = 0, normal_sigma_rad = 0;  // medians
+  Eigen::VectorXd adjusted_rad;     // by light: angle between the direction given and the adjusted one
+  Eigen::VectorXd median_residual;  // by light: of the absolute residuals
+  std::vector<int> suspect_lights;  // adjusted by 3 sigmas or more: measured less well than stated
+};
+// Throws std::invalid_argument for a solution that is not usable and regions of other pixels.
+StereoSummary Summarize(const StereoData& data, const PhotometricStereo& result,
+                        const StereoRegions& regions);
+
 // Finds the direction to a distant light from its highlight on a mirror sphere.
 //
 //   n = ((u - u0) / R, -(v - v0) / R, sqrt(1 - ...)),   l = 2 (n . z) n - z,   z = (0, 0, 1) to the camera

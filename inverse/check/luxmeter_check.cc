@@ -1,9 +1,11 @@
 #include "inverse/check/luxmeter_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <cstdio>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -29,11 +31,7 @@ double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight) {
   return 0;
 }
 
-std::string Percent(double relative) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * std::abs(relative));
-  return text;
-}
+std::string Percent(double relative) { return fmt::format("{:.1f} %", 100 * std::abs(relative)); }
 
 void FindCommonFactor(const std::vector<NamedReading>& readings, LuxmeterFindings& findings) {
   std::vector<std::pair<double, double>> ratios, shared;
@@ -118,6 +116,8 @@ void Explain(Disagreement& d) {
 }  // namespace
 
 LuxmeterSummary SummarizeLuxmeter(const std::vector<CheckedReading>& readings) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (readings.empty()) return {kUnknown, kUnknown, kUnknown, 0};
   LuxmeterSummary summary;
   double measured = 0;
   for (const CheckedReading& r : readings) {
@@ -129,7 +129,6 @@ LuxmeterSummary SummarizeLuxmeter(const std::vector<CheckedReading>& readings) {
     }
   }
   summary.readings_checked = static_cast<int>(readings.size());
-  if (readings.empty()) return summary;
   if (measured > 0) summary.mean_abs_error_percent = 100 * summary.mean_abs_error_lx / measured;
   summary.mean_abs_error_lx /= static_cast<double>(readings.size());
   return summary;

@@ -32,6 +32,7 @@ struct CheckedReading {
   double predicted_sigma_lx = 0;
 };
 
+// Holds errors over readings; NaN where there are none.
 struct LuxmeterSummary {
   double mean_abs_error_lx = 0;
   double mean_abs_error_percent = 0;

@@ -135,7 +135,7 @@ class Candidate {
  private:
   Sums Total(int without) const {
     Sums total{Eigen::MatrixXd::Zero(unknowns_.count, unknowns_.count),
-               Eigen::VectorXd::Zero(unknowns_.count), 0};
+               Eigen::VectorXd::Zero(unknowns_.count)};
     for (int fold = 0; fold < PhotoEquations::kFolds; ++fold) {
       if (fold == without) continue;
       total.normal += by_fold_[static_cast<size_t>(fold)].normal;
@@ -259,6 +259,10 @@ PhotoCorrection SelfCalibration::CorrectionOf(int photo, int camera) const {
   const auto coefficients = vignetting.col(camera);
   return {log_gain[photo], {coefficients.begin(), coefficients.end()}, exponent[camera]};
 }
+
+double SelfCalibration::CornerShare(int camera) const { return std::exp(vignetting.col(camera).sum()); }
+
+double SelfCalibration::ResponsePower(int camera) const { return 1 / (1 + exponent[camera]); }
 
 SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
                               const std::vector<PhotoSample>& samples, const OpenRadiometry& open,

@@ -96,6 +96,8 @@ struct SelfCalibration {
 
   const RadiometryCandidate& Chosen() const { return candidates[static_cast<size_t>(chosen)]; }
   PhotoCorrection CorrectionOf(int photo, int camera) const;
+  double CornerShare(int camera) const;    // light at r = 1 over that at the centre
+  double ResponsePower(int camera) const;  // counts go with this power of light
 };
 
 // `dimming`: one vector per state, by luminaire. `patches`: facets and patches define what is left out

@@ -39,10 +39,6 @@ WeightedRows RowsOf(const Eigen::MatrixXd& element_lx, const std::vector<Element
   return weighted;
 }
 
-double MedianOf(const Eigen::VectorXd& values) {
-  return values.size() == 0 ? 0 : Quantile({values.begin(), values.end()}, 0.5);
-}
-
 // Elements of one surface share the model's error there: this many of them count as one.
 constexpr double kElementsPerIndependent = 25;
 
@@ -65,8 +61,8 @@ CurrentDimming EstimateDimming(const Eigen::MatrixXd& element_lx,
   current.is_determined = true;
   current.dimming = SolveNonNegative(gram, rows.light.transpose() * rows.measured);
   const Eigen::VectorXd residual = rows.measured - rows.light * current.dimming;
-  constexpr double kSigmaOfMad = 1.4826;
-  current.residual_scale = kSigmaOfMad * MedianOf(residual.cwiseAbs());
+  const Eigen::VectorXd size = residual.cwiseAbs();
+  current.residual_scale = kSigmaPerMad * Quantile({size.begin(), size.end()}, 0.5);
   const double variance = std::max(1.0, current.residual_scale * current.residual_scale);
   current.covariance =
       kElementsPerIndependent * variance * factored.solve(Eigen::MatrixXd::Identity(luminaires, luminaires));

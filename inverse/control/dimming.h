@@ -92,8 +92,7 @@ struct DimmingPlan {
   bool is_reached = false;  // true: every requirement is met
   Eigen::VectorXd dimming;
   double power_w = 0;
-  std::vector<double> achieved;  // one for each requirement
-  std::vector<double> shortage;  // below least (or above most), 0 where met
+  std::vector<double> shortage;  // by requirement: below least (or above most), 0 where met
 };
 
 DimmingPlan PlanDimming(const Eigen::VectorXd& power_w, const std::vector<LightRequirement>& requirements,

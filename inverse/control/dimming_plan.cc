@@ -83,7 +83,6 @@ DimmingPlan PlanDimming(const Eigen::VectorXd& power_w, const std::vector<LightR
   for (const LightRequirement& r : requirements) {
     const double value = r.light.dot(plan.dimming);
     const double shortage = std::max({0.0, r.least - value, value - r.most});
-    plan.achieved.push_back(value);
     plan.shortage.push_back(shortage > kTolerance * ScaleOf(r) ? shortage : 0);
     plan.is_reached = plan.is_reached && plan.shortage.back() == 0;
   }

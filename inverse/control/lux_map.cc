@@ -1,8 +1,11 @@
 #include "inverse/control/lux_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "inverse/model/fit_uncertainty.h"
 
 namespace luxfit {
 namespace {
@@ -36,7 +39,34 @@ PixelGap GapOf(const LuminanceImage& photo, const SurfaceScale& scale, int mater
   return IsKnown(scale, material) ? PixelGap::kNone : PixelGap::kReflectanceUnknown;
 }
 
+// Returns the relative sigma of camera scale times reflectance. The fit correlates them.
+double SigmaOfProduct(const std::string& material, double albedo, const FitUncertainty& uncertainty) {
+  const ParameterId camera{ParameterKind::kLogCameraScale, ""}, rho{ParameterKind::kAlbedo, material};
+  const double variance = uncertainty.Covariance(camera, camera) +
+                          2 * uncertainty.Covariance(camera, rho) / albedo +
+                          uncertainty.Covariance(rho, rho) / (albedo * albedo);
+  return std::sqrt(std::max(variance, 0.0));
+}
+
 }  // namespace
+
+SurfaceScale ScaleOfSurfaces(double camera_scale, const FittedSurfaces& surfaces,
+                             const FitUncertainty& uncertainty) {
+  const size_t count = surfaces.materials.size();
+  if (surfaces.is_known.size() != count || surfaces.albedo.size() != static_cast<Eigen::Index>(count))
+    throw std::invalid_argument("ScaleOfSurfaces: expected a reflectance for each material");
+  SurfaceScale scale;
+  scale.camera_scale = camera_scale;
+  scale.albedo = surfaces.albedo;
+  scale.relative_sigma = Eigen::VectorXd::Constant(surfaces.albedo.size(), kUnknown);
+  scale.relative_model_sigma = uncertainty.relative_model_sigma;
+  for (size_t m = 0; m < count; ++m) {
+    if (!surfaces.is_known[m]) continue;
+    const Eigen::Index i = static_cast<Eigen::Index>(m);
+    scale.relative_sigma[i] = SigmaOfProduct(surfaces.materials[m], surfaces.albedo[i], uncertainty);
+  }
+  return scale;
+}
 
 PixelMapOptions DensePixels() {
   PixelMapOptions options;

@@ -24,12 +24,24 @@
 
 namespace luxfit {
 
+struct FitUncertainty;  // inverse/model/fit_uncertainty.h
+
 struct SurfaceScale {
   double camera_scale = 0;         // relative luminance per cd/m2
   Eigen::VectorXd albedo;          // by material
   Eigen::VectorXd relative_sigma;  // sigma of c rho, by material; NaN: unknown reflectance
   double relative_model_sigma = 0;
 };
+
+// Holds the reflectances of a fit, by material.
+struct FittedSurfaces {
+  std::vector<std::string> materials;
+  Eigen::VectorXd albedo;
+  std::vector<bool> is_known;  // false: the data do not determine it, or no photo shows it
+};
+// Returns the scale with the sigma of each product c rho. Throws std::invalid_argument for sizes that differ.
+SurfaceScale ScaleOfSurfaces(double camera_scale, const FittedSurfaces& surfaces,
+                             const FitUncertainty& uncertainty);
 
 // Says why a pixel has no illuminance. Files store the numbers.
 enum class PixelGap { kNone = 0, kNoSurface = 1, kSaturated = 2, kDark = 3, kReflectanceUnknown = 4 };

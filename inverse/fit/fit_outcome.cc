@@ -1,4 +1,4 @@
-#include "inverse/fit/fit_outcome.h"
+#include "inverse/fit/fit_room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +24,7 @@ bool IsLit(const RoomFit& fit, int state) {
 double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity) {
   for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
     const Parameter& p = fit.parameters[i];
-    const bool same =
-        p.kind == kind && p.index == index && (kind != ParameterKind::kLuminaire || p.quantity == quantity);
-    if (!same) continue;
+    if (!p.Is(kind, index, quantity)) continue;
     const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
     const auto row = static_cast<Eigen::Index>(i);
     return known ? std::sqrt(fit.covariance(row, row)) : kNotDetermined;

@@ -29,6 +29,7 @@
 #include "inverse/choose/direct_share.h"
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/study/stability_score.h"
 
 namespace luxfit {
 
@@ -76,6 +77,31 @@ struct RoomFit {
 };
 
 RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options = {});
+
+// The following functions read a fit as its users do: only what the data determine, with sigmas. NaN marks
+// what they do not determine; a sigma of 0 marks what was held. Units: m, lx, and lm; where the fit has no
+// absolute scale, fluxes are relative.
+
+// Returns the standard deviation of a parameter in its own unit. `quantity` is used for
+// ParameterKind::kLuminaire only.
+double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {});
+
+// Returns whether the data determine the luminaire's flux in lumens.
+bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
+
+// Returns the luminaires that were found. Their flux is relative where the fit is not absolute.
+std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);
+
+// Holds a prediction. Its sigma is hypot(sigma by the parameters, relative model error * prediction).
+struct PredictedReading {
+  bool is_known = false;  // false: there is no scale, or a luminaire that is on was not found
+  double illuminance_lx = 0;
+  double direct_lx = 0;
+  double parameter_sigma_lx = 0;
+  double sigma_lx = 0;
+};
+// Returns one prediction for each reading of `fit.data`; empty where nothing was fitted.
+std::vector<PredictedReading> PredictedReadings(const RoomFit& fit);
 
 // Counts the luminaires that nobody names from one state in which all are on
 // (inverse/choose/internal/choose_count.h). Returns the chosen number, at least 1, and records the choice.

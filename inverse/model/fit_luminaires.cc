@@ -43,7 +43,7 @@ class OuterLoop {
                                   root_weight_, priors_, smoothness_,     at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
       const bool is_near = options_.start_is_near || outer >= 2;
-      fit_.cost = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
       fit_.state = WithParameters(before, fit_.parameters, x);
       settled = is_near &&
                 LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
@@ -61,10 +61,8 @@ class OuterLoop {
  private:
   void AddPrior(const ParameterPrior& prior) {
     for (size_t i = 0; i < fit_.parameters.size(); ++i) {
-      const Parameter& p = fit_.parameters[i];
-      const bool same = p.kind == prior.kind && p.index == prior.index &&
-                        (p.kind != ParameterKind::kLuminaire || p.quantity == prior.quantity);
-      if (same) priors_.push_back({static_cast<int>(i), prior});
+      if (fit_.parameters[i].Is(prior.kind, prior.index, prior.quantity))
+        priors_.push_back({static_cast<int>(i), prior});
     }
   }
 

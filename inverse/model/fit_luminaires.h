@@ -83,7 +83,6 @@ struct LuminaireFit {
   Eigen::VectorXd reading_sigma_lx;  // sigma of the predicted readings
   double relative_sigma = 0;         // f
   double effective_parts = 0;        // effective number, for tables and uneven emission; needs covariance
-  double cost = 0;
   int outer_iterations = 0;
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }
 };

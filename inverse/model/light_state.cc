@@ -157,10 +157,15 @@ void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int in
 
 }  // namespace
 
-bool IsPart(const Parameter& p) {
-  return p.kind == ParameterKind::kLuminaire &&
-         (p.quantity == LuminaireQuantity::kCell || p.quantity == LuminaireQuantity::kGammaNode);
+Eigen::MatrixXf LumensByState(const LightData& data, const std::vector<Luminaire>& luminaires) {
+  const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
+  Eigen::MatrixXf lumens(flux_lm.size(), static_cast<Eigen::Index>(data.dimming.size()));
+  for (Eigen::Index s = 0; s < lumens.cols(); ++s)
+    lumens.col(s) = data.dimming[static_cast<size_t>(s)].cwiseProduct(flux_lm).cast<float>();
+  return lumens;
 }
+
+bool IsPart(const Parameter& p) { return p.kind == ParameterKind::kLuminaire && HasParts(p.quantity); }
 
 double ReferenceShare(const LightState& state, const Parameter& p) {
   return PartShares(state.luminaires[static_cast<size_t>(p.index)], PartKindOf(p.quantity))[p.reference];

@@ -64,6 +64,9 @@ struct LightState {
   bool sensor_gains_free = false;  // need priors likewise
 };
 
+// Returns the luminaires' fluxes by state: luminaires x states, lm.
+Eigen::MatrixXf LumensByState(const LightData& data, const std::vector<Luminaire>& luminaires);
+
 // Returns the free parameters in their order, with bounds: positions within the room's bounding box (a
 // luminaire hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
 std::vector<Parameter> FreeParameters(const Room& room, const LightState& state);

@@ -42,11 +42,11 @@ const QuantityWords& WordsOf(LuminaireQuantity quantity) {
   return kQuantities[static_cast<size_t>(quantity)];
 }
 
+}  // namespace
+
 bool HasParts(LuminaireQuantity quantity) {
   return quantity == LuminaireQuantity::kGammaNode || quantity == LuminaireQuantity::kCell;
 }
-
-}  // namespace
 
 bool operator==(const ParameterId& a, const ParameterId& b) {
   if (a.kind != b.kind || a.owner != b.owner) return false;

@@ -17,11 +17,14 @@ namespace luxfit {
 
 enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };
 
+// Returns whether the quantity is a share of one of several parts: kGammaNode and kCell.
+bool HasParts(LuminaireQuantity quantity);
+
 struct ParameterId {
   ParameterKind kind = ParameterKind::kLuminaire;
   std::string owner;  // id of the luminaire, name of the material, number of the sensor; empty for scales
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;  // for kLuminaire
-  int part = 0;                                                // for kGammaNode and kCell
+  int part = 0;                                                // where HasParts
 };
 bool operator==(const ParameterId& a, const ParameterId& b);
 bool operator!=(const ParameterId& a, const ParameterId& b);
@@ -49,13 +52,17 @@ struct Parameter {
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
   double lower = 0, upper = 0;
   std::string owner;  // as in ParameterId
-  // For kGammaNode and kCell: the value is the share of `part` over that of `reference`. The reference is the
+  // Where HasParts: the value is the share of `part` over that of `reference`. The reference is the
   // largest at the start and not a parameter itself.
   int part = 0, reference = 0;
   // For kTiltAlong, kTiltAcross and kHeading: the luminaire's frame when the parameter was made.
   AimFrame frame = {};
 
   ParameterId id() const { return {kind, owner, quantity, part}; }
+  // Returns whether it is that quantity of that owner. `of` is compared for kLuminaire only.
+  bool Is(ParameterKind of_kind, int of_index, LuminaireQuantity of) const {
+    return kind == of_kind && index == of_index && (kind != ParameterKind::kLuminaire || quantity == of);
+  }
 };
 
 }  // namespace luxfit

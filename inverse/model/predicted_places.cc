@@ -1,4 +1,4 @@
-#include "inverse/model/predicted_places.h"
+#include "inverse/model/fit_uncertainty.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -100,12 +100,11 @@ PredictedPlaces WithoutCovariance(const Room& room, const std::vector<Luminaire>
   const Receivers receivers = MakeReceivers(room, {}, places);
   const Illuminance light =
       ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, luminaires), luminaires, albedo);
-  PredictedPlaces result{light.total.cast<double>(), light.direct.cast<double>(), {}, {}};
-  for (size_t k = 0; k < luminaires.size(); ++k) {
-    result.total_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-    result.direct_lx.col(static_cast<Eigen::Index>(k)) *= luminaires[k].flux_lm;
-  }
-  return result;
+  const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
+  return {light.total.cast<double>() * flux_lm.asDiagonal(),
+          light.direct.cast<double>() * flux_lm.asDiagonal(),
+          {},
+          {}};
 }
 
 }  // namespace

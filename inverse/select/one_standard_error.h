@@ -17,6 +17,7 @@
 #ifndef LUXFIT_INVERSE_SELECT_ONE_STANDARD_ERROR_H_
 #define LUXFIT_INVERSE_SELECT_ONE_STANDARD_ERROR_H_
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -26,6 +27,12 @@ namespace luxfit {
 struct GroupScore {
   double sum = 0;
   int count = 0;
+
+  // Adds min(z^2, 9) of one row left out; z is its residual over its sigma.
+  void Add(double z) {
+    sum += std::min(z * z, 9.0);
+    ++count;
+  }
 };
 using GroupScores = std::map<int, GroupScore>;  // by group
 

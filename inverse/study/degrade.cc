@@ -33,16 +33,19 @@ std::set<int> Draw(const std::set<int>& values, int count, std::mt19937_64& rng)
   return {order.begin(), order.begin() + count};
 }
 
-std::set<int> ViewsOf(const std::vector<Observation>& observations) {
-  std::set<int> views;
-  for (const Observation& o : observations) views.insert(o.view);
-  return views;
+// `of`: Observation::view or Observation::state.
+std::set<int> Observed(const std::vector<Observation>& observations, int Observation::*of) {
+  std::set<int> observed;
+  for (const Observation& o : observations) observed.insert(o.*of);
+  return observed;
 }
 
-std::set<int> StatesOf(const std::vector<Observation>& observations) {
-  std::set<int> states;
-  for (const Observation& o : observations) states.insert(o.state);
-  return states;
+std::vector<Observation> Without(int dropped, int Observation::*of, std::vector<Observation> observations,
+                                 std::mt19937_64& rng) {
+  const std::set<int> out = Draw(Observed(observations, of), dropped, rng);
+  const auto is_out = [&](const Observation& o) { return out.count(o.*of) > 0; };
+  observations.erase(std::remove_if(observations.begin(), observations.end(), is_out), observations.end());
+  return observations;
 }
 
 std::vector<Eigen::Vector3d> CornersOf(const Facet& facet) {
@@ -103,30 +106,20 @@ std::vector<Observation> WithExposureErrors(std::vector<Observation> observation
 
 std::vector<Observation> WithoutViews(const std::vector<Observation>& observations, int dropped,
                                       std::mt19937_64& rng) {
-  const std::set<int> out = Draw(ViewsOf(observations), dropped, rng);
-  std::vector<Observation> kept;
-  for (const Observation& o : observations) {
-    if (out.count(o.view) == 0) kept.push_back(o);
-  }
-  return kept;
+  return Without(dropped, &Observation::view, observations, rng);
 }
 
 std::vector<Observation> WithoutStates(const std::vector<Observation>& observations, int dropped,
                                        std::mt19937_64& rng) {
-  const std::set<int> out = Draw(StatesOf(observations), dropped, rng);
-  std::vector<Observation> kept;
-  for (const Observation& o : observations) {
-    if (out.count(o.state) == 0) kept.push_back(o);
-  }
-  return kept;
+  return Without(dropped, &Observation::state, observations, rng);
 }
 
 int CountViews(const std::vector<Observation>& observations) {
-  return static_cast<int>(ViewsOf(observations).size());
+  return static_cast<int>(Observed(observations, &Observation::view).size());
 }
 
 int CountStates(const std::vector<Observation>& observations) {
-  return static_cast<int>(StatesOf(observations).size());
+  return static_cast<int>(Observed(observations, &Observation::state).size());
 }
 
 std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double sigma_m,

@@ -55,8 +55,7 @@ LightData SimulateLight(const Room& room, const TracedLight& traced, const Light
   for (size_t s = 0; s < dimming.size(); ++s) {
     if (dimming[s].sum() <= 0) continue;
     for (size_t i = 0; i < traced.elements.size(); ++i) {
-      const int patch = room.patches.elements[static_cast<size_t>(traced.elements[i])].patch;
-      const Patch& lit = room.patches.patches[static_cast<size_t>(patch)];
+      const Patch& lit = room.patches.PatchOf(traced.elements[i]);
       const std::pair<int, int> cluster{lit.facet, static_cast<int>(s)};
       if (facet_error.count(cluster) == 0) facet_error[cluster] = options.facet_sigma * normal(rng);
       const double lx = traced.illuminance_lx.row(static_cast<Eigen::Index>(i)).dot(dimming[s]);

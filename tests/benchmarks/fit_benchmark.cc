@@ -46,8 +46,8 @@ void WholeFit(benchmark::State& state) {
     RunContext own;
     own.is_quiet = true;
     own.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
-    benchmark::DoNotOptimize(
-        FitSession(prepared.session, prepared.room, {prepared.observations, prepared.seen}, own));
+    benchmark::DoNotOptimize(FitSession(prepared.session, prepared.linearized, prepared.room,
+                                        {prepared.observations, prepared.seen}, own));
     context = own;
   }
   state.counters["observations"] = static_cast<double>(prepared.observations.size());
@@ -67,8 +67,8 @@ const Start& Moved() {
     RunContext context;
     context.is_quiet = true;
     context.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
-    const RoomFit fitted =
-        FitSession(prepared.session, prepared.room, {prepared.observations, prepared.seen}, context);
+    const RoomFit fitted = FitSession(prepared.session, prepared.linearized, prepared.room,
+                                      {prepared.observations, prepared.seen}, context);
     Start moved{fitted.data, fitted.fit.state, {}};
     for (size_t k = 0; k < moved.state.luminaires.size(); ++k) {
       Luminaire& luminaire = moved.state.luminaires[k];

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "forward/factors/form_factors.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/paths.h"
 #include "tests/support/scenes.h"
 

@@ -10,7 +10,7 @@
 #include "forward/direct/direct_light.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/paths.h"
 
 namespace luxfit {

@@ -16,7 +16,7 @@
 #include "forward/light/room.h"
 #include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/radiosity/solvers.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/paths.h"
 
 namespace luxfit {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/fuzz/use_scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -148,7 +148,8 @@ class Signatures(unittest.TestCase):
 
     def test_setters_are_where_the_module_has_them(self):
         for name, stub in vars(STUBS).items():
-            for key, member in vars(stub).items() if isinstance(stub, type) and not name.startswith("_") else ():
+            for key in dir(stub) if isinstance(stub, type) and not name.startswith("_") else ():
+                member = getattr(stub, key)
                 if isinstance(member, property):
                     with self.subTest(f"{name}.{key}"):
                         self.assertEqual(member.fset is None, vars(getattr(luxfit, name))[key].fset is None)
@@ -174,7 +175,8 @@ class Values(unittest.TestCase):
         stub = getattr(STUBS, name)
         for key, hint in typing.get_type_hints(stub, vars(STUBS)).items():
             self.expect(f"{name}.{key}", getattr(value, key), hint)
-        for key, member in vars(stub).items():
+        for key in dir(stub):
+            member = getattr(stub, key)
             if isinstance(member, property):
                 self.expect(f"{name}.{key}", getattr(value, key), self.returned(member.fget))
 
@@ -186,7 +188,8 @@ class Values(unittest.TestCase):
         for name, stub in vars(STUBS).items():
             if getattr(stub, "__module__", None) != STUBS.__name__ or name == "_Pybind11Type" or not callable(stub):
                 continue
-            members = [getattr(m, "fget", m) for m in vars(stub).values()] if isinstance(stub, type) and not name.startswith("_") else []
+            members = [getattr(stub, key) for key in dir(stub)] if isinstance(stub, type) and not name.startswith("_") else []
+            members = [getattr(m, "fget", m) for m in members]
             for one in [stub, *(m for m in members if isinstance(m, types.FunctionType) and m.__name__ not in ("__init__", "__repr__"))]:
                 self.assertTrue(one.__doc__, one)
 

@@ -11,7 +11,7 @@ set -eu
 readings=$1 condition=$2 out=$3 every=${4:-1}
 mkdir -p "$out"
 awk -F, -v condition="$condition" -v every="$every" '
-  BEGIN { print "id,x_m,y_m,z_m,nx,ny,nz,state,lux,sensor" }
+  BEGIN { print "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx,sensor" }
   $1 == condition && $3 > 0.13 && $5 > 0 && int($3 / 0.016 + 0.5) % every == int(every / 2) {
     printf "d%s_%d,%.4f,%.4f,%.4f,0,0,1,%s,%s,y%s\n", $4, ++n, $2 + 0.07, $3, -$4, condition, $5, $3
   }' "$readings" > "$out/luxmeter.csv"

@@ -13,7 +13,7 @@
 
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/support/office_truth.h"
 
 namespace luxfit {

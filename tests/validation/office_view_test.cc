@@ -17,7 +17,7 @@
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "forward/views/surface_view.h"
 #include "tests/paths.h"
 

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/study/simulated_light.h"
 #include "tests/support/inverse/poster_room.h"
@@ -129,10 +129,9 @@ int main(int argc, char** argv) {
   const auto options = luxfit::support::ReadStudyOptions(argc, argv);
   if (!options) return 2;
   const Study study;
-  luxfit::LineChart chart;
+  luxfit::XyChart chart;
   chart.title = "95 % intervals that hold the truth";
-  chart.subtitle =
-      "6 facets, 3 luminaires and states; noise 0.5 %, two readings of 1 %; goal: 90 to 98 %";
+  chart.subtitle = "6 facets, 3 luminaires and states; noise 0.5 %, two readings of 1 %; goal: 90 to 98 %";
   chart.x = {"model error common to a facet and state, %", false, {}, {}};
   chart.y = {"of the intervals, %", false, 60, 100};
   for (const char* name : kNames) chart.series.push_back({name, {}, {}, true});
@@ -161,7 +160,7 @@ int main(int argc, char** argv) {
   }
   if (!options->is_quick) {
     std::ofstream(options->folder + "/fit_coverage.csv") << csv;
-    std::ofstream(options->folder + "/fit_coverage.svg") << LineChartSvg(chart);
+    std::ofstream(options->folder + "/fit_coverage.svg") << luxfit::XyChartsSvg({chart});
   }
   return is_good || !options->is_quick ? 0 : 1;
 }

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
 #include "apps/text/formats/artifact.h"
@@ -47,8 +47,9 @@ Office PrepareOffice(const std::string& folder) {
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
   const SessionObservations observed{office.prepared.observations, office.prepared.seen};
-  const LightData data =
-      LightOf(RoomObservationsOf(office.prepared.session, office.prepared.room, observed)).data;
+  const LightData data = LightOf(RoomObservationsOf(office.prepared.session, office.prepared.linearized,
+                                                    office.prepared.room, observed))
+                             .data;
   office.data = WithMeasuredIndirect(office.prepared.room, data);
   for (const EstimatedLuminaire& lamp : ReadTruth(kOffice + "truth.json"))
     office.truth.push_back(lamp.position);
@@ -113,11 +114,11 @@ std::vector<SeenPlace> Moved(const Office& office, double r_m, std::mt19937_64& 
 
 bool StudyOffsets(const Office& office, const std::string& folder, bool is_quick) {
   std::string csv = "offset_m,used_percent,residual_percent,guess_off_mm_median,guess_off_mm_worst\n";
-  LineChart chart{"First guess: a place seen in photos that is off by r",
-                  "office, four luminaires; beside it the washed-out tags and walls that the photos show",
-                  {"r, m", false, {}, {}},
-                  {"%", false, 0, 100},
-                  {{"used without a search", {}, {}}}};
+  XyChart chart{"First guess: a place seen in photos that is off by r",
+                "office, four luminaires; beside it the washed-out tags and walls that the photos show",
+                {"r, m", false, {}, {}},
+                {"%", false, 0, 100},
+                {{"used without a search", {}, {}}}};
   bool is_good = true;
   const std::vector<double> offsets =
       is_quick ? std::vector<double>{0, 1}
@@ -145,7 +146,7 @@ bool StudyOffsets(const Office& office, const std::string& folder, bool is_quick
   }
   std::printf("\n%s", csv.c_str());
   WriteText(folder + "/first_guess_offset.csv", csv);
-  WriteText(folder + "/first_guess_offset.svg", LineChartSvg(chart));
+  WriteText(folder + "/first_guess_offset.svg", XyChartsSvg({chart}));
   return is_good;
 }
 

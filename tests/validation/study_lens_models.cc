@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "apps/text/formats/artifact.h"
 #include "calib/calibrate/calibration.h"
 #include "calib/luminance/median.h"
@@ -45,12 +45,12 @@ std::vector<Truth> Truths() {
            support::OpenCv8Camera(),
            0.35,
            0.9,
-           {"OPENCV4", "OPENCV5", "OPENCV8", "OPENCV12", "SPLINED8", "SPLINED12"}},
+           {"opencv4", "opencv5", "opencv8", "opencv12", "splined8", "splined12"}},
           {"fisheye",
            support::FisheyeCamera(),
            0.15,
            0.45,
-           {"OPENCV5", "OPENCV8", "FISHEYE", "SPLINED8", "SPLINED12"}}};
+           {"opencv5", "opencv8", "fisheye", "splined8", "splined12"}}};
 }
 
 CalibrationInput Views(const Truth& truth, int images, unsigned seed) {
@@ -89,15 +89,15 @@ void WriteModels(const std::string& folder, bool quick) {
   std::string csv = "truth,lens,images,cpu_s,error_px,held_out_px,rms_px\n";
   const std::vector<int> counts = quick ? std::vector<int>{6} : std::vector<int>{6, 10, 20, 40};
   for (const Truth& truth : Truths()) {
-    LineChart chart;
+    XyChart chart;
     chart.title = "Lens models before a " + truth.name + " lens, 0.3 px of noise";
     chart.subtitle =
         "median of seeds; points: 6, 10, 20 and 40 images; the seed and five held-out fits included";
     chart.x = {"CPU time, s", true, {}, {}};
     chart.y = {"error of directions, inner 80 % of the image, px", true, {}, {}};
     for (const std::string& lens : truth.lenses) {
-      if (quick && lens == "SPLINED12") continue;
-      LineSeries series;
+      if (quick && lens == "splined12") continue;
+      XySeries series;
       series.name = lens;
       for (const int images : counts) {
         const Measured m = Measure(truth, lens, images, quick ? 1 : 3);
@@ -107,7 +107,7 @@ void WriteModels(const std::string& folder, bool quick) {
       }
       chart.series.push_back(std::move(series));
     }
-    WriteText(folder + "/calib_lens_models_" + truth.name + ".svg", LineChartSvg(chart));
+    WriteText(folder + "/calib_lens_models_" + truth.name + ".svg", XyChartsSvg({chart}));
   }
   WriteText(folder + "/calib_lens_models.csv", csv);
 }
@@ -191,12 +191,12 @@ int WriteStability(const std::string& folder, bool quick) {
   std::string csv = "sweep,value,cases,right,refused,wrong_and_passed,median_focal_error_percent\n";
   int wrong = 0;
   for (const Sweep& sweep : Sweeps()) {
-    LineChart chart;
+    XyChart chart;
     chart.title = "Calibration against " + sweep.label;
     chart.subtitle = "right: focal length within 1 %; refused: a gate failed, with the reason";
     chart.x = {sweep.label, false, {}, {}};
     chart.y = {"calibrations, %", false, 0.0, 100.0};
-    LineSeries right{"right", {}, {}, true}, refused{"refused", {}, {}, true},
+    XySeries right{"right", {}, {}, true}, refused{"refused", {}, {}, true},
         passed{"wrong and passed", {}, {}, true};
     for (std::size_t i = 0; i < sweep.values.size(); ++i) {
       if (quick && i % 8 != 0) continue;
@@ -210,7 +210,7 @@ int WriteStability(const std::string& folder, bool quick) {
       wrong += o.wrong;
     }
     chart.series = {right, refused, passed};
-    WriteText(folder + "/calib_lens_" + sweep.name + ".svg", LineChartSvg(chart));
+    WriteText(folder + "/calib_lens_" + sweep.name + ".svg", XyChartsSvg({chart}));
   }
   WriteText(folder + "/calib_lens_stability.csv", csv);
   return wrong;

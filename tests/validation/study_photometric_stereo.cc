@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "inverse/albedo/patch_albedo.h"
 #include "inverse/albedo/photometric_stereo.h"
 #include "inverse/model/fit_luminaires.h"
@@ -89,7 +89,7 @@ class Study {
 
   // False where the albedo from measured radiosity is off by 2 % and more.
   bool RoomChart() {
-    luxfit::LineChart chart;
+    luxfit::XyChart chart;
     chart.title = "Albedo of a room: with and without interreflection";
     chart.subtitle =
         "luminaires known, a poster that is not in the model; no direct light on the ceiling; labels: "
@@ -115,7 +115,7 @@ class Study {
         if (way == 1 && !(error < 2)) is_good = false;
       }
     }
-    Write("albedo_room.svg", LineChartSvg(chart));
+    Write("albedo_room.svg", luxfit::XyChartsSvg({chart}));
     return is_good;
   }
 
@@ -124,14 +124,14 @@ class Study {
     const luxfit::support::GrayPixels pixels = luxfit::support::PixelsOf(set);
     const StereoData given{pixels.value, set.given_lights, {}, {}};
     const StereoData chrome = luxfit::support::WithMirrorSphereLights(set, pixels);
-    luxfit::LineChart chart;
+    luxfit::XyChart chart;
     chart.title = "The real grey sphere under twelve lights";
     chart.subtitle = "labels: variant; the best is at the lower left";
     chart.x = {"mean error of normals, degrees", false, 0, 17};
     chart.y = {"albedo: standard deviation over mean, %", false, 0, {}};
     for (const auto& [name, data] : {std::pair<std::string, const StereoData&>{"given directions", given},
                                      {"chrome sphere's", chrome}}) {
-      luxfit::LineSeries series{name, {}, {}, false};
+      luxfit::XySeries series{name, {}, {}, false};
       for (const Variant& variant : Variants()) {
         const Solved solved = Solve(variant, data);
         const double degrees = luxfit::support::MeanAngleDeg(solved.result.normal, pixels.normal);
@@ -143,7 +143,7 @@ class Study {
       }
       chart.series.push_back(series);
     }
-    Write("albedo_sphere.svg", LineChartSvg(chart));
+    Write("albedo_sphere.svg", luxfit::XyChartsSvg({chart}));
   }
 
   void Close() const {
@@ -154,7 +154,7 @@ class Study {
 
  private:
   bool ObjectCharts(bool uneven, const std::string& normals_file, const std::string& albedo_file) {
-    luxfit::LineChart normals, albedo;
+    luxfit::XyChart normals, albedo;
     normals.title = "Photometric stereo: error of normals against time";
     albedo.title = uneven ? "Photometric stereo, lights of uneven strength"
                           : "Photometric stereo: error of albedo against time";
@@ -166,7 +166,7 @@ class Study {
     albedo.y = {"mean error of albedo, %", true, {}, {}};
     double best = INFINITY, best_of_curve = INFINITY;
     for (const Variant& variant : Variants()) {
-      luxfit::LineSeries of_normals{variant.name, {}, {}, true}, of_albedo = of_normals;
+      luxfit::XySeries of_normals{variant.name, {}, {}, true}, of_albedo = of_normals;
       for (const int lights : is_quick_ ? std::vector<int>{12} : std::vector<int>{6, 8, 12, 20, 32}) {
         const luxfit::support::StereoPicture picture = PictureOf(lights, uneven);
         const Solved solved = Solve(variant, {picture.value, picture.to_light, {}, {}});
@@ -193,8 +193,8 @@ class Study {
       normals.series.push_back(of_normals);
       albedo.series.push_back(of_albedo);
     }
-    if (!normals_file.empty()) Write(normals_file, LineChartSvg(normals));
-    Write(albedo_file, LineChartSvg(albedo));
+    if (!normals_file.empty()) Write(normals_file, luxfit::XyChartsSvg({normals}));
+    Write(albedo_file, luxfit::XyChartsSvg({albedo}));
     return best_of_curve <= best;
   }
 

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "apps/text/formats/artifact.h"
 #include "calib/luminance/median.h"
 #include "calib/register/mesh_alignment.h"
@@ -48,10 +48,9 @@ std::vector<ViewDetections> DetectAll(const FeatureRoom& room, std::mt19937_64& 
   return views;
 }
 
-void Save(const std::string& folder, const std::string& name, const std::string& csv,
-          const LineChart& chart) {
+void Save(const std::string& folder, const std::string& name, const std::string& csv, const XyChart& chart) {
   WriteText(folder + "/" + name + ".csv", csv);
-  WriteText(folder + "/" + name + ".svg", LineChartSvg(chart));
+  WriteText(folder + "/" + name + ".svg", XyChartsSvg({chart}));
 }
 
 // ---- methods of one view's pose ----
@@ -136,14 +135,14 @@ std::vector<PnpMethod> PnpMethods() {
 void StudyPnp(const std::string& folder, bool is_quick) {
   const int draws = is_quick ? 5 : 200;
   std::string csv = "method,tags,time_ms,median_error_mm,found_percent\n";
-  LineChart chart{"One view's pose from its tags",
-                  fmt::format("{} views, tags of 0.2 m at 2 to 3.5 m, corners {} px rms; labels: tags", draws,
-                              kCornerNoisePx),
-                  {"CPU time, ms", true, {}, {}},
-                  {"camera centre, median error, mm", true, {}, {}},
-                  {}};
+  XyChart chart{"One view's pose from its tags",
+                fmt::format("{} views, tags of 0.2 m at 2 to 3.5 m, corners {} px rms; labels: tags", draws,
+                            kCornerNoisePx),
+                {"CPU time, ms", true, {}, {}},
+                {"camera centre, median error, mm", true, {}, {}},
+                {}};
   for (const PnpMethod& method : PnpMethods()) {
-    LineSeries series;
+    XySeries series;
     series.name = method.name;
     for (const int tags : {1, 2, 4, 8}) {
       if (method.is_planar && tags > 1) continue;
@@ -231,12 +230,12 @@ FeatureRoom RoomWithFloor(int views, int tags, int points, std::mt19937_64& rng)
 void StudyMethods(const std::string& folder, bool is_quick) {
   const int draws = is_quick ? 1 : 10;
   std::string csv = "surveyed_tags,method,registered_percent,median_error_mm\n";
-  LineChart chart{"Tags, features and both",
-                  "10 views of a 6 m x 4 m room, 300 feature points at 0.4 px, survey 1 mm; labels: % of "
-                  "views registered",
-                  {"surveyed tags in the room", true, {}, {}},
-                  {"camera centre, median error, mm", true, {}, {}},
-                  {{"tags", {}, {}}, {"features on the mesh", {}, {}}, {"both", {}, {}}}};
+  XyChart chart{"Tags, features and both",
+                "10 views of a 6 m x 4 m room, 300 feature points at 0.4 px, survey 1 mm; labels: % of "
+                "views registered",
+                {"surveyed tags in the room", true, {}, {}},
+                {"camera centre, median error, mm", true, {}, {}},
+                {{"tags", {}, {}}, {"features on the mesh", {}, {}}, {"both", {}, {}}}};
   for (const int tags : {1, 2, 4, 8, 16, 32}) {
     MethodScore scores[3];
     std::mt19937_64 rng(static_cast<std::uint64_t>(100 + tags));
@@ -268,13 +267,13 @@ void StudyMethods(const std::string& folder, bool is_quick) {
 
 void StudyBundle(const std::string& folder, bool is_quick) {
   std::string csv = "views,points,observations,cpu_s,median_error_mm\n";
-  LineChart chart{"Time of the joint adjustment",
-                  "start, outliers, sigmas and covariance included; points at 0.3 px, 40 tags in the room",
-                  {"views", true, {}, {}},
-                  {"CPU time, s", true, {}, {}},
-                  {}};
+  XyChart chart{"Time of the joint adjustment",
+                "start, outliers, sigmas and covariance included; points at 0.3 px, 40 tags in the room",
+                {"views", true, {}, {}},
+                {"CPU time, s", true, {}, {}},
+                {}};
   for (const int points : {0, 300, 1000, 3000}) {
-    LineSeries series;
+    XySeries series;
     series.name = points == 0 ? "tags alone" : fmt::format("{} points", points);
     for (const int views : {5, 10, 20, 50, 100}) {
       if ((is_quick && views > 10) || views * points > 100000) continue;
@@ -415,11 +414,11 @@ bool StudyStability(const std::string& folder, bool is_quick) {
   for (const Sweep& sweep : Sweeps()) {
     const bool single = sweep.name == "tags" || sweep.name == "flips";
     const int draws = single ? (is_quick ? 10 : 150) : (is_quick ? 1 : 12);
-    LineChart chart{"Registration: " + sweep.label,
-                    fmt::format("{}; corners {} px rms", sweep.subtitle, kCornerNoisePx),
-                    {sweep.label, false, {}, {}},
-                    {"views, %", false, 0, 100},
-                    {{"right", {}, {}}, {"left out and named", {}, {}}, {"wrong beyond its sigma", {}, {}}}};
+    XyChart chart{"Registration: " + sweep.label,
+                  fmt::format("{}; corners {} px rms", sweep.subtitle, kCornerNoisePx),
+                  {sweep.label, false, {}, {}},
+                  {"views, %", false, 0, 100},
+                  {{"right", {}, {}}, {"left out and named", {}, {}}, {"wrong beyond its sigma", {}, {}}}};
     for (const double value : sweep.values) {
       std::mt19937_64 rng(17);
       Fate fate;
@@ -431,7 +430,7 @@ bool StudyStability(const std::string& folder, bool is_quick) {
       if (sweep.name == "tags" && value == 12 && parts[0] < 98) is_good = false;
       if (!sweep.may_be_wrong && parts[2] > 2 && !is_quick) is_good = false;
     }
-    WriteText(folder + "/calib_registration_" + sweep.name + ".svg", LineChartSvg(chart));
+    WriteText(folder + "/calib_registration_" + sweep.name + ".svg", XyChartsSvg({chart}));
   }
   WriteText(folder + "/calib_registration_stability.csv", csv);
   return is_good;

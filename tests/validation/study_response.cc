@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "calib/luminance/response.h"
 #include "tests/support/calib/camera_model.h"
 #include "tests/support/study_options.h"
@@ -109,7 +109,7 @@ class Study {
 
   // False where a film curve is not found to 2 % from 1000 samples.
   bool SpeedAndAccuracy() {
-    luxfit::LineChart chart;
+    luxfit::XyChart chart;
     chart.title = "Response of a camera: error against time";
     chart.subtitle = "50 to 10 000 samples of 7 exposures one stop apart, 8 bits; labels: samples";
     chart.x = {"processor time, ms", true, {}, {}};
@@ -119,7 +119,7 @@ class Study {
                                               : std::vector<int>{50, 100, 200, 500, 1000, 2000, 5000, 10000};
     for (const Curve& curve : Curves()) {
       for (const std::string method : {"Debevec-Malik", "Robertson", "chosen"}) {
-        luxfit::LineSeries series{method + ", " + curve.name, {}, {}, true};
+        luxfit::XySeries series{method + ", " + curve.name, {}, {}, true};
         for (const int count : counts) {
           if (method == "chosen" && count != 100 && count != 1000) continue;
           const Timed timed = Averaged(method, curve, {count}, "samples", count);
@@ -132,19 +132,19 @@ class Study {
         chart.series.push_back(series);
       }
     }
-    Write("calib_response.svg", LineChartSvg(chart));
+    Write("calib_response.svg", luxfit::XyChartsSvg({chart}));
     return is_found;
   }
 
   void Stability() {
-    luxfit::LineChart chart;
+    luxfit::XyChart chart;
     chart.title = "Response of a camera: error by bracket";
     chart.subtitle =
         "film, 600 samples, 8 bits, mean of 4 brackets; two exposures determine nothing and are not drawn";
     chart.x = {"exposures in the bracket", false, {}, {}};
     chart.y = {"rms error of ln exposure, %", true, {}, {}};
     for (const double stops : {0.5, 1.0, 2.0, 3.0}) {
-      luxfit::LineSeries series{fmt::format("{:g} stops apart", stops), {}, {}, true};
+      luxfit::XySeries series{fmt::format("{:g} stops apart", stops), {}, {}, true};
       for (const int exposures : is_quick_ ? std::vector<int>{4} : std::vector<int>{2, 3, 4, 5, 7}) {
         Setup setup{600, exposures, stops};
         series.points.push_back(
@@ -152,7 +152,7 @@ class Study {
       }
       chart.series.push_back(series);
     }
-    Write("calib_response_stability.svg", LineChartSvg(chart));
+    Write("calib_response_stability.svg", luxfit::XyChartsSvg({chart}));
     for (const double full_well :
          is_quick_ ? std::vector<double>{} : std::vector<double>{20, 100, 500, 2000, 20000})
       MeanError({600, 7, 1, full_well}, "full well, electrons", full_well);

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "apps/text/formats/artifact.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
@@ -152,8 +152,8 @@ std::vector<Sweep> Sweeps(bool is_quick) {
   return sweeps;
 }
 
-LineChart ChartOf(const Sweep& sweep, const std::string& title, const std::string& y, bool is_log) {
-  LineChart chart;
+XyChart ChartOf(const Sweep& sweep, const std::string& title, const std::string& y, bool is_log) {
+  XyChart chart;
   chart.title = title;
   chart.subtitle = "tag36h11, tilt 20 degrees, blur 0.7 px, noise 0.5 %, 8 bits where not swept";
   chart.x.label = sweep.label;
@@ -168,7 +168,7 @@ bool StudyStability(const std::string& folder, bool is_quick) {
   std::string csv = "sweep,value,method,found_percent,corner_rms_px\n";
   bool is_good = true;
   for (const Sweep& sweep : Sweeps(is_quick)) {
-    std::map<std::string, LineSeries> found, error;
+    std::map<std::string, XySeries> found, error;
     for (const double value : sweep.values) {
       std::mt19937_64 rng(20260727);
       Conditions conditions;
@@ -185,16 +185,16 @@ bool StudyStability(const std::string& folder, bool is_quick) {
       if (is_easy)
         is_good = is_good && scores.back().found == scores.back().tags && scores.back().RmsPx() < 0.06;
     }
-    LineChart share = ChartOf(sweep, "Tags found", "tags found, percent", false);
+    XyChart share = ChartOf(sweep, "Tags found", "tags found, percent", false);
     share.y.min = 0;
     share.y.max = 105;
-    LineChart rms = ChartOf(sweep, "Corner error of tags found", "rms an axis, px", true);
+    XyChart rms = ChartOf(sweep, "Corner error of tags found", "rms an axis, px", true);
     for (const auto& [name, method] : Methods()) {
       share.series.push_back({name, found[name].points, {}, true});
       rms.series.push_back({name, error[name].points, {}, true});
     }
-    WriteText(folder + "/calib_tag_" + sweep.name + "_found.svg", LineChartSvg(share));
-    WriteText(folder + "/calib_tag_" + sweep.name + "_error.svg", LineChartSvg(rms));
+    WriteText(folder + "/calib_tag_" + sweep.name + "_found.svg", XyChartsSvg({share}));
+    WriteText(folder + "/calib_tag_" + sweep.name + "_error.svg", XyChartsSvg({rms}));
     std::printf("%s\n", sweep.name.c_str());
   }
   WriteText(folder + "/calib_tag_stability.csv", csv);
@@ -326,7 +326,7 @@ void StudySpeed(const std::string& folder, bool is_quick) {
     most_px = std::max(most_px, side_px);
   }
   std::string csv = "corners,decimation,cpu_s,found_percent,corner_rms_px\n";
-  LineChart chart;
+  XyChart chart;
   chart.title = "Tag detection: speed against accuracy";
   chart.subtitle = fmt::format(
       "{} tags of {:.0f} to {:.0f} px, 60 degrees oblique, {:.1f} megapixels; decimation, "
@@ -339,9 +339,9 @@ void StudySpeed(const std::string& folder, bool is_quick) {
     csv += fmt::format("\"{}\",{},{:.3f},{:.1f},{:.4f}\n", point.series, point.label, point.cpu_s,
                        point.score.FoundPercent(), point.score.RmsPx());
     auto series = std::find_if(chart.series.begin(), chart.series.end(),
-                               [&](const LineSeries& s) { return s.name == point.series; });
+                               [&](const XySeries& s) { return s.name == point.series; });
     if (series == chart.series.end())
-      series = chart.series.insert(chart.series.end(), LineSeries{point.series, {}, {}, false});
+      series = chart.series.insert(chart.series.end(), XySeries{point.series, {}, {}, false});
     series->points.emplace_back(point.cpu_s, point.score.RmsPx());
     // One series with labels tells them all: the others lie above and below it.
     const bool has_label = point.series == "edges as found" || point.label.size() > 3;
@@ -349,7 +349,7 @@ void StudySpeed(const std::string& folder, bool is_quick) {
                                        : "");
   }
   WriteText(folder + "/calib_tag_speed.csv", csv);
-  WriteText(folder + "/calib_tag_speed.svg", LineChartSvg(chart));
+  WriteText(folder + "/calib_tag_speed.svg", XyChartsSvg({chart}));
   std::printf("%s", csv.c_str());
 }
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
 #include "apps/text/file_stem.h"
 #include "apps/text/suggest.h"
@@ -149,15 +150,10 @@ void ExaminePhotos(const Session& session, DoctorFindings& findings) {
 // luminaires.
 void ExamineStates(const Session& session, DoctorFindings& findings) {
   if (session.luminaires.empty()) return;
-  Eigen::MatrixXd dimming = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(session.states.size()),
-                                                  static_cast<Eigen::Index>(session.luminaires.size()));
-  for (size_t s = 0; s < session.states.size(); ++s) {
-    for (size_t k = 0; k < session.luminaires.size(); ++k) {
-      const auto on = session.states[s].dimming.find(session.luminaires[k].id);
-      if (on != session.states[s].dimming.end())
-        dimming(static_cast<Eigen::Index>(s), static_cast<Eigen::Index>(k)) = on->second;
-    }
-  }
+  const std::vector<Eigen::VectorXd> by_state = DimmingOf(session);
+  Eigen::MatrixXd dimming(static_cast<Eigen::Index>(by_state.size()),
+                          static_cast<Eigen::Index>(session.luminaires.size()));
+  for (size_t s = 0; s < by_state.size(); ++s) dimming.row(static_cast<Eigen::Index>(s)) = by_state[s];
   const Eigen::Index rank = dimming.fullPivLu().rank();
   if (rank == dimming.cols()) {
     findings.push_back(

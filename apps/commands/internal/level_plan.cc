@@ -18,7 +18,7 @@ constexpr double kAssumedLmPerW = 100;
 // Returns the relative sigma of the light of each luminaire.
 Eigen::VectorXd LightSigma(const FittedRoom& fitted) {
   const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
-  const Eigen::VectorXd variance = FluxCovariance(fitted, uncertainty).diagonal();
+  const Eigen::VectorXd variance = FluxCovariance(uncertainty, fitted.luminaires).diagonal();
   const double model = uncertainty.relative_model_sigma;
   // Light that the data did not determine could be zero, so the plan does not count on it.
   return variance.unaryExpr([&](double v) { return std::isfinite(v) ? std::sqrt(v + model * model) : 1.0; });

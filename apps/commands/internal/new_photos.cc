@@ -136,21 +136,22 @@ Session WithRows(const FittedRoom& fitted, const std::vector<Row>& rows, bool po
   return session;
 }
 
-bool IsNew(const SessionPhoto& photo) { return photo.state.rfind(kNewState, 0) == 0; }
+bool IsNew(const LinearizedPhoto& photo) { return photo.state.rfind(kNewState, 0) == 0; }
 
 // Finds poses by the room's tags, which must hang where the run had them.
-std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, Session session,
-                                                     RunContext& context) {
-  session.photos.erase(std::remove_if(session.photos.begin(), session.photos.end(),
-                                      [](const SessionPhoto& p) { return !IsNew(p); }),
-                       session.photos.end());
+std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, const Session& session,
+                                                     LinearizedPhotos linearized, RunContext& context) {
+  std::vector<LinearizedPhoto>& photos = linearized.photos;
+  photos.erase(
+      std::remove_if(photos.begin(), photos.end(), [](const LinearizedPhoto& p) { return !IsNew(p); }),
+      photos.end());
   const std::vector<SurveyedTag>& tags =
       session.tags.survey.empty() ? fitted.registered.registration.placed_tags : session.tags.survey;
   if (tags.empty())
     throw std::runtime_error("--pose tags: expected a session with tags, got one without; give --view");
   const std::vector<Camera>& cameras = fitted.registered.cameras;
-  const Registration registration =
-      RegisterViews(cameras, tags, DetectViews(session, cameras, PhotosByView(session), context));
+  const Registration registration = RegisterViews(
+      cameras, tags, DetectViews(session, linearized, cameras, PhotosByView(session, photos), context));
   for (const RegistrationNote& note : registration.notes)
     context.warnings.push_back({note.code, note.message, note.remedy});
   std::map<std::string, Eigen::Isometry3d> poses;
@@ -168,10 +169,11 @@ NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& op
   }
   std::map<std::string, std::string> time_of;
   for (const Row& row : rows) time_of[row.file] = row.time;
+  const Session session = WithRows(fitted, rows, options.pose_from_tags);
   NewPhotos read;
-  read.session = LinearizeSession(WithRows(fitted, rows, options.pose_from_tags), context);
-  if (options.pose_from_tags) poses = PosesByTags(fitted, read.session, context);
-  for (const SessionPhoto& photo : read.session.photos) {
+  read.linearized = LinearizeSession(session, context).photos;
+  if (options.pose_from_tags) poses = PosesByTags(fitted, session, read.linearized, context);
+  for (const LinearizedPhoto& photo : read.linearized.photos) {
     if (!IsNew(photo)) continue;
     const auto pose = poses.find(photo.view);
     if (pose == poses.end()) {

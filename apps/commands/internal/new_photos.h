@@ -17,12 +17,12 @@
 namespace luxfit {
 
 struct NewPhoto {
-  SessionPhoto photo;  // linearized
-  std::string time;    // as given; empty: not given
+  LinearizedPhoto photo;
+  std::string time;  // as given; empty: not given
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
 };
 struct NewPhotos {
-  Session session;  // linearized, with the new photos
+  LinearizedPhotos linearized;  // with the session's first photo of each camera
   std::vector<NewPhoto> photos;
 };
 // `context` receives warnings. Photos whose pose the tags do not determine are left out with a warning.

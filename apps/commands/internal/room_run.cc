@@ -34,7 +34,7 @@ StageInputs WithOutputs(StageInputs inputs, const std::string& out) {
   return inputs;
 }
 
-int Show(const json& result, const CommandOptions& options, RoomRun what) {
+int Show(const json& result, const RunCommandOptions& options, RoomRun what) {
   const std::string text =
       options.json ? result.dump(2) + "\n"
                    : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
@@ -49,14 +49,18 @@ struct RoomResult {
   Room room;
 };
 
-RoomResult FitAndDescribe(Session session, const SessionInputs& inputs, RoomRun what, RunContext& context) {
+RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, RoomRun what,
+                          RunContext& context) {
   const StageTimer total(context, "total", "");
-  PreparedSession prepared = PrepareSession(std::move(session), inputs, context);
+  PreparedSession prepared = PrepareSession(read, inputs, context);
   const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen)};
-  session = WithCountedLuminaires(std::move(prepared.session), prepared.room, observed, context);
-  const RoomFit fit = FitSession(session, prepared.room, observed, context);
+  const LinearizedSession& linearized = prepared.linearized;
+  const Session session =
+      WithCountedLuminaires(std::move(prepared.session), linearized, prepared.room, observed, context);
+  const RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
-  json result = ResultJson(session, prepared.room, prepared.registered, fit, files, context);
+  json result =
+      ResultJson(session, linearized.readings, prepared.room, prepared.registered, fit, files, context);
   if (what == RoomRun::kFitAndAlbedo) {
     const json albedo = AlbedoOfRoom(session, prepared.room, fit, result, context);
     result = WithAlbedo(std::move(result), albedo, context);
@@ -91,7 +95,7 @@ double MakeReport(const RunContext& context, const std::function<FittedRoom()>& 
 
 }  // namespace
 
-RunContext MakeContext(const CommandOptions& options, const Session& session) {
+RunContext MakeContext(const SessionCommandOptions& options, const Session& session) {
   RunContext context;
   context.out = std::filesystem::absolute(options.out).lexically_normal().string();
   context.provenance = {options.command_line, session.input_files};
@@ -99,7 +103,7 @@ RunContext MakeContext(const CommandOptions& options, const Session& session) {
   return context;
 }
 
-int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
+int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   SessionInputs inputs = InputsOfStages(session, options.earlier_luminaires);
   inputs.result["what is asked for"] = what == RoomRun::kFitAndAlbedo ? "albedo" : "fit";
   RunContext context = MakeContext(options, session);
@@ -124,7 +128,7 @@ int RunRoom(Session session, const CommandOptions& options, RoomRun what) {
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
   if (!options.earlier_luminaires.empty())
     session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
-  RoomResult made = FitAndDescribe(std::move(session), inputs, what, context);
+  RoomResult made = FitAndDescribe(session, inputs, what, context);
   made.result["timing_s"] = context.timing_s;
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);

@@ -13,10 +13,10 @@ namespace luxfit {
 
 // kAll is kFit and the report.
 enum class RoomRun { kAll, kFit, kFitAndAlbedo };
-int RunRoom(Session session, const CommandOptions& options, RoomRun what);
+int RunRoom(Session session, const RunCommandOptions& options, RoomRun what);
 
 // Returns the context of a run: where to write, and the provenance of its artifacts.
-RunContext MakeContext(const CommandOptions& options, const Session& session);
+RunContext MakeContext(const SessionCommandOptions& options, const Session& session);
 
 }  // namespace luxfit
 

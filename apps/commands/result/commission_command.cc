@@ -15,6 +15,7 @@
 #include "apps/export/fit_uncertainty.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/csv_text.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/suggest.h"
 #include "inverse/control/commissioning.h"
 
@@ -61,7 +62,7 @@ std::vector<MeasuredLuminaire> MeasuredIn(const FittedRoom& fitted) {
 json IntervalJson(const ToleranceInterval& interval, double factor) {
   if (!interval.is_determined) return nullptr;
   return {{"value", factor * interval.value},
-          {"half_width95", std::isfinite(interval.half_width) ? json(factor * interval.half_width) : json()},
+          {"half_width95", NumberOrNull(factor * interval.half_width)},
           {"tolerance", factor * interval.tolerance}};
 }
 

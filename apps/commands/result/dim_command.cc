@@ -17,6 +17,7 @@
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/csv_table.h"
 #include "apps/text/formats/csv_text.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/suggest.h"
 #include "inverse/control/dimming.h"
 
@@ -179,7 +180,7 @@ int DimCommand(const DimCommandOptions& options) {
   if (!options.design.empty()) given_w = ReadDesign(options.design, fitted.session).power_w;
   const Eigen::VectorXd power_w = PowerOf(fitted, given_w);
   const UnseenDimming unseen = DimUnseen(eyes, now, power_w, options.drop_percent / 100,
-                                         FluxCovariance(fitted, ReadFitUncertainty(fitted.out)));
+                                         FluxCovariance(ReadFitUncertainty(fitted.out), fitted.luminaires));
   json result = ProvenanceJson("luxfit-dim-1", {options.command_line, {fitted.out + "/result.json"}});
   result["state"] = state;
   result["drop_percent"] = options.drop_percent;
@@ -199,11 +200,10 @@ int DimCommand(const DimCommandOptions& options) {
   for (size_t p = 0; p < gazes.size(); ++p) {
     const double eye_lx = eyes.light_lx.row(static_cast<Eigen::Index>(p)).dot(now);
     is_lit = is_lit && eye_lx > 0;
-    result["persons"].push_back(
-        {{"id", gazes[p].id},
-         {"eye_lx", eye_lx},
-         {"drop", unseen.drop[p]},
-         {"drop_sigma", std::isfinite(unseen.drop_sigma[p]) ? json(unseen.drop_sigma[p]) : json()}});
+    result["persons"].push_back({{"id", gazes[p].id},
+                                 {"eye_lx", eye_lx},
+                                 {"drop", unseen.drop[p]},
+                                 {"drop_sigma", NumberOrNull(unseen.drop_sigma[p])}});
   }
   result["power_w"] = unseen.power_w;
   result["power_before_w"] = unseen.power_before_w;

@@ -53,8 +53,8 @@ int ElementUnder(const Room& room, const Sensor& sensor) {
 Watched Watch(const FittedRoom& fitted) {
   const FitUncertainty uncertainty = ReadFitUncertainty(fitted.out);
   Watched watched{fitted,
-                  ScaleOfSurfaces(fitted, uncertainty),
-                  FluxCovariance(fitted, uncertainty),
+                  ScaleOfSurfaces(fitted.camera_scale, SurfacesOf(fitted), uncertainty),
+                  FluxCovariance(uncertainty, fitted.luminaires),
                   uncertainty.relative_model_sigma,
                   {},
                   {}};
@@ -178,7 +178,7 @@ json PhotoJson(const Watched& watched, const NewPhotos& read, const NewPhoto& ph
   const FittedRoom& fitted = watched.fitted;
   const Camera& camera = fitted.registered.cameras[static_cast<size_t>(photo.photo.camera)];
   const std::string name = std::filesystem::path(photo.photo.file).filename().string();
-  const LuminanceImage image = ReadCorrected(read.session, photo.photo, camera, corrections);
+  const LuminanceImage image = ReadCorrected(read.linearized, photo.photo, camera, corrections);
   const PhotoView view = ViewOf(fitted, photo.photo.camera, UnprojectAllPixels(camera), photo.cam_from_world);
   const LuxMap lux = MapIlluminance(view.dense, image, fitted.room.patches, watched.scale);
   if (lux.saturated_share > kMostlySaturated)

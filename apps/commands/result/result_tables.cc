@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/stages.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {
@@ -72,10 +73,12 @@ std::string LuxmeterTable(const json& result) {
                         r.contains("z") ? Number(r["z"], "{:.1f}") : "-", r["role"].get<std::string>());
   }
   const json& s = result["summary"];
-  text += fmt::format(
-      "checked {} readings: mean error {:.2f} lx = {:.2f} % of the mean reading, largest {:.2f} %\n",
-      s["readings_checked"].get<int>(), s["mean_abs_error_lx"].get<double>(),
-      s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
+  const int checked = s["readings_checked"].get<int>();
+  // Earlier results hold errors of 0 where no reading was checked.
+  const auto error = [&](const char* key) { return checked > 0 ? Number(s[key], "{:.2f}") : "-"; };
+  text += fmt::format("checked {} readings: mean error {} lx = {} % of the mean reading, largest {} %\n",
+                      checked, error("mean_abs_error_lx"), error("mean_abs_error_percent"),
+                      error("max_abs_error_percent"));
   return text;
 }
 
@@ -100,6 +103,19 @@ std::string SimulationTable(const json& artifact) {
         s["mean_abs_error_percent"].get<double>(), s["max_abs_error_percent"].get<double>());
   }
   return text + WarningText(artifact);
+}
+
+std::string RegistrationTable(const json& artifact) {
+  std::string text;
+  for (const json& view : artifact["views"]) {
+    const Eigen::Vector3d sigma_mm = 1e3 * VectorOrUnknown(view["position_sigma_m"], 3);
+    text += fmt::format(
+        "{:<8} {} tags, reprojection RMS {:.3f} px, camera centre ± {} {} {} mm\n",
+        view["view"].get<std::string>(), view["tags_used"].get<int>(),
+        view["reprojection_rms_px"].get<double>(), Number(NumberOrNull(sigma_mm.x()), "{:.1f}"),
+        Number(NumberOrNull(sigma_mm.y()), "{:.1f}"), Number(NumberOrNull(sigma_mm.z()), "{:.1f}"));
+  }
+  return text;
 }
 
 std::string LinearizeTable(const Session& session, const json& artifact) {

@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "apps/charts/chart_points.h"
-#include "apps/charts/chart_svg.h"
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
@@ -53,7 +52,7 @@ std::vector<Sensor> WorkPlane(const Session& session, const Scene& scene) {
   if (sensors.empty())
     throw InputError({session.path, 0}, "luxmeter.readings",
                      "expected places to predict, got none, and the mesh holds no work plane at 0.8 m; add "
-                     "[luxmeter] with a table whose lux may be empty");
+                     "[luxmeter] with a table whose illuminance_lx may be empty");
   return sensors;
 }
 
@@ -153,7 +152,8 @@ json ChartSession(const Session& session, const ChartOptions& options, RunContex
   RecordAccuracy(chart.choice, chart.points.front().patches, options.error_percent, context);
   json artifact = Artifact(session, options, chart, given.lit.sensors.size(), context);
   WriteText(context.out + "/chart.csv", Csv(chart));
-  WriteText(context.out + "/chart.svg", ChartSvg(chart, session.name + ": speed against accuracy"));
+  WriteText(context.out + "/chart.svg",
+            XyChartsSvg({SpeedAccuracyChart(chart, session.name + ": speed against accuracy")}));
   WriteJson(context.out + "/stages/chart.json", artifact);
   return artifact;
 }

@@ -12,9 +12,10 @@
 #include <set>
 #include <utility>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {
@@ -61,8 +62,9 @@ class FitSweep {
   }
 
  private:
-  void Add(const std::string& factor, double value, const Session& session, const Room& room,
-           const SessionObservations& observed, double before_s) {
+  void Add(const std::string& factor, double value, const Session& session,
+           const LinearizedSession& linearized, const Room& room, const SessionObservations& observed,
+           double before_s) {
     FitPoint point;
     point.factor = factor;
     point.value = value;
@@ -72,7 +74,7 @@ class FitSweep {
     point.observations = static_cast<int>(observed.observations.size());
     const double start_s = ProcessorS();
     try {
-      const Refit refit = RefitSession(session, room, observed, context_);
+      const Refit refit = RefitSession(session, linearized, room, observed, context_);
       point.is_usable = !refit.undetermined;
       point.found = refit.luminaires;
       point.lux_percent = refit.mean_lux_error_percent;
@@ -110,7 +112,7 @@ class FitSweep {
       counts.push_back(std::max(n, 1));
     counts.push_back(std::max(1, static_cast<int>(observed.size())));
     for (const int n : counts)
-      Add("elements", n, prepared_.session, prepared_.room,
+      Add("elements", n, prepared_.session, prepared_.linearized, prepared_.room,
           {ThinElements(prepared_.observations, n), prepared_.seen}, 0);
     if (truth_.empty()) truth_ = points_.back().found;
   }
@@ -124,7 +126,8 @@ class FitSweep {
       std::vector<Observation> kept;
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.view <= last; });
-      Add("views", static_cast<double>(n), prepared_.session, prepared_.room, {kept, {}}, 0);
+      Add("views", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
+          {kept, {}}, 0);
     }
   }
 
@@ -139,7 +142,8 @@ class FitSweep {
       std::vector<Observation> kept;
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.state <= last; });
-      Add("states", static_cast<double>(n), prepared_.session, prepared_.room, {kept, SeenIn(kept)}, 0);
+      Add("states", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
+          {kept, SeenIn(kept)}, 0);
     }
   }
 
@@ -155,9 +159,10 @@ class FitSweep {
       RunContext own;
       own.out = context_.out;
       own.is_quiet = true;
-      SessionObservations observed = ObserveSession(prepared_.session, prepared_.registered, room, own);
+      SessionObservations observed =
+          ObserveSession(prepared_.session, prepared_.linearized.photos, prepared_.registered, room, own);
       observed.observations = ThinElements(observed.observations, elements_);
-      Add(factor, value, prepared_.session, room, observed, before_s);
+      Add(factor, value, prepared_.session, prepared_.linearized, room, observed, before_s);
     }
   }
 
@@ -179,17 +184,19 @@ class FitSweep {
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept), [&](const Observation& o) {
         return states.count(session.states[static_cast<size_t>(o.state)].id) > 0;
       });
-      auto& readings = session.luxmeter.readings;
-      readings.erase(std::remove_if(readings.begin(), readings.end(),
-                                    [&](const SessionReading& r) { return states.count(r.state) == 0; }),
-                     readings.end());
+      LinearizedSession linearized = prepared_.linearized;
+      std::vector<LuminaireReading>& readings = linearized.readings;
+      readings.erase(
+          std::remove_if(readings.begin(), readings.end(),
+                         [&](const LuminaireReading& r) { return states.count(r.given.state) == 0; }),
+          readings.end());
       // Without the reading that set the scale, another one sets it.
-      const bool has_scale = std::any_of(readings.begin(), readings.end(), [](const SessionReading& r) {
-        return r.role != ReadingRole::kCheck;
+      const bool has_scale = std::any_of(readings.begin(), readings.end(), [](const LuminaireReading& r) {
+        return r.given.role != ReadingRole::kCheck;
       });
-      if (!has_scale && !readings.empty()) readings.front().role = ReadingRole::kScale;
+      if (!has_scale && !readings.empty()) readings.front().given.role = ReadingRole::kScale;
       if (kept.empty() && readings.empty()) continue;
-      Add("luminaires", static_cast<double>(n), session, prepared_.room, {kept, SeenIn(kept)}, 0);
+      Add("luminaires", static_cast<double>(n), session, linearized, prepared_.room, {kept, SeenIn(kept)}, 0);
     }
   }
 
@@ -237,13 +244,13 @@ std::vector<std::string> FactorsOf(const std::vector<FitPoint>& points) {
 
 std::string ErrorSvg(const std::vector<FitPoint>& points, const std::string& title, const std::string& unit,
                      const std::function<double(const FitPoint&)>& error) {
-  LineChart chart;
+  XyChart chart;
   chart.title = title;
   chart.subtitle = "one thing varied at a time; labels: its value; the best is at the lower left";
   chart.x = {"processor time of form factors and fit, s", true, {}, {}};
   chart.y = {unit, true, {}, {}};
   for (const std::string& factor : FactorsOf(points)) {
-    LineSeries series{factor, {}, {}, true};
+    XySeries series{factor, {}, {}, true};
     for (const FitPoint& p : points) {
       if (p.factor != factor) continue;
       series.points.push_back({p.time_s, error(p)});
@@ -251,7 +258,7 @@ std::string ErrorSvg(const std::vector<FitPoint>& points, const std::string& tit
     }
     chart.series.push_back(std::move(series));
   }
-  return LineChartSvg(chart);
+  return XyChartsSvg({chart});
 }
 
 struct Cost {
@@ -281,7 +288,7 @@ double Slope(const std::vector<Eigen::Vector2d>& points) {
 }
 
 std::string CostSvg(const std::vector<FitPoint>& points, json& slopes) {
-  LineChart chart;
+  XyChart chart;
   chart.title = "Cost of the fit";
   chart.subtitle = "processor time over size, each relative to its largest; linear would have slope 1";
   chart.x = {"size, of the largest", true, {}, {}};
@@ -294,15 +301,15 @@ std::string CostSvg(const std::vector<FitPoint>& points, json& slopes) {
     }
     if (sizes.size() < 2) continue;
     const double slope = Slope(sizes);
-    slopes[cost.name] = std::isfinite(slope) ? json(slope) : json();
+    slopes[cost.name] = NumberOrNull(slope);
     const auto largest = std::max_element(sizes.begin(), sizes.end(),
                                           [](const auto& a, const auto& b) { return a.x() < b.x(); });
     const Eigen::Vector2d unit = *largest;
-    LineSeries series{fmt::format("{}: slope {:.2f}", cost.name, slope), {}, {}, true};
+    XySeries series{fmt::format("{}: slope {:.2f}", cost.name, slope), {}, {}, true};
     for (const Eigen::Vector2d& p : sizes) series.points.push_back(p.cwiseQuotient(unit));
     chart.series.push_back(std::move(series));
   }
-  return LineChartSvg(chart);
+  return XyChartsSvg({chart});
 }
 
 }  // namespace
@@ -320,7 +327,6 @@ json FitChartOfSession(const Session& session, const FitChartOptions& options, R
   artifact["elements"] = options.elements;
   artifact["reference"] = truth.empty() ? "the fit to all observed elements" : options.truth_path;
   artifact["points"] = json::array();
-  const auto number = [](double v) { return std::isfinite(v) ? json(v) : json(); };
   for (const FitPoint& p : points)
     artifact["points"].push_back({{"factor", p.factor},
                                   {"value", p.value},
@@ -330,9 +336,9 @@ json FitChartOfSession(const Session& session, const FitChartOptions& options, R
                                   {"observations", p.observations},
                                   {"processor_time_s", p.time_s},
                                   {"usable", p.is_usable},
-                                  {"position_mm", number(p.position_mm)},
-                                  {"flux_percent", number(p.flux_percent)},
-                                  {"lux_percent", number(p.lux_percent)}});
+                                  {"position_mm", NumberOrNull(p.position_mm)},
+                                  {"flux_percent", NumberOrNull(p.flux_percent)},
+                                  {"lux_percent", NumberOrNull(p.lux_percent)}});
   WriteText(context.out + "/fit.csv", Csv(points));
   const std::string name = session.name + ": ";
   const auto write = [&](const std::string& file, const std::string& svg) {

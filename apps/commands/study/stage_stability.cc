@@ -12,6 +12,7 @@
 #include "apps/commands/study/internal/stability_chart.h"
 #include "apps/stages/degrade/degradations.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/trial_log.h"
 #include "calib/luminance/median.h"
 
@@ -22,7 +23,6 @@ using nlohmann::json;
 
 constexpr double kLeastSuccess = 0.9;
 
-json Number(double value) { return std::isfinite(value) ? json(value) : json(); }
 double NumberOf(const json& value) {
   return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
@@ -37,13 +37,13 @@ json LineOf(const DegradedFit& fit) {
           {"undetermined", fit.failed || fit.refit.undetermined},
           {"message", fit.message},
           {"warnings", fit.new_warnings},
-          {"position_error_m", Number(s.position_error_m)},
-          {"worst_position_m", Number(s.worst_position_m)},
-          {"flux_error", Number(s.flux_error)},
-          {"worst_flux", Number(s.worst_flux)},
+          {"position_error_m", NumberOrNull(s.position_error_m)},
+          {"worst_position_m", NumberOrNull(s.worst_position_m)},
+          {"flux_error", NumberOrNull(s.flux_error)},
+          {"worst_flux", NumberOrNull(s.worst_flux)},
           {"intervals", s.intervals},
           {"intervals_held", s.intervals_held},
-          {"lux_error_percent", Number(fit.failed ? NAN : fit.refit.mean_lux_error_percent)},
+          {"lux_error_percent", NumberOrNull(fit.failed ? NAN : fit.refit.mean_lux_error_percent)},
           {"time_s", fit.seconds}};
 }
 
@@ -189,8 +189,8 @@ json StabilityOfSession(const Session& session, const StabilityOptions& options,
       "with "
       "1 % of model error by facet and state";
   artifact["undegraded"] = {{"success", sessions.undegraded_score().is_success},
-                            {"worst_position_m", Number(sessions.undegraded_score().worst_position_m)},
-                            {"worst_flux", Number(sessions.undegraded_score().worst_flux)},
+                            {"worst_position_m", NumberOrNull(sessions.undegraded_score().worst_position_m)},
+                            {"worst_flux", NumberOrNull(sessions.undegraded_score().worst_flux)},
                             {"undetermined", sessions.undegraded().undetermined},
                             {"warnings", sessions.undegraded().warnings}};
   artifact["skipped"] = json::array();

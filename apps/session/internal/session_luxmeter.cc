@@ -13,6 +13,8 @@
 namespace luxfit {
 namespace {
 
+constexpr char kIlluminance[] = "illuminance_lx", kIlluminanceAlias[] = "lux";
+
 std::string NameOf(const SessionReading& reading) { return reading.id + "@" + reading.state; }
 
 SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vector<SessionState>& states) {
@@ -32,12 +34,13 @@ SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vect
   reading.normal.normalize();
   reading.state = StateOfRow(table, row, states);
   if (HasColumn(table, "sensor")) reading.sensor = CsvText(table, row, "sensor");
-  reading.is_measured = !CsvText(table, row, "lux").empty();
+  const std::string column = HasColumn(table, kIlluminance) ? kIlluminance : kIlluminanceAlias;
+  reading.is_measured = !CsvText(table, row, column).empty();
   if (!reading.is_measured) return reading;
-  reading.illuminance_lx = CsvNumber(table, row, "lux");
+  reading.illuminance_lx = CsvNumber(table, row, column);
   if (reading.illuminance_lx < 0)
-    throw CsvError(table, row, "lux",
-                   "expected >= 0, got " + Quoted(CsvText(table, row, "lux")) +
+    throw CsvError(table, row, column,
+                   "expected >= 0, got " + Quoted(CsvText(table, row, column)) +
                        "; correct it, or leave it empty where nothing was measured");
   return reading;
 }
@@ -81,7 +84,7 @@ std::vector<std::string> PatternOfEach(const TomlCursor& section, const std::str
       if (!readings[i].is_measured)
         throw element.Error("expected readings that were measured, got " + Quoted(names.back()) + " (line " +
                             std::to_string(readings[i].line) +
-                            ") without lux; fill it in or narrow the pattern");
+                            ") without illuminance_lx; fill it in or narrow the pattern");
     }
     if (!matches_any)
       throw element.Error("expected a pattern that matches a reading (such as " + Quoted(names.front()) +
@@ -146,7 +149,9 @@ SensorResponse ReadSensitivity(const std::string& path) {
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class", "sensor_sigma"});
   const std::string path = FindFile(section.Require("readings", "the table of readings (CSV)"), folder);
-  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", "lux"}, {"sensor"}});
+  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", kIlluminance},
+                             {"sensor"},
+                             {{kIlluminance, kIlluminanceAlias}}});
 }
 
 SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,

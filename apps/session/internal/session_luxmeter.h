@@ -1,6 +1,8 @@
 // Reads the luxmeter of a session: its readings, the role of each, and its class.
 //
-//   id,x_m,y_m,z_m,nx,ny,nz,state,lux      an empty lux: not measured, to be predicted only
+//   id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx   empty illuminance_lx: not measured, to be predicted only
+//
+// `lux` is an alias of the column illuminance_lx.
 //
 //   angle_deg,relative                     the sensitivity curve: from 0, ascending, >= 0
 //

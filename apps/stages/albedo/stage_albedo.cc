@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/text/formats/json_vectors.h"
@@ -12,23 +11,6 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-// Share of a material's observed elements. A smaller share that differs from the rest is its border and its
-// stains.
-constexpr double kWorthAWarning = 0.02;
-
-// Returns relative sigmas of the fit's reflectances, which contain the uncertainty of fluxes and camera
-// scale.
-Eigen::VectorXd CommonSigma(const json& materials) {
-  Eigen::VectorXd sigma = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(materials.size()));
-  for (size_t m = 0; m < materials.size(); ++m) {
-    const json& material = materials[m];
-    if (material["sigma"].is_number() && material["albedo"].is_number())
-      sigma[static_cast<Eigen::Index>(m)] =
-          material["sigma"].get<double>() / material["albedo"].get<double>();
-  }
-  return sigma;
-}
 
 json MaterialJson(const std::string& name, const MaterialAlbedo& material) {
   json scores = json::array();
@@ -90,7 +72,7 @@ void Record(const Room& room, const PatchAlbedo& albedo, RunContext& context) {
                                ToString(material.detail),
                                {"material", "patch", "element"},
                                material.because});
-    if (material.unlike_elements <= kWorthAWarning * material.elements) continue;
+    if (!material.IsUneven()) continue;
     context.warnings.push_back(
         {"surface_unlike_its_material",
          fmt::format(
@@ -114,9 +96,7 @@ json AlbedoOfRoom(const Session& session, const Room& room, const RoomFit& fit, 
     return artifact;
   }
   const StageTimer timer(context, "albedo", "albedo by material, patch and element");
-  PatchAlbedoOptions options;
-  options.common_sigma = CommonSigma(result["materials"]);
-  const PatchAlbedo albedo = EstimatePatchAlbedo(room, fit.data, fit.fit.state, options);
+  const PatchAlbedo albedo = EstimatePatchAlbedo(room, fit.data, fit.fit);
   for (size_t m = 0; m < albedo.materials.size(); ++m)
     artifact["materials"].push_back(MaterialJson(room.scene.materials[m], albedo.materials[m]));
   artifact["relative_model_error"] = albedo.model_error;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -10,7 +9,6 @@
 #include "apps/stages/albedo/stereo_photos.h"
 #include "apps/text/formats/json_vectors.h"
 #include "calib/luminance/image.h"
-#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -18,37 +16,6 @@ namespace {
 using nlohmann::json;
 
 constexpr double kDegPerRad = 180 / M_PI;
-// A direction that is adjusted by more than this many of its sigmas was measured less well than stated.
-constexpr double kSuspectSigmas = 3;
-
-// Returns the factor from the albedo's unit to reflectance; NaN without a surface of known albedo.
-double ReferenceFactor(const Session& session, const StereoPhotos& photos, const PhotometricStereo& result) {
-  std::vector<double> albedo;
-  for (size_t i = 0; i < photos.places.size(); ++i) {
-    const double value = result.albedo[static_cast<Eigen::Index>(i)];
-    if (photos.is_reference[i] && std::isfinite(value)) albedo.push_back(value);
-  }
-  return session.lights->reference_albedo / Quantile(std::move(albedo), 0.5);
-}
-
-// Summarizes the object's pixels alone.
-struct Summary {
-  std::vector<double> albedo, albedo_sigma, normal_sigma_deg;
-  int pixels = 0;
-};
-Summary Summarize(const StereoPhotos& photos, const PhotometricStereo& result, double factor) {
-  Summary summary;
-  for (size_t i = 0; i < photos.places.size(); ++i) {
-    if (!photos.is_object[i]) continue;
-    ++summary.pixels;
-    const Eigen::Index at = static_cast<Eigen::Index>(i);
-    if (!std::isfinite(result.albedo[at])) continue;
-    summary.albedo.push_back(factor * result.albedo[at]);
-    summary.albedo_sigma.push_back(factor * result.albedo_sigma[at]);
-    summary.normal_sigma_deg.push_back(kDegPerRad * result.normal_sigma_rad[at]);
-  }
-  return summary;
-}
 
 void WritePictures(const StereoPhotos& photos, const PhotometricStereo& result, double factor,
                    const std::string& out) {
@@ -56,7 +23,7 @@ void WritePictures(const StereoPhotos& photos, const PhotometricStereo& result, 
   std::array<ImagePlane, 3> normals{empty, empty, empty}, albedo{empty, empty, empty};
   for (size_t i = 0; i < photos.places.size(); ++i) {
     const Eigen::Index at = static_cast<Eigen::Index>(i);
-    if (!photos.is_object[i] || !std::isfinite(result.albedo[at])) continue;
+    if (!photos.regions.is_object[i] || !std::isfinite(result.albedo[at])) continue;
     const Eigen::Index u = photos.places[i].x(), v = photos.places[i].y();
     for (int c = 0; c < 3; ++c)
       normals[static_cast<size_t>(c)](v, u) = static_cast<float>(result.normal(c, at));
@@ -68,30 +35,30 @@ void WritePictures(const StereoPhotos& photos, const PhotometricStereo& result, 
   WriteExr(out + "/albedo.exr", albedo);
 }
 
-// Returns the median absolute residual of one image over the object.
-double MedianResidual(const StereoPhotos& photos, const PhotometricStereo& result, Eigen::Index image) {
-  std::vector<double> sizes;
-  for (size_t i = 0; i < photos.places.size(); ++i) {
-    const double r = result.residual(image, static_cast<Eigen::Index>(i));
-    if (photos.is_object[i] && std::isfinite(r)) sizes.push_back(std::abs(r));
-  }
-  return Quantile(std::move(sizes), 0.5);
-}
-
-json LightsJson(const StereoPhotos& photos, const PhotometricStereo& result) {
+json LightsJson(const StereoPhotos& photos, const PhotometricStereo& result, const StereoSummary& summary) {
   json lights = json::array();
   for (size_t k = 0; k < photos.states.size(); ++k) {
     const Eigen::Index image = static_cast<Eigen::Index>(k);
     const Eigen::Vector3d l = result.to_light.col(image);
-    const double moved = std::acos(std::min(1.0, l.dot(photos.data.to_light.col(image))));
     lights.push_back({{"state", photos.states[k]},
                       {"to_light", {l.x(), l.y(), l.z()}},
                       {"direction_sigma_deg", kDegPerRad * photos.data.direction_sigma_rad[image]},
-                      {"adjusted_deg", kDegPerRad * moved},
+                      {"adjusted_deg", kDegPerRad * summary.adjusted_rad[image]},
                       {"strength", result.strength[image]},
-                      {"median_residual", NumberOrNull(MedianResidual(photos, result, image))}});
+                      {"median_residual", NumberOrNull(summary.median_residual[image])}});
   }
   return lights;
+}
+
+json ObjectJson(const PhotometricStereo& result, const StereoSummary& summary) {
+  return {{"pixels", summary.pixels},
+          {"pixels_determined", summary.determined},
+          {"albedo_unit", summary.is_absolute ? "reflectance" : "relative luminance over strength"},
+          {"albedo_mean", NumberOrNull(summary.albedo_mean)},
+          {"albedo_variation", NumberOrNull(summary.albedo_variation)},
+          {"albedo_sigma_median", NumberOrNull(summary.albedo_sigma)},
+          {"normal_sigma_median_deg", NumberOrNull(kDegPerRad * summary.normal_sigma_rad)},
+          {"residual_sigma", result.residual_sigma}};
 }
 
 std::string LightsCsv(const json& lights) {
@@ -118,11 +85,11 @@ void RecordChoices(const Session& session, const PhotometricStereo& result, RunC
                              "lights.strengths"});
 }
 
-void WarnOfLights(const json& lights, RunContext& context) {
-  for (const json& light : lights) {
+void WarnOfLights(const json& lights, const StereoSummary& summary, RunContext& context) {
+  for (const int k : summary.suspect_lights) {
+    const json& light = lights[static_cast<size_t>(k)];
     const double sigma = light["direction_sigma_deg"].get<double>();
     const double moved = light["adjusted_deg"].get<double>();
-    if (!(sigma > 0) || moved < kSuspectSigmas * sigma) continue;
     context.warnings.push_back(
         {"light_direction",
          fmt::format("the light of {} is {:.1f} degrees from its measured direction, {:.1f} of its sigmas",
@@ -132,8 +99,8 @@ void WarnOfLights(const json& lights, RunContext& context) {
   }
 }
 
-void WarnOfScale(const Session& session, double factor, RunContext& context) {
-  if (std::isfinite(factor)) return;
+void WarnOfScale(const Session& session, const StereoSummary& summary, RunContext& context) {
+  if (summary.is_absolute) return;
   context.warnings.push_back(
       {"albedo_relative",
        session.lights->reference_mask.empty()
@@ -144,9 +111,9 @@ void WarnOfScale(const Session& session, double factor, RunContext& context) {
 
 }  // namespace
 
-json StereoSession(const Session& session, RunContext& context) {
+json StereoSession(const Session& session, const LinearizedPhotos& linearized, RunContext& context) {
   json artifact = ProvenanceJson("luxfit-stereo-1", context.provenance);
-  const StereoPhotos photos = ReadStereoPhotos(session);
+  const StereoPhotos photos = ReadStereoPhotos(session, linearized);
   const StageTimer timer(context, "albedo",
                          fmt::format("photometric stereo of {} pixels under {} lights", photos.places.size(),
                                      photos.states.size()));
@@ -162,28 +129,16 @@ json StereoSession(const Session& session, RunContext& context) {
     WriteJson(context.out + "/stages/albedo.json", artifact);
     return artifact;
   }
-  const double factor = ReferenceFactor(session, photos, result);
-  const bool is_absolute = std::isfinite(factor);
-  const Summary summary = Summarize(photos, result, is_absolute ? factor : 1);
-  artifact["lights"] = LightsJson(photos, result);
-  const Eigen::Map<const Eigen::ArrayXd> albedo(summary.albedo.data(),
-                                                static_cast<Eigen::Index>(summary.albedo.size()));
-  const double mean = albedo.mean();
-  artifact["object"] = {{"pixels", summary.pixels},
-                        {"pixels_determined", summary.albedo.size()},
-                        {"albedo_unit", is_absolute ? "reflectance" : "relative luminance over strength"},
-                        {"albedo_mean", NumberOrNull(mean)},
-                        {"albedo_variation", NumberOrNull(std::sqrt((albedo - mean).square().mean()) / mean)},
-                        {"albedo_sigma_median", NumberOrNull(Quantile(summary.albedo_sigma, 0.5))},
-                        {"normal_sigma_median_deg", NumberOrNull(Quantile(summary.normal_sigma_deg, 0.5))},
-                        {"residual_sigma", result.residual_sigma}};
+  const StereoSummary summary = Summarize(photos.data, result, photos.regions);
+  artifact["lights"] = LightsJson(photos, result, summary);
+  artifact["object"] = ObjectJson(result, summary);
   const auto& p = result.curve.parameters;
   artifact["curve"] = {{"kind", ToString(result.curve.kind)},
                        {"parameters", std::vector<double>(p.begin(), p.end())}};
   RecordChoices(session, result, context);
-  WarnOfLights(artifact["lights"], context);
-  WarnOfScale(session, factor, context);
-  WritePictures(photos, result, is_absolute ? factor : 1, context.out);
+  WarnOfLights(artifact["lights"], summary, context);
+  WarnOfScale(session, summary, context);
+  WritePictures(photos, result, summary.factor, context.out);
   WriteText(context.out + "/lights.csv", LightsCsv(artifact["lights"]));
   WriteJson(context.out + "/stages/albedo.json", artifact);
   return artifact;
@@ -205,7 +160,8 @@ json StereoResultJson(const Session& session, const json& artifact, const RunCon
 std::string StereoTable(const json& result) {
   std::string text = fmt::format("session {}: {}\n", result["session"].get<std::string>(),
                                  result["status"].get<std::string>());
-  if (result.contains("object")) {
+  // No pixel of the object may be determined, though some of the reference are.
+  if (result.contains("object") && result["object"]["albedo_mean"].is_number()) {
     const json& o = result["object"];
     text += fmt::format("{} of {} pixels; albedo {:.4g} on average ({}), varying by {:.2f} %, sigma {:.2g}\n",
                         o["pixels_determined"].get<size_t>(), o["pixels"].get<int>(),

@@ -16,8 +16,8 @@
 
 namespace luxfit {
 
-// Returns the artifact. `session` must be linearized.
-nlohmann::json StereoSession(const Session& session, RunContext& context);
+// Returns the artifact. `session` must have lights.
+nlohmann::json StereoSession(const Session& session, const LinearizedPhotos& linearized, RunContext& context);
 
 // Return OUT/result.json of the artifact, and its text.
 nlohmann::json StereoResultJson(const Session& session, const nlohmann::json& artifact,

@@ -33,35 +33,39 @@ PixelMask ReadMask(const std::string& path, const LuminanceImage& like, const st
   return mask;
 }
 
-const SessionPhoto* PhotoOf(const Session& session, const std::string& view, const std::string& state) {
-  const auto photo = std::find_if(session.photos.begin(), session.photos.end(),
-                                  [&](const SessionPhoto& p) { return p.view == view && p.state == state; });
-  return photo == session.photos.end() ? nullptr : &*photo;
+const LinearizedPhoto* PhotoOf(const LinearizedPhotos& linearized, const std::string& view,
+                               const std::string& state) {
+  const auto& photos = linearized.photos;
+  const auto photo = std::find_if(photos.begin(), photos.end(), [&](const LinearizedPhoto& p) {
+    return p.view == view && p.state == state;
+  });
+  return photo == photos.end() ? nullptr : &*photo;
 }
 
 // Without a lens, the camera has the photo's own size.
-LuminanceImage ReadImage(const Session& session, const SessionPhoto& photo) {
+LuminanceImage ReadImage(const LinearizedPhotos& linearized, const LinearizedPhoto& photo) {
   const Photo first = ReadPhoto(photo.file);
   Camera camera;
   camera.width_px = first.width_px();
   camera.height_px = first.height_px();
-  return ReadLuminance(session, photo, camera);
+  return ReadLuminance(linearized, photo, camera);
 }
 
-LuminanceImage ReadLight(const Session& session, const std::string& view, const std::string& state) {
-  LuminanceImage image = ReadImage(session, *PhotoOf(session, view, state));
-  const SessionPhoto* const ambient =
-      session.lights->ambient_state.empty() ? nullptr : PhotoOf(session, view, session.lights->ambient_state);
+LuminanceImage ReadLight(const SessionLights& lights, const LinearizedPhotos& linearized,
+                         const std::string& state) {
+  LuminanceImage image = ReadImage(linearized, *PhotoOf(linearized, lights.view, state));
+  const LinearizedPhoto* const ambient =
+      lights.ambient_state.empty() ? nullptr : PhotoOf(linearized, lights.view, lights.ambient_state);
   if (ambient == nullptr) return image;
   // Dark pixels are valid too; only saturated ones are not.
   const PixelMask saturated = image.saturated;
-  image = WithoutAmbient(std::move(image), ReadImage(session, *ambient));
+  image = WithoutAmbient(std::move(image), ReadImage(linearized, *ambient));
   image.saturated = saturated;
   return image;
 }
 
-void FillDirections(const Session& session, const StereoPhotos& photos, StereoData& data) {
-  const SessionLights& lights = *session.lights;
+void FillDirections(const SessionLights& lights, const LinearizedPhotos& linearized,
+                    const StereoPhotos& photos, StereoData& data) {
   const Eigen::Index images = static_cast<Eigen::Index>(photos.states.size());
   data.to_light.resize(3, images);
   data.strength.setOnes(images);
@@ -75,8 +79,8 @@ void FillDirections(const Session& session, const StereoPhotos& photos, StereoDa
       continue;
     }
     // Saturated pixels are the highlight.
-    const SessionPhoto& photo = *PhotoOf(session, lights.mirror_view, state);
-    const LuminanceImage image = ReadImage(session, photo);
+    const LinearizedPhoto& photo = *PhotoOf(linearized, lights.mirror_view, state);
+    const LuminanceImage image = ReadImage(linearized, photo);
     if (k == 0) circle = CircleOfMask(ReadMask(lights.mirror_mask, image, photo.file));
     if (!circle.IsUsable()) {
       throw std::runtime_error(
@@ -109,17 +113,16 @@ void FillPlaces(const SessionLights& lights, const LuminanceImage& image, const 
     for (int u = 0; u < photos.width_px; ++u) {
       if (!object(v, u) && !reference(v, u)) continue;
       photos.places.emplace_back(u, v);
-      photos.is_object.push_back(object(v, u));
-      photos.is_reference.push_back(reference(v, u));
+      photos.regions.is_object.push_back(object(v, u));
+      photos.regions.is_reference.push_back(reference(v, u));
     }
   }
 }
 
-void FillPixels(const Session& session, StereoPhotos& photos) {
-  const SessionLights& lights = *session.lights;
+void FillPixels(const SessionLights& lights, const LinearizedPhotos& linearized, StereoPhotos& photos) {
   for (size_t k = 0; k < photos.states.size(); ++k) {
-    const LuminanceImage image = ReadLight(session, lights.view, photos.states[k]);
-    const std::string& file = PhotoOf(session, lights.view, photos.states[k])->file;
+    const LuminanceImage image = ReadLight(lights, linearized, photos.states[k]);
+    const std::string& file = PhotoOf(linearized, lights.view, photos.states[k])->file;
     if (k == 0) {
       FillPlaces(lights, image, file, photos);
       photos.data.value.resize(static_cast<Eigen::Index>(photos.states.size()),
@@ -139,21 +142,22 @@ void FillPixels(const Session& session, StereoPhotos& photos) {
 
 }  // namespace
 
-StereoPhotos ReadStereoPhotos(const Session& session) {
+StereoPhotos ReadStereoPhotos(const Session& session, const LinearizedPhotos& linearized) {
+  const SessionLights& lights = *session.lights;
   StereoPhotos photos;
+  photos.regions.reference_albedo = session.lights->reference_albedo;
   for (const SessionState& state : session.states) {
-    if (state.id != session.lights->ambient_state &&
-        PhotoOf(session, session.lights->view, state.id) != nullptr)
+    if (state.id != lights.ambient_state && PhotoOf(linearized, lights.view, state.id) != nullptr)
       photos.states.push_back(state.id);
   }
   if (photos.states.size() < 3) {
     throw std::runtime_error(
         fmt::format("{}:{}: lights: expected three lights or more, got {}; photograph the object "
                     "under more lights",
-                    session.path, session.lights->line, photos.states.size()));
+                    session.path, lights.line, photos.states.size()));
   }
-  FillPixels(session, photos);
-  FillDirections(session, photos, photos.data);
+  FillPixels(lights, linearized, photos);
+  FillDirections(lights, linearized, photos, photos.data);
   return photos;
 }
 

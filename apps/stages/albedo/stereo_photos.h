@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/session/session.h"
+#include "apps/stages/linearize/linearized_session.h"
 #include "inverse/albedo/photometric_stereo.h"
 
 namespace luxfit {
@@ -18,13 +18,12 @@ struct StereoPhotos {
   StereoData data;                      // values at pixels of the object and of the reference
   std::vector<std::string> states;      // one for each image
   std::vector<Eigen::Vector2i> places;  // (u, v) of every pixel
-  std::vector<bool> is_object;          // for every pixel
-  std::vector<bool> is_reference;
+  StereoRegions regions;
   int width_px = 0, height_px = 0;
 };
 
-// `session` must be linearized and have lights.
-StereoPhotos ReadStereoPhotos(const Session& session);
+// `session` must have lights.
+StereoPhotos ReadStereoPhotos(const Session& session, const LinearizedPhotos& linearized);
 
 }  // namespace luxfit
 

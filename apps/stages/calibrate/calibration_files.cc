@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,24 +12,15 @@
 #include "apps/charts/uncertainty_svg.h"
 #include "apps/text/file_stem.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 #include "calib/lens/camera_file.h"
 #include "calib/lens/lens_family.h"
-#include "calib/targets/corners_file.h"
+#include "calib/targets/board.h"
 
 namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-// JSON has no infinity and no NaN; an unknown value is null.
-json Number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
-template <typename Vector>
-json Numbers(const Vector& values) {
-  json list = json::array();
-  for (Eigen::Index i = 0; i < values.size(); ++i) list.push_back(Number(values[i]));
-  return list;
-}
 
 std::vector<std::string> FailedGates(const Calibration& calibration) {
   std::vector<std::string> reasons;
@@ -66,11 +58,19 @@ json CoverageJson(const CalibrationCoverage& coverage) {
   return out;
 }
 
+// Returns the kind's name in artifacts. It has capitals there (OPENCV8), because scripts compare it.
+std::string ArtifactName(const LensKind& kind) {
+  std::string name = ToString(kind);
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return name;
+}
+
 // Returns the sigmas of fx, fy, cx, cy, which splined lenses hold.
 json CoreSigmas(const CalibratedCamera& camera) {
   const Eigen::MatrixXd& covariance = camera.uncertainty.covariance;
   if (OpsOf(camera.uncertainty.kind.lens).has_control_points || covariance.rows() < 4) return nullptr;
-  return Numbers(covariance.diagonal().head<4>().cwiseSqrt().eval());
+  return VectorJson(covariance.diagonal().head<4>().cwiseSqrt().eval());
 }
 
 json CameraJson(const CalibratedCamera& camera) {
@@ -84,21 +84,23 @@ json CameraJson(const CalibratedCamera& camera) {
               {"fy_px", c.fy_px},
               {"cx_px", c.cx_px},
               {"cy_px", c.cy_px},
-              {"lens", ToString(camera.uncertainty.kind)},
+              {"lens", ArtifactName(camera.uncertainty.kind)},
               {"fx_fy_cx_cy_sigma_px", CoreSigmas(camera)}};
   if (!OpsOf(c.lens).has_control_points)
     out["distortion"] = std::vector<double>(c.distortion.begin(),
                                             c.distortion.begin() + camera.uncertainty.kind.coefficients);
-  out["position_in_rig_m"] = Numbers(camera.cam_from_rig.inverse().translation().eval());
+  out["position_in_rig_m"] = VectorJson(camera.cam_from_rig.inverse().translation().eval());
   json rotation = json::array();
-  for (int row = 0; row < 3; ++row) rotation.push_back(Numbers(camera.cam_from_rig.linear().row(row).eval()));
+  for (int row = 0; row < 3; ++row)
+    rotation.push_back(VectorJson(camera.cam_from_rig.linear().row(row).eval()));
   out["R_camera_from_rig"] = rotation;
-  out["t_camera_from_rig_m"] = Numbers(camera.cam_from_rig.translation().eval());
-  out["camera_from_rig_sigma"] = {{"rotation_rad", Numbers(camera.cam_from_rig_sigma.head<3>().eval())},
-                                  {"translation_m", Numbers(camera.cam_from_rig_sigma.tail<3>().eval())}};
-  out["uncertainty"] = {{"middle_px", Number(ProjectionSigmaPx(c, camera.uncertainty, middle, infinity))},
-                        {"median_px", Number(camera.median_sigma_px)},
-                        {"share_above_limit", camera.uncertain_share}};
+  out["t_camera_from_rig_m"] = VectorJson(camera.cam_from_rig.translation().eval());
+  out["camera_from_rig_sigma"] = {{"rotation_rad", VectorJson(camera.cam_from_rig_sigma.head<3>().eval())},
+                                  {"translation_m", VectorJson(camera.cam_from_rig_sigma.tail<3>().eval())}};
+  out["uncertainty"] = {
+      {"middle_px", NumberOrNull(ProjectionSigmaPx(c, camera.uncertainty, middle, infinity))},
+      {"median_px", NumberOrNull(camera.median_sigma_px)},
+      {"share_above_limit", camera.uncertain_share}};
   out["coverage"] = CoverageJson(camera.coverage);
   return out;
 }
@@ -201,13 +203,13 @@ json GroupJson(const CalibratedGroup& calibrated) {
   const CalibrationInput& input = calibrated.group.input;
   json out = {{"usable", c.IsUsable()},
               {"is_rig", calibrated.group.is_rig},
-              {"lens", c.converged ? json(ToString(c.lens)) : json(nullptr)},
+              {"lens", c.converged ? json(ArtifactName(c.lens)) : json(nullptr)},
               {"reprojection_rms_px", {{"per_axis", c.rms_px}, {"two_d", c.rms_2d_px}}},
               {"noise_px", c.noise_px},
-              {"held_out_rms_px", Number(c.held_out_px)},
+              {"held_out_rms_px", NumberOrNull(c.held_out_px)},
               {"outlier_share", c.outlier_share},
-              {"board_bend_m", Numbers(c.board_bend_m)},
-              {"board_bend_sigma_m", Numbers(c.board_bend_sigma_m)},
+              {"board_bend_m", VectorJson(c.board_bend_m)},
+              {"board_bend_sigma_m", VectorJson(c.board_bend_sigma_m)},
               {"cameras", json::array()},
               {"images", json::array()},
               {"outliers", json::array()},
@@ -228,15 +230,15 @@ json GroupJson(const CalibratedGroup& calibrated) {
     out["outliers"].push_back(
         {{"file", FileName(input.images[static_cast<std::size_t>(corner.image)].name)},
          {"corner", corner.index},
-         {"residual_px", Numbers(corner.residual_px)},
+         {"residual_px", VectorJson(corner.residual_px)},
          {"reason", fmt::format("{:.2f} px off, {:.1f} times the noise", corner.residual_px.norm(),
                                 corner.residual_px.norm() / std::max(c.noise_px, 1e-12))}});
   }
   for (const LensScore& lens : c.lenses)
-    out["lenses"].push_back({{"lens", ToString(lens.kind)},
+    out["lenses"].push_back({{"lens", ArtifactName(lens.kind)},
                              {"is_fitted", lens.is_fitted},
                              {"rms_px", lens.rms_px},
-                             {"held_out_px", Number(lens.held_out_px)},
+                             {"held_out_px", NumberOrNull(lens.held_out_px)},
                              {"outliers", lens.outliers},
                              {"verdict", lens.verdict}});
   return out;

@@ -13,7 +13,6 @@
 #include "apps/text/file_stem.h"
 #include "calib/luminance/image.h"
 #include "calib/targets/board.h"
-#include "calib/targets/corners_file.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {
@@ -33,15 +32,12 @@ CalibrationTarget TargetFor(const Session& session, const SessionCamera& camera)
   return IsOfTags(camera) ? TargetOf(session.tags.survey) : TargetOf(*camera.board);
 }
 
-// Returns one photo of each view, since the others show the same tags from the same place.
-std::vector<std::string> OwnPhotos(const Session& session, int camera) {
-  std::map<std::string, std::string> file_of_view;
-  for (const SessionPhoto& photo : session.photos) {
-    if (photo.camera == camera) file_of_view.emplace(photo.view, photo.file);
-  }
+std::vector<std::string> FilesOf(const OwnPhotos& photos, int camera) {
   std::vector<std::string> files;
-  files.reserve(file_of_view.size());
-  for (const auto& [view, file] : file_of_view) files.push_back(file);
+  files.reserve(photos.size());
+  for (const auto& [of, file] : photos) {
+    if (of.first == camera) files.push_back(file);
+  }
   return files;
 }
 
@@ -141,11 +137,11 @@ CameraImages ReadCorners(const Session& session, const SessionCamera& camera) {
   return images;
 }
 
-CameraImages ImagesOf(const Session& session, int index) {
+CameraImages ImagesOf(const Session& session, const OwnPhotos& photos, int index) {
   const SessionCamera& camera = session.cameras[static_cast<std::size_t>(index)];
   if (!camera.calibration_corners.empty()) return ReadCorners(session, camera);
   if (!camera.calibration_images.empty()) return Detect(session, camera, camera.calibration_images);
-  return Detect(session, camera, OwnPhotos(session, index));
+  return Detect(session, camera, FilesOf(photos, index));
 }
 
 bool IsSameBoard(const std::optional<Board>& a, const std::optional<Board>& b) {
@@ -195,7 +191,8 @@ bool CanBeCalibrated(const Session& session, const SessionCamera& camera) {
   return !session.tags.survey.empty() && (!camera.calibration_images.empty() || camera.intrinsics.empty());
 }
 
-std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, const std::vector<int>& cameras) {
+std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, const OwnPhotos& photos,
+                                                    const std::vector<int>& cameras) {
   std::vector<CalibrationGroup> groups;
   std::vector<bool> grouped(cameras.size(), false);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -208,7 +205,7 @@ std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, cons
       if (k != i && (grouped[k] || !IsSameBoard(first.board, other.board))) continue;
       grouped[k] = true;
       alike.push_back(cameras[k]);
-      images.push_back(ImagesOf(session, cameras[k]));
+      images.push_back(ImagesOf(session, photos, cameras[k]));
     }
     AddGroups(session, alike, images, groups);
   }

@@ -8,7 +8,9 @@
 #ifndef LUXFIT_APPS_STAGES_INTERNAL_CALIBRATION_IMAGES_H_
 #define LUXFIT_APPS_STAGES_INTERNAL_CALIBRATION_IMAGES_H_
 
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/session/session.h"
@@ -25,11 +27,16 @@ struct CalibrationGroup {
   std::vector<std::string> messages;  // for images in which something was not found
 };
 
+// Holds the file of the first photo by camera (index into the session's) and view. The others show the same
+// tags from the same place.
+using OwnPhotos = std::map<std::pair<int, std::string>, std::string>;
+
 // Tells whether the session has something from which the camera can be calibrated.
 bool CanBeCalibrated(const Session& session, const SessionCamera& camera);
 
 // `cameras` are indices into the session's. Cameras of one board whose images pair up form one group.
-std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, const std::vector<int>& cameras);
+std::vector<CalibrationGroup> ReadCalibrationImages(const Session& session, const OwnPhotos& photos,
+                                                    const std::vector<int>& cameras);
 
 // Tells whether the group's images show surveyed tags.
 bool IsOfTags(const Session& session, const CalibrationGroup& group);

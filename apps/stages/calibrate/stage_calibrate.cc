@@ -10,6 +10,7 @@
 #include "apps/stages/calibrate/calibration_images.h"
 #include "apps/text/input_error.h"
 #include "calib/lens/camera_file.h"
+#include "calib/lens/lens_family.h"
 
 namespace luxfit {
 namespace {
@@ -93,11 +94,19 @@ void Report(const CalibratedGroup& calibrated, RunContext& context) {
                : "no bend above three sigma was found"});
 }
 
-std::vector<CalibratedGroup> CalibrateThese(const Session& session, const std::vector<int>& cameras,
-                                            RunContext& context) {
+// `Photo` is SessionPhoto or LinearizedPhoto.
+template <typename Photo>
+OwnPhotos OwnPhotosOf(const std::vector<Photo>& photos) {
+  OwnPhotos own;
+  for (const Photo& photo : photos) own.emplace(std::pair(photo.camera, photo.view), photo.file);
+  return own;
+}
+
+std::vector<CalibratedGroup> CalibrateThese(const Session& session, const OwnPhotos& photos,
+                                            const std::vector<int>& cameras, RunContext& context) {
   const StageTimer timer(context, "calibrate", "calibrate " + std::to_string(cameras.size()) + " cameras");
   std::vector<CalibratedGroup> calibrated;
-  for (const CalibrationGroup& group : ReadCalibrationImages(session, cameras)) {
+  for (const CalibrationGroup& group : ReadCalibrationImages(session, photos, cameras)) {
     for (CalibratedGroup& result : Calibrate(session, group, context)) {
       Report(result, context);
       calibrated.push_back(std::move(result));
@@ -137,10 +146,11 @@ json CalibrateSession(const Session& session, RunContext& context) {
         {session.path, 0}, "camera",
         "expected a camera with calibration_images, got none; add calibration_images = \"board/*.png\" and "
         "board = { ... } to its [[camera]]");
-  return WriteArtifact(session, CalibrateThese(session, cameras, context), context);
+  return WriteArtifact(session, CalibrateThese(session, OwnPhotosOf(session.photos), cameras, context),
+                       context);
 }
 
-std::vector<Camera> CamerasOf(const Session& session, RunContext& context) {
+std::vector<Camera> CamerasOf(const Session& session, const LinearizedPhotos& photos, RunContext& context) {
   std::vector<std::optional<Camera>> cameras(session.cameras.size());
   std::vector<int> unknown;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -154,7 +164,8 @@ std::vector<Camera> CamerasOf(const Session& session, RunContext& context) {
   if (unknown.empty()) {
     context.choices.push_back({"lens", "as given", {}, "intrinsics were given, not estimated"});
   } else {
-    const std::vector<CalibratedGroup> groups = CalibrateThese(session, unknown, context);
+    const std::vector<CalibratedGroup> groups =
+        CalibrateThese(session, OwnPhotosOf(photos.photos), unknown, context);
     WriteArtifact(session, groups, context);
     for (const CalibratedGroup& group : groups) {
       for (std::size_t c = 0; c < group.calibration.cameras.size(); ++c)
@@ -178,7 +189,7 @@ std::string CalibrationTable(const json& artifact) {
     if (group["lens"].is_null()) continue;
     const json& held_out = group["held_out_rms_px"];
     text += fmt::format("{} images, {}: RMS per axis {:.3f} px, held out {} px, {:.1f} % outliers{}\n",
-                        group["images"].size(), group["lens"].get<std::string>(),
+                        group["images"].size(), ToString(*LensKindOf(group["lens"].get<std::string>())),
                         group["reprojection_rms_px"]["per_axis"].get<double>(),
                         held_out.is_null() ? "-" : fmt::format("{:.3f}", held_out.get<double>()),
                         100 * group["outlier_share"].get<double>(),

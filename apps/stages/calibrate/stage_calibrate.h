@@ -23,9 +23,10 @@ namespace luxfit {
 // Returns the artifact, from all cameras of the session that can be calibrated.
 nlohmann::json CalibrateSession(const Session& session, RunContext& context);
 
-// Returns every camera of the session: from its file of intrinsics, or calibrated. Throws std::runtime_error
-// where a camera's images determine nothing.
-std::vector<Camera> CamerasOf(const Session& session, RunContext& context);
+// Returns every camera of the session: from its file of intrinsics, or calibrated. `photos` serve where it
+// has neither intrinsics nor calibration images. Throws std::runtime_error where a camera's images determine
+// nothing.
+std::vector<Camera> CamerasOf(const Session& session, const LinearizedPhotos& photos, RunContext& context);
 
 // Formats the artifact for the terminal.
 std::string CalibrationTable(const nlohmann::json& artifact);

@@ -33,6 +33,7 @@ struct UndegradedSession {
 // One trial: starts as a copy of the undegraded session.
 struct DegradedCase {
   Session session;
+  LinearizedSession linearized;
   const Room* room = nullptr;
   std::optional<Room> own_room;  // where the mesh itself is degraded; `room` points to it
   std::vector<Observation> observations;

@@ -57,7 +57,8 @@ DegradedSessions::DegradedSessions(const PreparedSession& prepared, std::vector<
              {}},
       seed_(seed),
       context_(context) {
-  whole_.refit = RefitSession(prepared.session, prepared.room, {whole_.thinned, {}}, context);
+  whole_.refit =
+      RefitSession(prepared.session, prepared.linearized, prepared.room, {whole_.thinned, {}}, context);
   const Refit& refit = whole_.refit;
   if (whole_.truth.empty()) whole_.truth = refit.luminaires;
   known_warnings_ = refit.warnings;
@@ -78,13 +79,14 @@ DegradedFit DegradedSessions::Fit(const Degradation& degradation, double level, 
   try {
     DegradedCase c;
     c.session = whole_.prepared.session;
+    c.linearized = whole_.prepared.linearized;
     c.room = &whole_.prepared.room;
     c.observations = whole_.thinned;
     c.truth = whole_.truth;
     c.context.out = context_.out;
     c.context.is_quiet = true;
     degradation.apply(whole_, level, rng, c);
-    result.refit = RefitSession(c.session, *c.room, {c.observations, {}}, context_);
+    result.refit = RefitSession(c.session, c.linearized, *c.room, {c.observations, {}}, context_);
     for (const Warning& warning : c.context.warnings) result.refit.warnings.push_back(warning.code);
     for (const std::string& code : result.refit.warnings) {
       if (std::count(known_warnings_.begin(), known_warnings_.end(), code) == 0)

@@ -36,8 +36,8 @@ void Simulate(UndegradedSession& whole, const TraceKey& key, const LightState& l
                                        whole.refit.fit.data.dimming, readings, rng);
   c.observations = data.observations;
   for (size_t r = 0; r < data.readings.size(); ++r) {
-    c.session.luxmeter.readings[r].illuminance_lx = data.readings[r].illuminance_lx;
-    c.session.luxmeter.readings[r].ambient_lx = 0;
+    c.linearized.readings[r].illuminance_lx = data.readings[r].illuminance_lx;
+    c.linearized.readings[r].ambient_lx = 0;
   }
   for (size_t m = 0; m < whole.prepared.room.scene.materials.size(); ++m) {
     const auto known = c.session.scene->known_albedo_rgb.find(whole.prepared.room.scene.materials[m]);

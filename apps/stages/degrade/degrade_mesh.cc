@@ -16,9 +16,9 @@ void RemoveFaces(UndegradedSession& whole, double percent, std::mt19937_64& rng,
   const int pieces = static_cast<int>(LoosePieces(scene).size());
   c.own_room = MakeRoom(WithoutPieces(scene, ShareOf(percent, pieces, 0), rng));
   c.room = &*c.own_room;
-  c.observations =
-      ThinElements(ObserveSession(c.session, whole.prepared.registered, *c.room, c.context).observations,
-                   whole.max_elements);
+  const SessionObservations observed =
+      ObserveSession(c.session, c.linearized.photos, whole.prepared.registered, *c.room, c.context);
+  c.observations = ThinElements(observed.observations, whole.max_elements);
 }
 
 }  // namespace

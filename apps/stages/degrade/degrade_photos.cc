@@ -28,9 +28,9 @@ void AddNoise(UndegradedSession& whole, double percent, std::mt19937_64& rng, De
 
 void FalsifyExposures(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {
   nlohmann::json unused;
-  c.observations =
-      WithSelfCalibration(c.session, whole.prepared.registered, whole.prepared.room.patches,
-                          WithExposureErrors(whole.thinned, percent / 100, rng), c.context, unused);
+  c.observations = WithSelfCalibration(
+      c.session, c.linearized.photos, whole.prepared.registered, whole.prepared.room.patches,
+      WithExposureErrors(whole.thinned, percent / 100, rng), c.context, unused);
 }
 
 void DropViews(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {

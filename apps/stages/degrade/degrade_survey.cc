@@ -17,9 +17,10 @@ std::optional<std::string> NeedsSurveyedTags(const UndegradedSession& whole) {
 // Registers and observes the views again.
 void MoveTags(UndegradedSession& whole, double sigma_mm, std::mt19937_64& rng, DegradedCase& c) {
   const std::vector<Camera>& cameras = whole.prepared.registered.cameras;
+  const LinearizedPhotos& photos = c.linearized.photos;
   if (!whole.detections)
     whole.detections =
-        DetectViews(whole.prepared.session, cameras, PhotosByView(whole.prepared.session), c.context);
+        DetectViews(c.session, photos, cameras, PhotosByView(c.session, photos.photos), c.context);
   c.session.tags.survey = WithMovedTags(c.session.tags.survey, sigma_mm / 1000, rng);
   RegisteredSession registered;
   registered.cameras = cameras;
@@ -34,8 +35,8 @@ void MoveTags(UndegradedSession& whole, double sigma_mm, std::mt19937_64& rng, D
     registered.cameras[i] = WithFocalScale(cameras[i], focal_scale[i]);
     c.context.warnings.push_back({"focal_length_off", "the tags contradict the focal length", ""});
   }
-  c.observations = ThinElements(ObserveSession(c.session, registered, *c.room, c.context).observations,
-                                whole.max_elements);
+  const SessionObservations observed = ObserveSession(c.session, photos, registered, *c.room, c.context);
+  c.observations = ThinElements(observed.observations, whole.max_elements);
 }
 
 }  // namespace

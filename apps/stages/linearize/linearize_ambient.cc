@@ -15,32 +15,29 @@ bool IsAmbient(const Session& session, const SessionState& state) {
                                                     [](const auto& one) { return one.second == 0; });
 }
 
-Session WithoutAmbientReadings(Session session, RunContext& context) {
+std::vector<LuminaireReading> ReadingsWithoutAmbient(const Session& session, RunContext& context) {
   std::set<std::string> ambient_states;
   for (const SessionState& state : session.states) {
     if (IsAmbient(session, state)) ambient_states.insert(state.id);
   }
-  if (ambient_states.empty() || session.luxmeter.readings.empty()) return session;
   std::map<std::string, double> ambient_lx;
   for (const SessionReading& reading : session.luxmeter.readings) {
     if (reading.is_measured && ambient_states.count(reading.state) > 0)
       ambient_lx.emplace(reading.id, reading.illuminance_lx);
   }
-  std::vector<SessionReading> readings;
+  std::vector<LuminaireReading> readings;
   readings.reserve(session.luxmeter.readings.size());
   std::vector<std::string> unmeasured;
-  for (SessionReading reading : session.luxmeter.readings) {
+  for (const SessionReading& reading : session.luxmeter.readings) {
     if (ambient_states.count(reading.state) > 0) continue;
     const auto ambient = ambient_lx.find(reading.id);
-    if (ambient != ambient_lx.end()) {
-      reading.ambient_lx = ambient->second;
-      reading.illuminance_lx -= ambient->second;
-    } else if (reading.is_measured && std::count(unmeasured.begin(), unmeasured.end(), reading.id) == 0) {
+    const bool is_known = ambient != ambient_lx.end();
+    const double off_lx = is_known ? ambient->second : 0;
+    readings.push_back({reading, reading.illuminance_lx - off_lx, off_lx});
+    if (!is_known && reading.is_measured && std::count(unmeasured.begin(), unmeasured.end(), reading.id) == 0)
       unmeasured.push_back(reading.id);
-    }
-    readings.push_back(reading);
   }
-  session.luxmeter.readings = std::move(readings);
+  if (ambient_states.empty() || session.luxmeter.readings.empty()) return readings;
   context.choices.push_back({"ambient light in readings",
                              "subtracted",
                              {},
@@ -51,7 +48,7 @@ Session WithoutAmbientReadings(Session session, RunContext& context) {
          "readings of " + ListNames(unmeasured) + " include the ambient light, which was not measured there",
          "measure these places with all luminaires off too, or give role check to them only"});
   }
-  return session;
+  return readings;
 }
 
 }  // namespace luxfit

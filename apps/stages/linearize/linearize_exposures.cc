@@ -51,10 +51,10 @@ double RelativeExposure(const SessionPhoto& photo, const Setting& first) {
   return exposure;
 }
 
-void WarnOfIncomplete(const Session& session, RunContext& context) {
+void WarnOfIncomplete(const Session& session, const std::vector<SessionPhoto>& rows, RunContext& context) {
   for (size_t c = 0; c < session.cameras.size(); ++c) {
     int photos = 0, with_iso = 0, with_aperture = 0;
-    for (const SessionPhoto& photo : session.photos) {
+    for (const SessionPhoto& photo : rows) {
       if (static_cast<size_t>(photo.camera) != c) continue;
       ++photos;
       with_iso += photo.iso ? 1 : 0;
@@ -74,13 +74,12 @@ void WarnOfIncomplete(const Session& session, RunContext& context) {
 }
 
 // Returns the ratios of neighbouring exposures of one bracket, with photos numbered from 0.
-std::vector<ExposureRatio> RatiosOf(const Session& session, const SessionPhoto& photo) {
+std::vector<ExposureRatio> RatiosOf(const LinearizedCamera& camera, const LinearizedPhoto& photo) {
   std::vector<ExposureRatio> ratios;
   ratios.reserve(photo.bracket.size());
-  const size_t camera = static_cast<size_t>(photo.camera);
-  LuminanceImage longer = ReadExposure(session, camera, photo.bracket[0]);
+  LuminanceImage longer = ReadExposure(camera, photo.bracket[0]);
   for (size_t i = 1; i < photo.bracket.size(); ++i) {
-    LuminanceImage shorter = ReadExposure(session, camera, photo.bracket[i]);
+    LuminanceImage shorter = ReadExposure(camera, photo.bracket[i]);
     auto ratio = MeasureRatio(longer, photo.bracket[i - 1].relative_exposure_s, shorter,
                               photo.bracket[i].relative_exposure_s);
     if (ratio) {
@@ -93,7 +92,7 @@ std::vector<ExposureRatio> RatiosOf(const Session& session, const SessionPhoto& 
   return ratios;
 }
 
-void WarnOfGain(const Session& session, const SessionExposure& exposure, double log_gain, bool is_alone,
+void WarnOfGain(const Session& session, const PhotoExposure& exposure, double log_gain, bool is_alone,
                 RunContext& context) {
   const double factor = std::exp(log_gain);
   const std::string label =
@@ -112,16 +111,17 @@ void WarnOfGain(const Session& session, const SessionExposure& exposure, double 
 
 }  // namespace
 
-std::string PhotoName(const Session& session, const SessionExposure& exposure) {
+std::string PhotoName(const Session& session, const PhotoExposure& exposure) {
   return PhotoName(session, exposure.file, exposure.line);
 }
 
-Session WithMetadata(Session session, RunContext& context) {
-  std::vector<ExposureMetadata> metadata(session.photos.size());
+std::vector<SessionPhoto> RowsWithMetadata(const Session& session, RunContext& context) {
+  std::vector<SessionPhoto> rows = session.photos;
+  std::vector<ExposureMetadata> metadata(rows.size());
   tbb::parallel_for(size_t{0}, metadata.size(),
-                    [&](size_t i) { metadata[i] = ReadExposureMetadata(session.photos[i].file); });
+                    [&](size_t i) { metadata[i] = ReadExposureMetadata(rows[i].file); });
   for (size_t i = 0; i < metadata.size(); ++i) {
-    SessionPhoto& photo = session.photos[i];
+    SessionPhoto& photo = rows[i];
     const auto stated = photo.exposure_s > 0 ? std::optional(photo.exposure_s) : std::nullopt;
     const auto time = Reconciled(session, photo, "exposure_s", stated, metadata[i].exposure_s, context);
     if (!time) {
@@ -133,41 +133,50 @@ Session WithMetadata(Session session, RunContext& context) {
     photo.f_number = Reconciled(session, photo, "aperture", photo.f_number, metadata[i].f_number, context);
     photo.iso = Reconciled(session, photo, "iso", photo.iso, metadata[i].iso, context);
   }
-  return session;
+  return rows;
 }
 
-Session WithBrackets(Session session, RunContext& context) {
-  WarnOfIncomplete(session, context);
+LinearizedPhotos MakeBrackets(const Session& session, const std::vector<SessionPhoto>& rows,
+                              RunContext& context) {
+  WarnOfIncomplete(session, rows, context);
+  LinearizedPhotos made;
+  made.cameras.reserve(session.cameras.size());
+  for (const SessionCamera& camera : session.cameras) {
+    made.cameras.emplace_back();
+    made.cameras.back().given = camera;
+  }
   std::map<int, Setting> first_of_camera;
   std::map<std::tuple<std::string, std::string, int>, size_t> index;
-  std::vector<SessionPhoto> photos;
-  photos.reserve(session.photos.size());
-  for (const SessionPhoto& photo : session.photos) {
+  std::vector<LinearizedPhoto>& photos = made.photos;
+  photos.reserve(rows.size());
+  for (const SessionPhoto& photo : rows) {
     Setting& first = first_of_camera[photo.camera];
     if (!first.iso) first.iso = photo.iso;
     if (!first.f_number) first.f_number = photo.f_number;
     const auto [at, is_new] = index.emplace(std::tuple(photo.view, photo.state, photo.camera), photos.size());
-    if (is_new) photos.push_back(photo);
+    if (is_new) photos.push_back({photo.file, photo.camera, photo.view, photo.state, photo.exposure_s, {}});
     photos[at->second].bracket.push_back({photo.file, RelativeExposure(photo, first), photo.line});
   }
-  for (SessionPhoto& photo : photos) {
+  for (LinearizedPhoto& photo : photos) {
     std::stable_sort(photo.bracket.begin(), photo.bracket.end(), [](const auto& a, const auto& b) {
       return a.relative_exposure_s > b.relative_exposure_s;
     });
     photo.file = photo.bracket.front().file;
   }
-  session.photos = std::move(photos);
-  return session;
+  return made;
 }
 
-Session WithCorrectedExposures(Session session, RunContext& context, nlohmann::json& artifact) {
-  std::vector<std::vector<ExposureRatio>> ratios(session.photos.size());
-  tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
-    if (session.photos[i].bracket.size() > 1) ratios[i] = RatiosOf(session, session.photos[i]);
+LinearizedPhotos WithCorrectedExposures(LinearizedPhotos photos, const Session& session, RunContext& context,
+                                        nlohmann::json& artifact) {
+  std::vector<std::vector<ExposureRatio>> ratios(photos.photos.size());
+  tbb::parallel_for(size_t{0}, photos.photos.size(), [&](size_t i) {
+    const LinearizedPhoto& photo = photos.photos[i];
+    if (photo.bracket.size() > 1)
+      ratios[i] = RatiosOf(photos.cameras[static_cast<size_t>(photo.camera)], photo);
   });
   artifact["exposure_gains"] = nlohmann::json::array();
   for (size_t i = 0; i < ratios.size(); ++i) {
-    std::vector<SessionExposure>& bracket = session.photos[i].bracket;
+    std::vector<PhotoExposure>& bracket = photos.photos[i].bracket;
     if (bracket.size() < 2) continue;
     const ExposureGains gains = SolveGains(static_cast<int>(bracket.size()), ratios[i]);
     for (const int off : gains.off)
@@ -184,7 +193,7 @@ Session WithCorrectedExposures(Session session, RunContext& context, nlohmann::j
       return a.relative_exposure_s > b.relative_exposure_s;
     });
   }
-  return session;
+  return photos;
 }
 
 }  // namespace luxfit

@@ -19,8 +19,8 @@ constexpr size_t kPixelsPerExposure = 600;
 
 // Chooses places in the exposures at a quarter, a half and three quarters of a bracket, and reads their
 // counts in all.
-BracketSamples SamplesOf(const SessionPhoto& photo, const ResponseOptions& options) {
-  const std::vector<SessionExposure>& bracket = photo.bracket;
+BracketSamples SamplesOf(const LinearizedPhoto& photo, const ResponseOptions& options) {
+  const std::vector<PhotoExposure>& bracket = photo.bracket;
   std::vector<PixelPlace> places;
   std::vector<size_t> middles{bracket.size() / 4, bracket.size() / 2, 3 * bracket.size() / 4};
   middles.erase(std::unique(middles.begin(), middles.end()), middles.end());
@@ -34,7 +34,7 @@ BracketSamples SamplesOf(const SessionPhoto& photo, const ResponseOptions& optio
   for (Eigen::MatrixXd& counts : samples.counts)
     counts.resize(static_cast<Eigen::Index>(places.size()), columns);
   for (Eigen::Index j = 0; j < columns; ++j) {
-    const SessionExposure& exposure = bracket[static_cast<size_t>(j)];
+    const PhotoExposure& exposure = bracket[static_cast<size_t>(j)];
     samples.exposure_s[j] = exposure.relative_exposure_s;
     const Eigen::MatrixX3d counts = CountsAt(ReadPhoto(exposure.file), places);
     for (size_t c = 0; c < 3; ++c) samples.counts[c].col(j) = counts.col(static_cast<Eigen::Index>(c));
@@ -42,28 +42,28 @@ BracketSamples SamplesOf(const SessionPhoto& photo, const ResponseOptions& optio
   return samples;
 }
 
-std::vector<BracketSamples> SamplesOfCamera(const Session& session, size_t camera,
+std::vector<BracketSamples> SamplesOfCamera(const LinearizedPhotos& photos, size_t camera,
                                             const ResponseOptions& options) {
-  std::vector<const SessionPhoto*> brackets;
-  for (const SessionPhoto& photo : session.photos) {
+  std::vector<const LinearizedPhoto*> brackets;
+  for (const LinearizedPhoto& photo : photos.photos) {
     if (static_cast<size_t>(photo.camera) == camera && photo.bracket.size() > 2) brackets.push_back(&photo);
   }
-  std::stable_sort(brackets.begin(), brackets.end(), [](const SessionPhoto* a, const SessionPhoto* b) {
+  std::stable_sort(brackets.begin(), brackets.end(), [](const LinearizedPhoto* a, const LinearizedPhoto* b) {
     return a->bracket.size() > b->bracket.size();
   });
   brackets.resize(std::min(brackets.size(), kMaxBrackets));
   std::vector<BracketSamples> samples;
   samples.reserve(brackets.size());
-  for (const SessionPhoto* photo : brackets) samples.push_back(SamplesOf(*photo, options));
+  for (const LinearizedPhoto* photo : brackets) samples.push_back(SamplesOf(*photo, options));
   return samples;
 }
 
-CameraResponse EstimateForCamera(const Session& session, size_t index, RunContext& context,
-                                 nlohmann::json& artifact) {
+CameraResponse EstimateForCamera(const LinearizedPhotos& photos, const Session& session, size_t index,
+                                 RunContext& context, nlohmann::json& artifact) {
   const SessionCamera& camera = session.cameras[index];
   ResponseOptions options;
-  options.full_scale_counts = camera.full_scale_counts;
-  const ResponseEstimate estimate = EstimateResponse(SamplesOfCamera(session, index, options), options);
+  options.full_scale_counts = photos.cameras[index].full_scale_counts;
+  const ResponseEstimate estimate = EstimateResponse(SamplesOfCamera(photos, index, options), options);
   if (!estimate.response) {
     throw std::runtime_error(fmt::format(
         "{}:{}: camera[{}].response: expected photos that determine it, got brackets in which {}; take "
@@ -127,61 +127,64 @@ std::string ResponseCsv(const CameraResponse& response) {
   return csv;
 }
 
-Session WithResponses(Session session, RunContext& context, nlohmann::json& artifact) {
+LinearizedPhotos WithResponses(LinearizedPhotos photos, const Session& session, RunContext& context,
+                               nlohmann::json& artifact) {
   artifact["cameras"] = nlohmann::json::array();
-  for (size_t c = 0; c < session.cameras.size(); ++c) {
-    SessionCamera& camera = session.cameras[c];
-    nlohmann::json entry = {{"camera", camera.id}, {"response", camera.response}};
+  for (size_t c = 0; c < photos.cameras.size(); ++c) {
+    LinearizedCamera& camera = photos.cameras[c];
+    const SessionCamera& given = camera.given;
+    nlohmann::json entry = {{"camera", given.id}, {"response", given.response}};
     const auto of_camera =
-        std::find_if(session.photos.begin(), session.photos.end(),
-                     [&](const SessionPhoto& p) { return static_cast<size_t>(p.camera) == c; });
-    const bool is_asked = camera.response != "linear" || camera.cdm2_per_count_s > 0;
-    if (of_camera != session.photos.end() && is_asked) {
+        std::find_if(photos.photos.begin(), photos.photos.end(),
+                     [&](const LinearizedPhoto& p) { return static_cast<size_t>(p.camera) == c; });
+    const bool is_asked = given.response != "linear" || given.cdm2_per_count_s > 0;
+    if (of_camera != photos.photos.end() && is_asked) {
       const Photo photo = ReadPhoto(of_camera->file);
       camera.full_scale_counts = photo.full_scale_counts;
-      if (camera.response != "linear" && (photo.bits_per_channel == 32 || photo.is_black_subtracted)) {
+      if (given.response != "linear" && (photo.bits_per_channel == 32 || photo.is_black_subtracted)) {
         throw std::runtime_error(fmt::format(
             "{}: expected a photo of 8 or 16 bit for the response of camera \"{}\", got one that is "
             "linear by its format; write response = \"linear\"",
-            of_camera->file, camera.id));
+            of_camera->file, given.id));
       }
-      if (camera.response == "estimate") {
-        camera.response_curve = EstimateForCamera(session, c, context, entry);
-      } else if (camera.response != "linear") {
-        camera.response_curve = ReadResponse(camera.response_path);
+      if (given.response == "estimate") {
+        camera.response = EstimateForCamera(photos, session, c, context, entry);
+      } else if (given.response != "linear") {
+        camera.response = ReadResponse(given.response_path);
       }
     }
     entry["full_scale_counts"] = camera.full_scale_counts;
     artifact["cameras"].push_back(entry);
   }
-  return session;
+  return photos;
 }
 
-Session WithFlatFields(Session session, RunContext& context, nlohmann::json& artifact) {
-  for (size_t c = 0; c < session.cameras.size(); ++c) {
-    SessionCamera& camera = session.cameras[c];
-    if (camera.vignetting_path.empty()) continue;
-    const LuminanceImage flat = ReadExposure(session, c, {camera.vignetting_path, 1, 0});
+LinearizedPhotos WithFlatFields(LinearizedPhotos photos, RunContext& context, nlohmann::json& artifact) {
+  for (size_t c = 0; c < photos.cameras.size(); ++c) {
+    LinearizedCamera& camera = photos.cameras[c];
+    const std::string& path = camera.given.vignetting_path;
+    if (path.empty()) continue;
+    const LuminanceImage flat = ReadExposure(camera, {path, 1, 0});
     const VignettingEstimate estimate = VignettingOfFlatField(flat);
     if (!estimate.is_determined || estimate.residual_rms > 0.05) {
       throw std::runtime_error(fmt::format(
           "{}: expected a flat field, one evenly bright surface that fills the picture unsaturated, got {}",
-          camera.vignetting_path,
+          path,
           estimate.is_determined ? fmt::format("one that departs from a smooth fall-off by {:.0f} %",
                                                100 * estimate.residual_rms)
                                  : estimate.message));
     }
-    camera.vignetting_model = estimate.vignetting;
+    camera.vignetting = estimate.vignetting;
     const auto& k = estimate.vignetting.coefficients;
     artifact["cameras"][c]["vignetting"] = {{"coefficients", std::vector<double>(k.begin(), k.end())},
                                             {"residual_rms", estimate.residual_rms}};
     context.choices.push_back(
-        {"vignetting of " + camera.id,
+        {"vignetting of " + camera.given.id,
          fmt::format("order {}", k.size()),
          {"0", "1", "2", "3"},
          "the flat field; simplest whose error on cells held out is the best's within its standard error"});
   }
-  return session;
+  return photos;
 }
 
 }  // namespace luxfit

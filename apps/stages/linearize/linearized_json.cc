@@ -34,66 +34,59 @@ CameraResponse ResponseFromJson(const json& in) {
   return response.WithRelativeSigma(sigma);
 }
 
-json PhotoJson(const SessionPhoto& photo) {
+json PhotoJson(const LinearizedPhoto& photo) {
   json bracket = json::array();
-  for (const SessionExposure& e : photo.bracket) bracket.push_back({e.file, e.relative_exposure_s, e.line});
-  return {{"file", photo.file},
-          {"camera", photo.camera},
-          {"view", photo.view},
-          {"state", photo.state},
-          {"exposure_s", photo.exposure_s},
-          {"f_number", photo.f_number ? json(*photo.f_number) : json()},
-          {"iso", photo.iso ? json(*photo.iso) : json()},
-          {"line", photo.line},
-          {"bracket", bracket}};
+  for (const PhotoExposure& e : photo.bracket) bracket.push_back({e.file, e.relative_exposure_s, e.line});
+  return {{"file", photo.file},   {"camera", photo.camera},         {"view", photo.view},
+          {"state", photo.state}, {"exposure_s", photo.exposure_s}, {"bracket", bracket}};
 }
 
-SessionPhoto PhotoFromJson(const json& in) {
-  SessionPhoto photo;
+LinearizedPhoto PhotoFromJson(const json& in) {
+  LinearizedPhoto photo;
   photo.file = in.at("file");
   photo.camera = in.at("camera");
   photo.view = in.at("view");
   photo.state = in.at("state");
   photo.exposure_s = in.at("exposure_s");
-  if (in.at("f_number").is_number()) photo.f_number = in["f_number"].get<double>();
-  if (in.at("iso").is_number()) photo.iso = in["iso"].get<double>();
-  photo.line = in.at("line");
   for (const json& e : in.at("bracket")) photo.bracket.push_back({e.at(0), e.at(1), e.at(2)});
   return photo;
 }
 
 }  // namespace
 
-json LinearizedJson(const Session& linearized) {
+json LinearizedJson(const LinearizedPhotos& linearized) {
   json out = {{"photos", json::array()}, {"cameras", json::array()}};
-  for (const SessionPhoto& photo : linearized.photos) out["photos"].push_back(PhotoJson(photo));
-  for (const SessionCamera& camera : linearized.cameras) {
+  for (const LinearizedPhoto& photo : linearized.photos) out["photos"].push_back(PhotoJson(photo));
+  for (const LinearizedCamera& camera : linearized.cameras) {
     json entry = {{"full_scale_counts", camera.full_scale_counts}};
-    if (camera.response_curve) entry["response"] = ResponseJson(*camera.response_curve);
-    if (camera.vignetting_model)
-      entry["vignetting"] = {{"center_px", VectorJson(camera.vignetting_model->center_px)},
-                             {"radius_px", camera.vignetting_model->radius_px},
-                             {"coefficients", VectorJson(camera.vignetting_model->coefficients)}};
+    if (camera.response) entry["response"] = ResponseJson(*camera.response);
+    if (camera.vignetting)
+      entry["vignetting"] = {{"center_px", VectorJson(camera.vignetting->center_px)},
+                             {"radius_px", camera.vignetting->radius_px},
+                             {"coefficients", VectorJson(camera.vignetting->coefficients)}};
     out["cameras"].push_back(entry);
   }
   return out;
 }
 
-Session WithLinearized(Session session, const json& in) {
-  session.photos.clear();
-  for (const json& photo : in.at("photos")) session.photos.push_back(PhotoFromJson(photo));
+LinearizedPhotos LinearizedFromJson(const Session& session, const json& in) {
+  LinearizedPhotos linearized;
+  linearized.cameras.reserve(session.cameras.size());
+  for (const json& photo : in.at("photos")) linearized.photos.push_back(PhotoFromJson(photo));
   for (size_t c = 0; c < session.cameras.size(); ++c) {
     const json& entry = in.at("cameras").at(c);
-    SessionCamera& camera = session.cameras[c];
+    LinearizedCamera camera;
+    camera.given = session.cameras[c];
     camera.full_scale_counts = entry.at("full_scale_counts");
-    if (entry.contains("response")) camera.response_curve = ResponseFromJson(entry["response"]);
+    if (entry.contains("response")) camera.response = ResponseFromJson(entry["response"]);
     if (entry.contains("vignetting")) {
       const json& v = entry["vignetting"];
-      camera.vignetting_model = Vignetting{VectorFromJson(v.at("center_px")), v.at("radius_px"),
-                                           VectorFromJson(v.at("coefficients"))};
+      camera.vignetting = Vignetting{VectorFromJson(v.at("center_px")), v.at("radius_px"),
+                                     VectorFromJson(v.at("coefficients"))};
     }
+    linearized.cameras.push_back(std::move(camera));
   }
-  return session;
+  return linearized;
 }
 
 }  // namespace luxfit

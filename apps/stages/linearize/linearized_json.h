@@ -1,4 +1,4 @@
-// Writes what the linearize stage adds to a session as JSON, and reads it back.
+// Writes linearized photos as JSON, and reads them back.
 //
 // Reading throws nlohmann::json::exception where a key is missing or has another type.
 #ifndef LUXFIT_APPS_STAGES_INTERNAL_LINEARIZED_JSON_H_
@@ -6,14 +6,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "apps/session/session.h"
+#include "apps/stages/linearize/linearized_session.h"
 
 namespace luxfit {
 
 // Writes photos with their brackets, and cameras with response, vignetting and full scale.
-nlohmann::json LinearizedJson(const Session& linearized);
-// Completes the session, as it was read, by those.
-Session WithLinearized(Session session, const nlohmann::json& json);
+nlohmann::json LinearizedJson(const LinearizedPhotos& linearized);
+// `session` gives the cameras as they were read.
+LinearizedPhotos LinearizedFromJson(const Session& session, const nlohmann::json& json);
 
 }  // namespace luxfit
 

@@ -12,7 +12,8 @@
 namespace luxfit {
 namespace {
 
-Photo ReadCounts(const SessionCamera& settings, const std::string& file) {
+Photo ReadCounts(const LinearizedCamera& camera, const std::string& file) {
+  const SessionCamera& settings = camera.given;
   Photo counts = ReadPhoto(file);
   if (counts.bits_per_channel == 8 && settings.response == "linear") {
     throw std::runtime_error(fmt::format(
@@ -28,21 +29,21 @@ Photo ReadCounts(const SessionCamera& settings, const std::string& file) {
                     "remove the key",
                     file, settings.black_level_counts, settings.id));
   }
-  if (settings.response_curve && counts.full_scale_counts != settings.full_scale_counts) {
+  if (camera.response && counts.full_scale_counts != camera.full_scale_counts) {
     throw std::runtime_error(
         fmt::format("{}: expected the bit depth of the camera's other photos, for which its response holds, "
                     "got full scale {:g} "
                     "against {:g}; convert them alike",
-                    file, counts.full_scale_counts, settings.full_scale_counts));
+                    file, counts.full_scale_counts, camera.full_scale_counts));
   }
   return counts;
 }
 
-LuminanceOptions OptionsOf(const SessionCamera& settings) {
+LuminanceOptions OptionsOf(const LinearizedCamera& camera) {
   LuminanceOptions options;
-  options.weights = settings.luminance_weights;
-  options.black_level_counts = settings.black_level_counts;
-  options.response = settings.response_curve;
+  options.weights = camera.given.luminance_weights;
+  options.black_level_counts = camera.given.black_level_counts;
+  options.response = camera.response;
   return options;
 }
 
@@ -55,87 +56,94 @@ void ExpectSize(const Photo& counts, const std::string& file, const SessionCamer
       file, camera.width_px, camera.height_px, settings.intrinsics, counts.width_px(), counts.height_px()));
 }
 
-size_t FilesOf(const Session& session) {
+size_t FilesOf(const LinearizedPhotos& photos) {
   size_t files = 0;
-  for (const SessionPhoto& photo : session.photos) files += photo.bracket.size();
+  for (const LinearizedPhoto& photo : photos.photos) files += photo.bracket.size();
   return files;
 }
 
-}  // namespace
-
-LuminanceImage ReadExposure(const Session& session, size_t camera, const SessionExposure& exposure) {
-  const SessionCamera& settings = session.cameras[camera];
-  return ToRelativeLuminance(ReadCounts(settings, exposure.file), exposure.relative_exposure_s,
-                             OptionsOf(settings));
-}
-
-LuminanceImage ReadLuminance(const Session& session, const SessionPhoto& photo, const Camera& camera) {
-  const SessionCamera& settings = session.cameras[static_cast<size_t>(photo.camera)];
-  LuminanceImage image;
-  if (photo.bracket.size() > 1) {
-    BracketMerger merger(OptionsOf(settings));
-    for (const SessionExposure& exposure : photo.bracket) {
-      const Photo counts = ReadCounts(settings, exposure.file);
-      ExpectSize(counts, exposure.file, settings, camera);
-      merger.Add(counts, exposure.relative_exposure_s);
-    }
-    image = merger.Merged();
-  } else {
-    const Photo counts = ReadCounts(settings, photo.file);
-    ExpectSize(counts, photo.file, settings, camera);
-    image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, OptionsOf(settings));
-  }
-  if (settings.vignetting_model) image = WithoutVignetting(std::move(image), *settings.vignetting_model);
-  return image;
-}
-
-std::shared_ptr<const LuminanceImage> ReadKept(const Session& session, const SessionPhoto& photo,
-                                               const Camera& camera, const RunContext& context) {
-  const auto decode = [&] { return ReadLuminance(session, photo, camera); };
-  return context.photos ? context.photos->Get(photo.file, decode)
-                        : std::make_shared<const LuminanceImage>(decode());
-}
-
-LuminanceImage ReadCorrected(const Session& session, const SessionPhoto& photo, const Camera& camera,
-                             const PhotoCorrections& corrections) {
-  return WithCorrection(ReadLuminance(session, photo, camera), corrections.Of(session, photo),
-                        photo.bracket.front().relative_exposure_s);
-}
-
-Session LinearizePhotos(Session session, RunContext& context) {
-  const size_t warnings_before = context.warnings.size();
-  nlohmann::json artifact = ProvenanceJson("luxfit-linearize-1", context.provenance);
-  session = WithBrackets(WithMetadata(std::move(session), context), context);
-  const StageTimer timer(
-      context, "linearize",
-      fmt::format("{} photos of {} views and states", FilesOf(session), session.photos.size()));
-  session = WithResponses(std::move(session), context, artifact);
-  session = WithCorrectedExposures(std::move(session), context, artifact);
-  session = WithFlatFields(std::move(session), context, artifact);
+void WriteArtifact(const LinearizedPhotos& photos, size_t first_warning, nlohmann::json artifact,
+                   const RunContext& context) {
   artifact["photos"] = nlohmann::json::array();
-  for (const SessionPhoto& photo : session.photos) {
+  for (const LinearizedPhoto& photo : photos.photos) {
     nlohmann::json exposures = nlohmann::json::array();
-    for (const SessionExposure& exposure : photo.bracket)
+    for (const PhotoExposure& exposure : photo.bracket)
       exposures.push_back({{"file", exposure.file}, {"relative_exposure_s", exposure.relative_exposure_s}});
     artifact["photos"].push_back({{"view", photo.view},
                                   {"state", photo.state},
-                                  {"camera", session.cameras[static_cast<size_t>(photo.camera)].id},
+                                  {"camera", photos.cameras[static_cast<size_t>(photo.camera)].given.id},
                                   {"exposures", exposures}});
   }
   artifact["warnings"] = nlohmann::json::array();
-  for (size_t i = warnings_before; i < context.warnings.size(); ++i) {
+  for (size_t i = first_warning; i < context.warnings.size(); ++i) {
     const Warning& w = context.warnings[i];
     artifact["warnings"].push_back({{"code", w.code}, {"message", w.message}, {"remedy", w.remedy}});
   }
   artifact["choices"] = ChoicesJson(context);
-  // Callers that read an earlier run (the report) have no folder of their own.
-  if (!context.out.empty()) WriteJson(context.out + "/stages/linearize.json", artifact);
-  return session;
+  WriteJson(context.out + "/stages/linearize.json", artifact);
 }
 
-Session LinearizeSession(Session session, RunContext& context) {
-  session = WithoutAmbientReadings(std::move(session), context);
-  return session.photos.empty() ? session : LinearizePhotos(std::move(session), context);
+}  // namespace
+
+LuminanceImage ReadExposure(const LinearizedCamera& camera, const PhotoExposure& exposure) {
+  return ToRelativeLuminance(ReadCounts(camera, exposure.file), exposure.relative_exposure_s,
+                             OptionsOf(camera));
+}
+
+LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
+                             const Camera& camera) {
+  const LinearizedCamera& own = photos.cameras[static_cast<size_t>(photo.camera)];
+  LuminanceImage image;
+  if (photo.bracket.size() > 1) {
+    BracketMerger merger(OptionsOf(own));
+    for (const PhotoExposure& exposure : photo.bracket) {
+      const Photo counts = ReadCounts(own, exposure.file);
+      ExpectSize(counts, exposure.file, own.given, camera);
+      merger.Add(counts, exposure.relative_exposure_s);
+    }
+    image = merger.Merged();
+  } else {
+    const Photo counts = ReadCounts(own, photo.file);
+    ExpectSize(counts, photo.file, own.given, camera);
+    image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, OptionsOf(own));
+  }
+  if (own.vignetting) image = WithoutVignetting(std::move(image), *own.vignetting);
+  return image;
+}
+
+std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
+                                               const Camera& camera, const RunContext& context) {
+  const auto decode = [&] { return ReadLuminance(photos, photo, camera); };
+  return context.photos ? context.photos->Get(photo.file, decode)
+                        : std::make_shared<const LuminanceImage>(decode());
+}
+
+LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
+                             const Camera& camera, const PhotoCorrections& corrections) {
+  const std::string& id = photos.cameras[static_cast<size_t>(photo.camera)].given.id;
+  return WithCorrection(ReadLuminance(photos, photo, camera), corrections.Of(id, photo.file),
+                        photo.bracket.front().relative_exposure_s);
+}
+
+LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context) {
+  if (session.photos.empty()) return MakeBrackets(session, {}, context);
+  const size_t first_warning = context.warnings.size();
+  nlohmann::json artifact = ProvenanceJson("luxfit-linearize-1", context.provenance);
+  LinearizedPhotos photos = MakeBrackets(session, RowsWithMetadata(session, context), context);
+  const StageTimer timer(
+      context, "linearize",
+      fmt::format("{} photos of {} views and states", FilesOf(photos), photos.photos.size()));
+  photos = WithResponses(std::move(photos), session, context, artifact);
+  photos = WithCorrectedExposures(std::move(photos), session, context, artifact);
+  photos = WithFlatFields(std::move(photos), context, artifact);
+  // Callers that read an earlier run (the report) have no folder of their own.
+  if (!context.out.empty()) WriteArtifact(photos, first_warning, std::move(artifact), context);
+  return photos;
+}
+
+LinearizedSession LinearizeSession(const Session& session, RunContext& context) {
+  std::vector<LuminaireReading> readings = ReadingsWithoutAmbient(session, context);
+  return {LinearizePhotos(session, context), std::move(readings)};
 }
 
 }  // namespace luxfit

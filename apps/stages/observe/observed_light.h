@@ -2,7 +2,7 @@
 //
 // An element is diffuse: in one state its luminance is the same in every photo. Photos that disagree have
 // another exposure than stated, the lens darkens towards the corners, or counts are not proportional to light
-// (inverse/choose/self_calibration.h).
+// (inverse/choose/self_calibration.h). This file translates the session, and words what was found.
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
 
@@ -15,16 +15,18 @@ namespace luxfit {
 
 // Divides observations by the errors found in the photos' exposures, vignetting and response, and adds the
 // variance of their photo's gain. A correction applies where calib did not fix it (no flat field, no response
-// curve) and where the criterion selects it. Warns of:
+// curve) and where the criterion selects it. inverse/choose/calibrated_observations.h judges what is worth a
+// warning:
 //
-//   exposure_metadata              a photo whose exposure is off by more than 8 %
+//   exposure_metadata              a photo whose exposure is off
 //   vignetting_found               vignetting that the session denies
 //   response_not_linear            a response that the session denies
 //   vignetting_undetermined        vignetting that is asked for and not determined
 //   state_exposures_undetermined   states whose exposures nothing ties to the others'
-std::vector<Observation> WithSelfCalibration(const Session& session, const RegisteredSession& registered,
-                                             const Patches& patches, std::vector<Observation> observations,
-                                             RunContext& context, nlohmann::json& artifact);
+std::vector<Observation> WithSelfCalibration(const Session& session, const LinearizedPhotos& photos,
+                                             const RegisteredSession& registered, const Patches& patches,
+                                             std::vector<Observation> observations, RunContext& context,
+                                             nlohmann::json& artifact);
 
 }  // namespace luxfit
 

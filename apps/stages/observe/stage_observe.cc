@@ -21,8 +21,9 @@ namespace luxfit {
 namespace {
 
 // Returns the photo of a view with all luminaires off; null where there is none.
-const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo) {
-  for (const SessionPhoto& other : session.photos) {
+const LinearizedPhoto* AmbientOf(const Session& session, const LinearizedPhotos& photos,
+                                 const LinearizedPhoto& photo) {
+  for (const LinearizedPhoto& other : photos.photos) {
     const int state = StateIndex(session, other.state);
     if (other.view == photo.view && other.camera == photo.camera && state >= 0 &&
         IsAmbient(session, session.states[static_cast<size_t>(state)]))
@@ -31,28 +32,30 @@ const SessionPhoto* AmbientOf(const Session& session, const SessionPhoto& photo)
   return nullptr;
 }
 
-bool HasAmbientState(const Session& session) {
-  return std::any_of(session.photos.begin(), session.photos.end(), [&](const SessionPhoto& photo) {
+bool HasAmbientState(const Session& session, const LinearizedPhotos& photos) {
+  return std::any_of(photos.photos.begin(), photos.photos.end(), [&](const LinearizedPhoto& photo) {
     return IsAmbient(session, session.states[static_cast<size_t>(StateIndex(session, photo.state))]);
   });
 }
 
 // Subtracts the light of the all-off state from a photo. Returns null for a photo of that state, or
 // where its view has no such photo.
-std::shared_ptr<const LuminanceImage> ReadLuminaireLight(const Session& session, const SessionPhoto& photo,
-                                                         const Camera& camera, const RunContext& context) {
-  const SessionPhoto* const ambient = AmbientOf(session, photo);
+std::shared_ptr<const LuminanceImage> ReadLuminaireLight(const Session& session,
+                                                         const LinearizedPhotos& photos,
+                                                         const LinearizedPhoto& photo, const Camera& camera,
+                                                         const RunContext& context) {
+  const LinearizedPhoto* const ambient = AmbientOf(session, photos, photo);
   if (!ambient || ambient->state == photo.state) return nullptr;
-  return std::make_shared<const LuminanceImage>(WithoutAmbient(
-      *ReadKept(session, photo, camera, context), *ReadKept(session, *ambient, camera, context)));
+  return std::make_shared<const LuminanceImage>(WithoutAmbient(*ReadKept(photos, photo, camera, context),
+                                                               *ReadKept(photos, *ambient, camera, context)));
 }
 
-void RecordAmbient(const Session& session, RunContext& context) {
+void RecordAmbient(const Session& session, const LinearizedPhotos& photos, RunContext& context) {
   context.choices.push_back(
       {"ambient light", "subtracted", {}, "photos of a state with all luminaires off are given"});
   std::vector<std::string> missing;
-  for (const SessionPhoto& photo : session.photos) {
-    if (!AmbientOf(session, photo) && std::count(missing.begin(), missing.end(), photo.view) == 0)
+  for (const LinearizedPhoto& photo : photos.photos) {
+    if (!AmbientOf(session, photos, photo) && std::count(missing.begin(), missing.end(), photo.view) == 0)
       missing.push_back(photo.view);
   }
   if (missing.empty()) return;
@@ -92,13 +95,13 @@ nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& pl
 
 }  // namespace
 
-SessionObservations ObserveSession(const Session& session, const RegisteredSession& registered,
-                                   const Room& room, RunContext& context) {
+SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
+                                   const RegisteredSession& registered, const Room& room,
+                                   RunContext& context) {
   const std::vector<RegisteredView>& views = registered.registration.views;
   if (views.empty()) return {};
-  const StageTimer timer(
-      context, "observe",
-      fmt::format("{} photos of {} registered views", session.photos.size(), views.size()));
+  const StageTimer timer(context, "observe",
+                         fmt::format("{} photos of {} registered views", photos.photos.size(), views.size()));
   std::vector<PixelDirections> directions;
   for (const Camera& camera : registered.cameras) directions.push_back(UnprojectAllPixels(camera));
   std::vector<PixelMap> maps;
@@ -108,20 +111,20 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
     maps.push_back(MapPixels(camera, directions[c], view.cam_from_world, room,
                              TagQuads(session.tags.survey, camera, view.cam_from_world)));
   }
-  const bool has_ambient = HasAmbientState(session);
-  if (has_ambient) RecordAmbient(session, context);
-  std::vector<std::vector<Observation>> by_photo(session.photos.size());
-  std::vector<std::optional<PhotoBlobs>> blobs(session.photos.size());
-  tbb::parallel_for(size_t{0}, session.photos.size(), [&](size_t i) {
-    const SessionPhoto& photo = session.photos[i];
-    Advance(context, session.photos.size());
+  const bool has_ambient = HasAmbientState(session, photos);
+  if (has_ambient) RecordAmbient(session, photos, context);
+  std::vector<std::vector<Observation>> by_photo(photos.photos.size());
+  std::vector<std::optional<PhotoBlobs>> blobs(photos.photos.size());
+  tbb::parallel_for(size_t{0}, photos.photos.size(), [&](size_t i) {
+    const LinearizedPhoto& photo = photos.photos[i];
+    Advance(context, photos.photos.size());
     const auto view = std::find_if(views.begin(), views.end(),
                                    [&](const RegisteredView& v) { return v.view == photo.view; });
     if (view == views.end()) return;
     const Camera& camera = registered.cameras[static_cast<size_t>(photo.camera)];
     const int index = static_cast<int>(view - views.begin());
-    const auto image = has_ambient ? ReadLuminaireLight(session, photo, camera, context)
-                                   : ReadKept(session, photo, camera, context);
+    const auto image = has_ambient ? ReadLuminaireLight(session, photos, photo, camera, context)
+                                   : ReadKept(photos, photo, camera, context);
     if (!image) return;
     blobs[i] = {index, StateIndex(session, photo.state), FindBrightBlobs(*image)};
     by_photo[i] =
@@ -133,10 +136,10 @@ SessionObservations ObserveSession(const Session& session, const RegisteredSessi
   for (size_t i = 0; i < by_photo.size(); ++i) {
     observations.insert(observations.end(), by_photo[i].begin(), by_photo[i].end());
     artifact["photos"].push_back(
-        {{"file", session.photos[i].file}, {"elements_observed", by_photo[i].size()}});
+        {{"file", photos.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
-  observations =
-      WithSelfCalibration(session, registered, room.patches, std::move(observations), context, artifact);
+  observations = WithSelfCalibration(session, photos, registered, room.patches, std::move(observations),
+                                     context, artifact);
   SessionObservations observed{std::move(observations), SeenPlaces(room, registered, blobs)};
   artifact["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", artifact);

@@ -23,10 +23,10 @@ constexpr double kMaxSigmaOfWorst =
 // Holds what is known of the session's views, and registers them by each method.
 class RegistrationJob {
  public:
-  RegistrationJob(const Session& session, const std::vector<Camera>& cameras, const ViewPhotos& views,
-                  RunContext& context)
-      : session_(session), cameras_(cameras), views_(views), context_(context) {
-    detections_ = HasTags() ? DetectViews(session, cameras, views, context) : ViewsWithoutTags(views);
+  RegistrationJob(const Session& session, const LinearizedPhotos& photos, const std::vector<Camera>& cameras,
+                  const ViewPhotos& views, RunContext& context)
+      : session_(session), photos_(photos), cameras_(cameras), views_(views), context_(context) {
+    detections_ = HasTags() ? DetectViews(session, photos, cameras, views, context) : ViewsWithoutTags(views);
     if (HasTags()) ExpectTags();
   }
 
@@ -87,8 +87,8 @@ class RegistrationJob {
   }
 
   FeatureModel Features(const Registration& tags) const {
-    if (HasModel()) return ReadFeatures(session_, cameras_, views_);
-    FeatureModel features = RunFeatures(session_, cameras_, views_, detections_, tags, context_);
+    if (HasModel()) return ReadFeatures(session_, photos_, cameras_, views_);
+    FeatureModel features = RunFeatures(photos_, cameras_, views_, detections_, tags, context_);
     if (features.views.empty())
       Warn("colmap_no_model", "COLMAP found too few matches between the photos for a model.",
            "Take photos that overlap by two thirds, or hang more tags; OUT/stages/colmap/colmap.log has "
@@ -98,6 +98,7 @@ class RegistrationJob {
   }
 
   const Session& session_;
+  const LinearizedPhotos& photos_;
   const std::vector<Camera>& cameras_;
   const ViewPhotos& views_;
   RunContext& context_;
@@ -190,9 +191,10 @@ Registration Auto(const RegistrationJob& job) {
 
 }  // namespace
 
-Registration ChooseRegistration(const Session& session, const std::vector<Camera>& cameras,
-                                const ViewPhotos& views, RunContext& context) {
-  const RegistrationJob job(session, cameras, views, context);
+Registration ChooseRegistration(const Session& session, const LinearizedPhotos& photos,
+                                const std::vector<Camera>& cameras, const ViewPhotos& views,
+                                RunContext& context) {
+  const RegistrationJob job(session, photos, cameras, views, context);
   const std::string& method = session.registration.method;
   const bool by_features_alone = method == "colmap" && job.HasStart();
   if (!job.HasTags() && (method == "tags" || method == "both"))

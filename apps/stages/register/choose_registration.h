@@ -16,8 +16,9 @@ namespace luxfit {
 
 // Throws std::runtime_error where the session asks for what it does not give, and MissingProgram where COLMAP
 // is asked for and not installed.
-Registration ChooseRegistration(const Session& session, const std::vector<Camera>& cameras,
-                                const ViewPhotos& views, RunContext& context);
+Registration ChooseRegistration(const Session& session, const LinearizedPhotos& photos,
+                                const std::vector<Camera>& cameras, const ViewPhotos& views,
+                                RunContext& context);
 
 }  // namespace luxfit
 

@@ -1,6 +1,7 @@
 #include "apps/stages/register/registration_json.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/text/formats/json_vectors.h"
@@ -68,8 +69,10 @@ RegisteredView ViewFromJson(const json& entry) {
   view.camera = entry.at("camera");
   view.cam_from_world.matrix().topRows<3>() =
       VectorFromJson(entry.at("cam_from_world")).reshaped<Eigen::RowMajor>(3, 4);
-  view.position_sigma_m = VectorFromJson(entry.at("position_sigma_m"));
-  view.covariance = MatrixFromJson(entry.at("covariance"));
+  view.position_sigma_m = VectorOrUnknown(entry.at("position_sigma_m"), 3);
+  view.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (const json& covariance = entry.at("covariance"); !covariance.is_null())
+    view.covariance = MatrixFromJson(covariance);
   view.reprojection_rms_px = entry.at("reprojection_rms_px");
   view.tags_used = entry.at("tags_used");
   view.points_used = entry.at("points_used");

@@ -52,14 +52,15 @@ std::string MethodOf(const RegisteredView& view) {
   return view.tags_used == 0 ? "colmap" : "both";
 }
 
-RegisteredSession RegisterSession(const Session& session, RunContext& context) {
+RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos& photos,
+                                  RunContext& context) {
   RegisteredSession registered;
-  if (session.photos.empty()) return registered;
-  const ViewPhotos views = PhotosByView(session);
+  if (photos.photos.empty()) return registered;
+  const ViewPhotos views = PhotosByView(session, photos.photos);
   const StageTimer timer(context, "register",
                          fmt::format("{} views, {} surveyed tags", views.size(), session.tags.survey.size()));
-  registered.cameras = CamerasOf(session, context);
-  registered.registration = ChooseRegistration(session, registered.cameras, views, context);
+  registered.cameras = CamerasOf(session, photos, context);
+  registered.registration = ChooseRegistration(session, photos, registered.cameras, views, context);
   for (const RegistrationNote& note : registered.registration.notes) {
     context.warnings.push_back({note.code, note.message, note.remedy});
   }

@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::map<std::string, std::string> ViewByStem(const Session& session) {
+std::map<std::string, std::string> ViewByStem(const std::vector<LinearizedPhoto>& photos) {
   std::map<std::string, std::string> views;
-  for (const SessionPhoto& photo : session.photos) views[photo.view] = photo.view;
-  for (const SessionPhoto& photo : session.photos) views[fs::path(photo.file).stem().string()] = photo.view;
+  for (const LinearizedPhoto& photo : photos) views[photo.view] = photo.view;
+  for (const LinearizedPhoto& photo : photos) views[fs::path(photo.file).stem().string()] = photo.view;
   return views;
 }
 
@@ -37,12 +37,12 @@ void CheckSize(const ColmapModel& model, const ColmapImage& image, const Session
 
 // Combines the photos of one state and pose, each weighted by its exposure. Saturated pixels come from
 // shorter exposures.
-ImagePlane MergedLuminance(const Session& session, const Camera& camera,
-                           const std::vector<const SessionPhoto*>& photos, const RunContext& context) {
+ImagePlane MergedLuminance(const LinearizedPhotos& photos, const Camera& camera,
+                           const std::vector<const LinearizedPhoto*>& own, const RunContext& context) {
   ImagePlane sum, weight, brightest;
-  for (const SessionPhoto* photo : photos) {
-    if (photo->state != photos.front()->state) continue;
-    const std::shared_ptr<const LuminanceImage> kept = ReadKept(session, *photo, camera, context);
+  for (const LinearizedPhoto* photo : own) {
+    if (photo->state != own.front()->state) continue;
+    const std::shared_ptr<const LuminanceImage> kept = ReadKept(photos, *photo, camera, context);
     const LuminanceImage& image = *kept;
     const auto exposure_s = static_cast<float>(photo->exposure_s);
     const ImagePlane part = image.saturated.select(
@@ -61,10 +61,10 @@ ImagePlane MergedLuminance(const Session& session, const Camera& camera,
 
 }  // namespace
 
-FeatureModel ReadFeatures(const Session& session, const std::vector<Camera>& cameras,
-                          const ViewPhotos& views) {
+FeatureModel ReadFeatures(const Session& session, const LinearizedPhotos& photos,
+                          const std::vector<Camera>& cameras, const ViewPhotos& views) {
   const ColmapModel model = ReadColmapModel(session.registration.colmap_model);
-  const std::map<std::string, std::string> by_stem = ViewByStem(session);
+  const std::map<std::string, std::string> by_stem = ViewByStem(photos.photos);
   std::map<std::string, std::string> view_of_image;
   for (const auto& [id, image] : model.images) {
     const auto view = by_stem.find(fs::path(image.name).stem().string());
@@ -83,9 +83,9 @@ FeatureModel ReadFeatures(const Session& session, const std::vector<Camera>& cam
   return FeaturesOf(model, view_of_image);
 }
 
-FeatureModel RunFeatures(const Session& session, const std::vector<Camera>& cameras, const ViewPhotos& views,
-                         const std::vector<ViewDetections>& detections, const Registration& known,
-                         const RunContext& context) {
+FeatureModel RunFeatures(const LinearizedPhotos& photos, const std::vector<Camera>& cameras,
+                         const ViewPhotos& views, const std::vector<ViewDetections>& detections,
+                         const Registration& known, const RunContext& context) {
   std::map<std::string, Eigen::Isometry3d> poses;
   for (const RegisteredView& view : known.views) poses[view.view] = view.cam_from_world;
   std::vector<ColmapPicture> pictures;
@@ -94,7 +94,7 @@ FeatureModel RunFeatures(const Session& session, const std::vector<Camera>& came
     const Camera& camera = cameras[static_cast<std::size_t>(view.camera)];
     pictures.push_back({view.view,
                         view.camera,
-                        MergedLuminance(session, camera, views.at(view.view), context),
+                        MergedLuminance(photos, camera, views.at(view.view), context),
                         view.tags,
                         {}});
     const auto pose = poses.find(view.view);

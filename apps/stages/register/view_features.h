@@ -17,14 +17,14 @@ namespace luxfit {
 
 // Reads the model that the session names. An image belongs to a view if its name is the photo's, without
 // folders and with any extension, or the view's.
-FeatureModel ReadFeatures(const Session& session, const std::vector<Camera>& cameras,
-                          const ViewPhotos& views);
+FeatureModel ReadFeatures(const Session& session, const LinearizedPhotos& photos,
+                          const std::vector<Camera>& cameras, const ViewPhotos& views);
 
 // Runs COLMAP, which starts from the poses that `known` has. OUT/stages/colmap is emptied first and then
 // holds COLMAP's files. The result has no views where COLMAP found no model.
-FeatureModel RunFeatures(const Session& session, const std::vector<Camera>& cameras, const ViewPhotos& views,
-                         const std::vector<ViewDetections>& detections, const Registration& known,
-                         const RunContext& context);
+FeatureModel RunFeatures(const LinearizedPhotos& photos, const std::vector<Camera>& cameras,
+                         const ViewPhotos& views, const std::vector<ViewDetections>& detections,
+                         const Registration& known, const RunContext& context);
 
 }  // namespace luxfit
 

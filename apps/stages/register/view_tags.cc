@@ -14,9 +14,9 @@ namespace {
 // grid's error is common to all of them.
 constexpr size_t kPhotosPerView = 6;
 
-double DimmingSum(const Session& session, const SessionPhoto& photo) {
+double DimmingSum(const Session& session, const std::string& photo_state) {
   for (const SessionState& state : session.states) {
-    if (state.id != photo.state) continue;
+    if (state.id != photo_state) continue;
     double sum = 0;
     for (const auto& [id, dimming] : state.dimming) sum += dimming;
     return sum;
@@ -26,17 +26,22 @@ double DimmingSum(const Session& session, const SessionPhoto& photo) {
 
 }  // namespace
 
-ViewPhotos PhotosByView(const Session& session) {
-  ViewPhotos views;
-  for (const SessionPhoto& photo : session.photos) views[photo.view].push_back(&photo);
-  for (auto& [view, photos] : views) {
-    std::stable_sort(photos.begin(), photos.end(), [&](const SessionPhoto* a, const SessionPhoto* b) {
-      return DimmingSum(session, *a) > DimmingSum(session, *b);
+template <typename Photo>
+std::map<std::string, std::vector<const Photo*>> PhotosByView(const Session& session,
+                                                              const std::vector<Photo>& photos) {
+  std::map<std::string, std::vector<const Photo*>> views;
+  for (const Photo& photo : photos) views[photo.view].push_back(&photo);
+  for (auto& [view, own] : views) {
+    std::stable_sort(own.begin(), own.end(), [&](const Photo* a, const Photo* b) {
+      return DimmingSum(session, a->state) > DimmingSum(session, b->state);
     });
-    photos.resize(std::min(photos.size(), kPhotosPerView));
+    own.resize(std::min(own.size(), kPhotosPerView));
   }
   return views;
 }
+template std::map<std::string, std::vector<const SessionPhoto*>> PhotosByView(
+    const Session& session, const std::vector<SessionPhoto>& photos);
+template ViewPhotos PhotosByView(const Session& session, const std::vector<LinearizedPhoto>& photos);
 
 std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views) {
   std::vector<ViewDetections> detections;
@@ -44,20 +49,21 @@ std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views) {
   return detections;
 }
 
-std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
-                                        const ViewPhotos& views, const RunContext& context) {
+std::vector<ViewDetections> DetectViews(const Session& session, const LinearizedPhotos& photos,
+                                        const std::vector<Camera>& cameras, const ViewPhotos& views,
+                                        const RunContext& context) {
   std::vector<ViewDetections> detections = ViewsWithoutTags(views);
-  std::vector<std::pair<size_t, const SessionPhoto*>> jobs;
+  std::vector<std::pair<size_t, const LinearizedPhoto*>> jobs;
   size_t index = 0;
-  for (const auto& [view, photos] : views) {
-    for (const SessionPhoto* photo : photos) jobs.push_back({index, photo});
+  for (const auto& [view, own] : views) {
+    for (const LinearizedPhoto* photo : own) jobs.push_back({index, photo});
     ++index;
   }
   std::vector<std::vector<TagDetection>> found(jobs.size());
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    const SessionPhoto& photo = *jobs[i].second;
+    const LinearizedPhoto& photo = *jobs[i].second;
     const Camera& camera = cameras[static_cast<size_t>(photo.camera)];
-    found[i] = FindTagCorners(*ReadKept(session, photo, camera, context), camera, session.tags.family);
+    found[i] = FindTagCorners(*ReadKept(photos, photo, camera, context), camera, session.tags.family);
     Advance(context, jobs.size());
   });
   std::vector<std::vector<std::vector<TagDetection>>> of_view(detections.size());

@@ -14,14 +14,17 @@
 namespace luxfit {
 
 // Returns at most six photos a view. Those with the most luminaires on come first, since their tags are
-// evenly lit.
-using ViewPhotos = std::map<std::string, std::vector<const SessionPhoto*>>;
-ViewPhotos PhotosByView(const Session& session);
+// evenly lit. `Photo` is SessionPhoto or LinearizedPhoto; the session gives the states.
+template <typename Photo>
+std::map<std::string, std::vector<const Photo*>> PhotosByView(const Session& session,
+                                                              const std::vector<Photo>& photos);
+using ViewPhotos = std::map<std::string, std::vector<const LinearizedPhoto*>>;
 
 // Detects tags in every photo of a view, refines and combines them. Returns one entry for each view, in that
-// order.
-std::vector<ViewDetections> DetectViews(const Session& session, const std::vector<Camera>& cameras,
-                                        const ViewPhotos& views, const RunContext& context);
+// order. `views` are of `photos`.
+std::vector<ViewDetections> DetectViews(const Session& session, const LinearizedPhotos& photos,
+                                        const std::vector<Camera>& cameras, const ViewPhotos& views,
+                                        const RunContext& context);
 
 // Returns the same entries without tags.
 std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "apps/stages/check_report.h"
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
@@ -25,9 +26,9 @@ constexpr double kAnyShare = 1e-6;
 
 void ExpectReadings(const Session& session) {
   if (session.luxmeter.readings.empty())
-    throw InputError(
-        {session.path, 0}, "luxmeter.readings",
-        "expected places to predict, got none; add [luxmeter] with a table whose lux may be empty");
+    throw InputError({session.path, 0}, "luxmeter.readings",
+                     "expected places to predict, got none; add [luxmeter] with a table whose illuminance_lx "
+                     "may be empty");
 }
 
 class Simulation {
@@ -185,11 +186,7 @@ class Simulation {
            {"indirect_lx", rows_[i].lx - rows_[i].direct_lx}});
       if (reading.is_measured) checked.push_back({reading.illuminance_lx, rows_[i].lx, 0, 0});
     }
-    const LuxmeterSummary summary = SummarizeLuxmeter(checked);
-    artifact["summary"] = {{"mean_abs_error_lx", summary.mean_abs_error_lx},
-                           {"mean_abs_error_percent", summary.mean_abs_error_percent},
-                           {"max_abs_error_percent", summary.max_abs_error_percent},
-                           {"readings_checked", summary.readings_checked}};
+    artifact["summary"] = SummaryJson(SummarizeLuxmeter(checked));
     for (const char* part : {"luxmeter", "summary"}) AddFormerKeys(artifact[part]);
   }
 

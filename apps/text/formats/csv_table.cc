@@ -1,5 +1,7 @@
 #include "apps/text/formats/csv_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -22,11 +24,7 @@ std::string Trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-std::string Joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
+std::string Joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 std::string ExpectedHeader(const CsvColumns& expected) {
   return Joined(expected.required) +
@@ -97,6 +95,25 @@ bool HasDecimalComma(const std::string& text) {
          std::all_of(text.begin(), text.end(), [&](char c) { return c == ',' || numeric(c); });
 }
 
+bool IsAlias(const CsvColumns& expected, const std::string& column, const std::string& name) {
+  const auto at = expected.alias.find(column);
+  return at != expected.alias.end() && at->second == name;
+}
+
+std::string QuotedWithAlias(const CsvColumns& expected, const std::string& column) {
+  const auto at = expected.alias.find(column);
+  return Quoted(column) + (at == expected.alias.end() ? "" : " (or its alias " + Quoted(at->second) + ")");
+}
+
+void ExpectOneNameForEachColumn(const CsvColumns& expected, const CsvTable& table, int line) {
+  for (const auto& [column, alias] : expected.alias) {
+    if (HasColumn(table, column) && HasColumn(table, alias))
+      throw InputError({table.path, line}, "header",
+                       "expected one of the columns " + Quoted(column) + " and " + Quoted(alias) +
+                           " (its alias), got both; keep one and remove the other");
+  }
+}
+
 void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, const std::string& found_line) {
   const std::string found = "expected " + Quoted(ExpectedHeader(expected)) + ", got " + Quoted(found_line);
   const SourcePlace place{table.path, line};
@@ -109,15 +126,18 @@ void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, co
   if (table.columns.size() == 1 && found_line.find('\t') != std::string::npos)
     throw InputError(place, "header",
                      found + "; columns end with commas, not tabs: save the table as CSV with commas");
+  ExpectOneNameForEachColumn(expected, table, line);
   size_t i = 0;
   for (; i < expected.required.size() && i < table.columns.size(); ++i) {
     if (table.columns[i] == expected.required[i]) continue;
+    if (IsAlias(expected, expected.required[i], table.columns[i])) continue;
     throw InputError(place, "header",
                      found + "; column " + std::to_string(i + 1) + " must be " +
-                         Quoted(expected.required[i]) + ": rename, reorder or add it");
+                         QuotedWithAlias(expected, expected.required[i]) + ": rename, reorder or add it");
   }
   if (i < expected.required.size())
-    throw InputError(place, "header", found + "; add the column " + Quoted(expected.required[i]));
+    throw InputError(place, "header",
+                     found + "; add the column " + QuotedWithAlias(expected, expected.required[i]));
   for (auto next = expected.optional.begin(); i < table.columns.size(); ++i) {
     const auto at = std::find(next, expected.optional.end(), table.columns[i]);
     if (at == expected.optional.end())

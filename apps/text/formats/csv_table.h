@@ -1,17 +1,19 @@
 // Reads a table of comma-separated values with a fixed header, and keeps its line numbers.
 //
 // The header must hold the expected columns in their order. Optional columns may follow in any selection.
+// A column may stand under its alias instead. The table keeps the name that the file uses.
 // Fields may be quoted ("a, b", "" for a quote). Blanks around a field, empty lines, a byte-order mark and
 // CRLF are dropped. Numbers have a decimal point. A decimal comma, which spreadsheets may write, is
 // recognised and reported as such.
 //
 // Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; remedy") for anything else, for a
-// control character in a field, and for a table without rows.
+// control character in a field, for a column beside its alias, and for a table without rows.
 //
 // Source: RFC 4180.
 #ifndef LUXFIT_APPS_TEXT_FORMATS_CSV_TABLE_H_
 #define LUXFIT_APPS_TEXT_FORMATS_CSV_TABLE_H_
 
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,6 +23,7 @@ namespace luxfit {
 struct CsvColumns {
   std::vector<std::string> required;
   std::vector<std::string> optional;
+  std::map<std::string, std::string> alias = {};  // of a required column, by its name
 };
 
 struct CsvRow {

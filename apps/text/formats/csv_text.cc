@@ -28,9 +28,7 @@ std::string CsvField(const nlohmann::json& value) {
 }
 
 std::string CsvLine(const std::vector<std::string>& fields) {
-  std::string line;
-  for (size_t i = 0; i < fields.size(); ++i) line += (i == 0 ? "" : ",") + fields[i];
-  return line + "\n";
+  return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
 std::string CsvOf(const nlohmann::json& list, const std::vector<CsvColumn>& columns) {

@@ -32,6 +32,11 @@ Eigen::VectorXd VectorFromJson(const json& list) {
   return vector;
 }
 
+Eigen::VectorXd VectorOrUnknown(const json& list, Eigen::Index size) {
+  if (list.is_null()) return Eigen::VectorXd::Constant(size, std::numeric_limits<double>::quiet_NaN());
+  return VectorFromJson(list);
+}
+
 Eigen::MatrixXd MatrixFromJson(const json& rows) {
   if (rows.empty()) return {};
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()),

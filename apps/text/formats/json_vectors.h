@@ -14,6 +14,8 @@ nlohmann::json NumberOrNull(double value);
 nlohmann::json VectorJson(const Eigen::VectorXd& vector);
 nlohmann::json MatrixJson(const Eigen::MatrixXd& matrix);
 Eigen::VectorXd VectorFromJson(const nlohmann::json& json);
+// Reads a vector of `size` numbers; NaN throughout where the JSON is null.
+Eigen::VectorXd VectorOrUnknown(const nlohmann::json& json, Eigen::Index size);
 Eigen::MatrixXd MatrixFromJson(const nlohmann::json& json);
 
 }  // namespace luxfit

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "calib/lens/internal/cross_matrix.h"
+#include "calib/lens/internal/rotation_vector.h"
 
 namespace luxfit {
 namespace {

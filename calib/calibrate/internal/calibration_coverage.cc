@@ -1,5 +1,7 @@
 #include "calib/calibrate/internal/calibration_coverage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,10 +42,9 @@ std::vector<std::string> Lacks(const CalibrationCoverage& coverage) {
   std::vector<std::string> lacks;
   const std::string empty = ThirdsInWords(EmptyThirds(coverage.corner_counts));
   if (!empty.empty()) lacks.push_back("no corner in " + empty + " of the image");
-  const auto shown = [](double value) { return std::to_string(static_cast<int>(std::lround(value))); };
   if (coverage.is_flat && coverage.max_tilt_deg < kLeastTiltDeg)
-    lacks.push_back("the board was never tilted more than " + shown(std::ceil(coverage.max_tilt_deg)) +
-                    " degrees");
+    lacks.push_back(
+        fmt::format("the board was never tilted more than {:.0f} degrees", std::ceil(coverage.max_tilt_deg)));
   if (coverage.is_flat && coverage.images > 1 && coverage.farthest_m < kOneDistance * coverage.nearest_m)
     lacks.push_back("all boards are at one distance");
   return lacks;

@@ -17,6 +17,9 @@ constexpr int kMostRounds = 12;
 constexpr int kMedianRounds = 2;              // rounds that take the noise from the median
 constexpr double kMedianOfTwoAxes = 1.17741;  // median of |r| for two axes of sigma 1
 constexpr double kGateOfDiagonal = 0.02;      // gate of the seed, whose lens has no distortion
+// A pose has six parameters, and a corner gives two equations. Three corners determine a pose with nothing over
+// to tell a wrong one. Six leave as many equations over as the pose takes; the seed asks as many of an image.
+constexpr int kLeastCornersOfSet = 6;
 
 double Weighted(const CalibrationProblem& problem, const Eigen::Matrix2Xd& residuals, std::size_t k) {
   return problem.corners[k].weight * residuals.col(static_cast<Eigen::Index>(k)).norm();
@@ -60,6 +63,18 @@ bool MarkOutliers(CalibrationProblem& problem, const Eigen::Matrix2Xd& residuals
     problem.corners[k].used = used;
   }
   return changed;
+}
+
+// Leaves out all corners of the sets that keep too few for a pose; returns the number of such sets. Their poses
+// would be undetermined, and with them the covariance of the cameras.
+int LeaveOutStarvedSets(CalibrationProblem& problem) {
+  std::vector<int> used(static_cast<std::size_t>(problem.sets), 0);
+  for (const CornerObservation& corner : problem.corners)
+    used[static_cast<std::size_t>(corner.set)] += corner.used ? 1 : 0;
+  for (CornerObservation& corner : problem.corners)
+    corner.used = corner.used && used[static_cast<std::size_t>(corner.set)] >= kLeastCornersOfSet;
+  return static_cast<int>(
+      std::count_if(used.begin(), used.end(), [](int count) { return count < kLeastCornersOfSet; }));
 }
 
 double DiagonalPx(const CalibrationProblem& problem) {
@@ -111,6 +126,18 @@ CalibrationState FromSimpler(const CalibrationState& simpler, const LensKind& ki
   return start;
 }
 
+// Solves the adjustment from the fit's state and takes the solution over, or the reason why there is none.
+bool SolveOnce(const CalibrationProblem& problem, const LensFitOptions& options, bool warp, LensFit& fit) {
+  SolvedState solved = SolveCalibration(problem, fit.state, {true, warp}, options.back_end);
+  if (!solved.ok) {
+    fit.message = solved.message;
+    return false;
+  }
+  fit.state = std::move(solved.state);
+  fit.residuals = Residuals(problem, fit.state);
+  return true;
+}
+
 }  // namespace
 
 SolvedState SolveCalibration(const CalibrationProblem& problem, const CalibrationState& start,
@@ -131,19 +158,22 @@ LensFit FitFrom(CalibrationProblem problem, CalibrationState start, const LensFi
   LensFit fit;
   fit.state = std::move(start);
   const bool warp = options.warp && problem.input->target.IsGrid();
-  const double parameters = FreeParameters(problem, fit.state, warp);
+  double parameters = FreeParameters(problem, fit.state, warp);
   for (int round = 0; round < kMostRounds; ++round) {
-    SolvedState solved = SolveCalibration(problem, fit.state, {true, warp}, options.back_end);
-    if (!solved.ok) {
-      fit.message = solved.message;
-      return fit;
-    }
-    fit.state = std::move(solved.state);
-    fit.residuals = Residuals(problem, fit.state);
+    if (!SolveOnce(problem, options, warp, fit)) return fit;
     const double noise_px = round < kMedianRounds ? MedianNoisePx(problem, fit.residuals)
                                                   : UsedNoisePx(problem, fit.residuals, parameters);
     const bool changed = MarkOutliers(problem, fit.residuals, options.outlier_sigmas * noise_px + 1e-6);
     if (!changed && round >= kMedianRounds) break;
+  }
+  // Only the last round decides: until then corners may come back.
+  if (const int starved = LeaveOutStarvedSets(problem)) {
+    if (!SeesEveryCamera(problem)) {
+      fit.message = "a camera has no image with " + std::to_string(kLeastCornersOfSet) + " corners that fit";
+      return fit;
+    }
+    if (!SolveOnce(problem, options, warp, fit)) return fit;
+    parameters -= 6.0 * starved;
   }
   fit.noise_px = UsedNoisePx(problem, fit.residuals, parameters);
   fit.used.reserve(problem.corners.size());

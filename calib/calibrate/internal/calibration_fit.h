@@ -5,6 +5,8 @@
 // first rounds take the noise from the median (sigma = median |r| / 1.177 for two axes), which withstands 40
 // % of wrong corners. Later rounds take it from the corners in use.
 //
+// A set that ends with fewer than six corners in use has no determined pose: it is left out whole.
+//
 // Source: Rousseeuw and Leroy (1987), "Robust regression and outlier detection".
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_FIT_H_
 #define LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_FIT_H_

@@ -22,13 +22,13 @@ constexpr int kLeastCorners = 6;
 constexpr double kWideGain = 0.8;
 
 // Holds the corners of one image in the form that the pose estimate takes.
-struct ImageCorners {
+struct SeenImage {
   int image = 0, camera = 0, set = 0;
   std::vector<SeenPoint> points;
 };
 
-std::vector<ImageCorners> CornersByImage(const CalibrationProblem& problem) {
-  std::vector<ImageCorners> images;
+std::vector<SeenImage> CornersByImage(const CalibrationProblem& problem) {
+  std::vector<SeenImage> images;
   for (const CornerObservation& corner : problem.corners) {
     if (images.empty() || images.back().image != corner.image)
       images.push_back({corner.image, corner.camera, corner.set, {}});
@@ -88,12 +88,12 @@ PlacedImage Place(const GuessedCamera& guess, std::vector<SeenPoint> points, int
 }
 
 // Returns some of a camera's images, spread evenly over all of them.
-std::vector<const ImageCorners*> ScanImages(const std::vector<ImageCorners>& images, int camera) {
-  std::vector<const ImageCorners*> own;
-  for (const ImageCorners& image : images) {
+std::vector<const SeenImage*> ScanImages(const std::vector<SeenImage>& images, int camera) {
+  std::vector<const SeenImage*> own;
+  for (const SeenImage& image : images) {
     if (image.camera == camera && image.points.size() >= kLeastCorners) own.push_back(&image);
   }
-  std::vector<const ImageCorners*> some;
+  std::vector<const SeenImage*> some;
   const std::size_t count = std::min(own.size(), kImagesOfScan);
   for (std::size_t i = 0; i < count; ++i) some.push_back(own[i * own.size() / count]);
   return some;
@@ -104,7 +104,7 @@ struct ScannedFocal {
   double cost_px2 = std::numeric_limits<double>::infinity();
 };
 
-ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const ImageCorners*>& images,
+ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const SeenImage*>& images,
                        bool is_wide, double focal_start_px) {
   const double widest = is_wide ? 0.12 : 0.2, longest = is_wide ? 1.5 : 8;
   const double from = focal_start_px > 0 ? focal_start_px / 2 : widest * size.width_px;
@@ -113,7 +113,7 @@ ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const Im
   for (double focal_px = from; focal_px <= to; focal_px *= kFocalStep) {
     const GuessedCamera guess = Guess(size, is_wide, focal_px);
     double cost_px2 = 0;
-    for (const ImageCorners* image : images) {
+    for (const SeenImage* image : images) {
       cost_px2 += Place(guess, image->points, kStepsOfScan).cost_px2;
       if (cost_px2 >= best.cost_px2) break;
     }
@@ -124,8 +124,8 @@ ScannedFocal ScanFocal(const CalibrationCamera& size, const std::vector<const Im
 
 // Holds the poses of a camera relative to one that is placed, from the sets that both share.
 struct SharedSets {
-  std::vector<std::pair<const ImageCorners*, Eigen::Isometry3d>> images;  // the camera's; pose of the other
-  std::vector<Eigen::Isometry3d> candidates;                              // camera from the other
+  std::vector<std::pair<const SeenImage*, Eigen::Isometry3d>> images;  // the camera's; pose of the other
+  std::vector<Eigen::Isometry3d> candidates;                           // camera from the other
 };
 
 Eigen::Isometry3d BestCandidate(const GuessedCamera& guess, const SharedSets& shared) {
@@ -148,7 +148,7 @@ Eigen::Isometry3d BestCandidate(const GuessedCamera& guess, const SharedSets& sh
 
 class RigJoiner {
  public:
-  RigJoiner(const std::vector<ImageCorners>& images, const std::vector<PlacedImage>& placed,
+  RigJoiner(const std::vector<SeenImage>& images, const std::vector<PlacedImage>& placed,
             const std::vector<GuessedCamera>& guesses, std::vector<bool> found)
       : images_(images), placed_(placed), guesses_(guesses), found_(std::move(found)) {
     cam_from_rig_.resize(guesses.size());
@@ -197,7 +197,7 @@ class RigJoiner {
     return shared;
   }
 
-  const std::vector<ImageCorners>& images_;
+  const std::vector<SeenImage>& images_;
   const std::vector<PlacedImage>& placed_;
   const std::vector<GuessedCamera>& guesses_;
   std::vector<bool> found_;
@@ -205,8 +205,7 @@ class RigJoiner {
 };
 
 // Counts the corners of an image that a pose explains.
-std::size_t CornersNear(const GuessedCamera& guess, const ImageCorners& image,
-                        const Eigen::Isometry3d& pose) {
+std::size_t CornersNear(const GuessedCamera& guess, const SeenImage& image, const Eigen::Isometry3d& pose) {
   std::size_t near = 0;
   for (const SeenPoint& seen : image.points) {
     const Eigen::Vector2d pixel =
@@ -218,7 +217,7 @@ std::size_t CornersNear(const GuessedCamera& guess, const ImageCorners& image,
 
 // Returns whether the rig explains the corners that each image's own pose explains. Where two cameras share a
 // set, one of them gave the set's pose, so half of the corners prove nothing.
-bool IsBorneOut(const std::vector<GuessedCamera>& guesses, const std::vector<ImageCorners>& images,
+bool IsBorneOut(const std::vector<GuessedCamera>& guesses, const std::vector<SeenImage>& images,
                 const std::vector<PlacedImage>& placed, const CalibrationState& state) {
   constexpr double kLeastShare = 0.8;
   std::size_t own = 0, by_rig = 0;
@@ -239,7 +238,7 @@ struct FamilySeed {
   bool is_joined = false;
 };
 
-FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<ImageCorners>& images,
+FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<SeenImage>& images,
                       const std::vector<double>& focal_px, bool is_wide) {
   FamilySeed seed;
   std::vector<GuessedCamera> guesses;
@@ -250,7 +249,7 @@ FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<Image
   seed.state.lens = guesses.front().lens;
   std::vector<PlacedImage> placed;
   placed.reserve(images.size());
-  for (const ImageCorners& image : images) {
+  for (const SeenImage& image : images) {
     const GuessedCamera& guess = guesses[static_cast<std::size_t>(image.camera)];
     placed.push_back(Place(guess, image.points, kStepsOfPose));
     const double most_px2 = guess.gate_px * guess.gate_px * static_cast<double>(image.points.size());
@@ -277,13 +276,13 @@ FamilySeed SeedFamily(const CalibrationProblem& problem, const std::vector<Image
 }  // namespace
 
 CalibrationSeed SeedCalibration(const CalibrationProblem& problem, double focal_start_px) {
-  const std::vector<ImageCorners> images = CornersByImage(problem);
+  const std::vector<SeenImage> images = CornersByImage(problem);
   const CalibrationInput& input = *problem.input;
   CalibrationSeed seed;
   seed.image_found.assign(input.images.size(), false);
   std::vector<double> pinhole_px, wide_px;
   for (std::size_t c = 0; c < input.cameras.size(); ++c) {
-    const std::vector<const ImageCorners*> some = ScanImages(images, static_cast<int>(c));
+    const std::vector<const SeenImage*> some = ScanImages(images, static_cast<int>(c));
     if (some.empty()) {
       seed.message = "camera " + input.cameras[c].id + " has no image with " + std::to_string(kLeastCorners) +
                      " corners or more";

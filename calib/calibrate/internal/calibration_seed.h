@@ -21,8 +21,8 @@ namespace luxfit {
 struct CalibrationSeed {
   bool ok = false;
   std::string message, remedy;    // say why the seed failed
-  CalibrationState pinhole;       // OPENCV4 without distortion
-  CalibrationState wide;          // SPLINED0
+  CalibrationState pinhole;       // opencv4 without distortion
+  CalibrationState wide;          // splined0
   bool is_wide = false;           // true where `wide` fits better
   std::vector<bool> image_found;  // by image of the input: false where no pose fits its corners
 };

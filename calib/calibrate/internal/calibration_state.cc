@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/luminance/median.h"
 
 namespace luxfit {
@@ -84,20 +85,22 @@ bool IsFinite(const CalibrationState& state) {
          std::all_of(state.rig_from_target.begin(), state.rig_from_target.end(), pose_is_finite);
 }
 
+bool SeesEveryCamera(const CalibrationProblem& problem) {
+  std::vector<bool> seen(problem.input->cameras.size(), false);
+  for (const CornerObservation& corner : problem.corners) {
+    if (corner.used) seen[static_cast<std::size_t>(corner.camera)] = true;
+  }
+  return std::all_of(seen.begin(), seen.end(), [](bool s) { return s; });
+}
+
 Eigen::Matrix<double, 6, 1> RodriguesOf(const Eigen::Isometry3d& pose) {
-  const Eigen::AngleAxisd turn(pose.linear());
   Eigen::Matrix<double, 6, 1> out;
-  out << turn.angle() * turn.axis(), pose.translation();
+  out << RotationVectorOf(pose.linear()), pose.translation();
   return out;
 }
 
 Eigen::Isometry3d PoseOf(const double* rodrigues_and_translation) {
-  const Eigen::Map<const Eigen::Vector3d> r(rodrigues_and_translation), t(rodrigues_and_translation + 3);
-  const double angle = r.norm();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (angle > 0) pose.linear() = Eigen::AngleAxisd(angle, r / angle).toRotationMatrix();
-  pose.translation() = t;
-  return pose;
+  return PoseOf(rodrigues_and_translation, rodrigues_and_translation + 3);
 }
 
 }  // namespace luxfit

@@ -73,6 +73,9 @@ Eigen::Matrix2Xd Residuals(const CalibrationProblem& problem, const CalibrationS
 
 bool IsFinite(const CalibrationState& state);
 
+// Returns whether every camera has a corner in use.
+bool SeesEveryCamera(const CalibrationProblem& problem);
+
 // Returns the Rodrigues vector (rad) and translation (m) of a pose, libmrcal's form; PoseOf inverts it.
 Eigen::Matrix<double, 6, 1> RodriguesOf(const Eigen::Isometry3d& pose);
 Eigen::Isometry3d PoseOf(const double* rodrigues_and_translation);

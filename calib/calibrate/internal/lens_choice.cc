@@ -44,14 +44,6 @@ TrainingProblem Without(const CalibrationProblem& whole, const std::vector<bool>
   return training;
 }
 
-bool SeesEveryCamera(const CalibrationProblem& problem) {
-  std::vector<bool> seen(problem.input->cameras.size(), false);
-  for (const CornerObservation& corner : problem.corners) {
-    if (corner.used) seen[static_cast<std::size_t>(corner.camera)] = true;
-  }
-  return std::all_of(seen.begin(), seen.end(), [](bool s) { return s; });
-}
-
 void ScoreSet(const CalibrationProblem& problem, const CalibrationState& lens, const Eigen::Isometry3d& start,
               const std::vector<bool>& counted, int set, HeldOutScore& score) {
   std::vector<SeenPoint> points;

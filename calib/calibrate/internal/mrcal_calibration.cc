@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {
@@ -20,10 +21,7 @@ mrcal_pose_t MrcalPose(const Eigen::Isometry3d& pose) {
   return out;
 }
 
-Eigen::Isometry3d IsometryOf(const mrcal_pose_t& pose) {
-  const double rt[6] = {pose.r.x, pose.r.y, pose.r.z, pose.t.x, pose.t.y, pose.t.z};
-  return PoseOf(rt);
-}
+Eigen::Isometry3d IsometryOf(const mrcal_pose_t& pose) { return PoseOf(pose.r.xyz, pose.t.xyz); }
 
 mrcal_problem_selections_t SelectionsOf(const LensFunction& lens, const SolveSelection& selection,
                                         bool is_grid, bool has_extrinsics) {

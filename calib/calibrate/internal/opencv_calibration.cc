@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/calib3d.hpp>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {
@@ -73,12 +74,8 @@ CalibrationState StateOf(const ImagePoints& seen, const Estimate& estimate, Cali
   for (std::size_t i = 0; i < count; ++i)
     parameters[4 + i] = estimate.distortion.at<double>(static_cast<int>(i));
   for (std::size_t i = 0; i < seen.sets.size(); ++i) {
-    double rt[6];
-    for (int k = 0; k < 3; ++k) {
-      rt[k] = estimate.rodrigues[i].at<double>(k);
-      rt[3 + k] = estimate.translations[i].at<double>(k);
-    }
-    state.rig_from_target[seen.sets[i]] = PoseOf(rt);
+    state.rig_from_target[seen.sets[i]] =
+        PoseOf(estimate.rodrigues[i].ptr<double>(), estimate.translations[i].ptr<double>());
   }
   return state;
 }

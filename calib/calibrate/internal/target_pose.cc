@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {
@@ -18,9 +19,7 @@ constexpr std::size_t kLeastPoints = 4;
 // Returns the pose moved by a twist on the left: exp(rotation) * pose + translation.
 Eigen::Isometry3d Moved(const Eigen::Isometry3d& pose, const Twist& twist) {
   Eigen::Isometry3d out = pose;
-  const Eigen::Vector3d r = twist.head<3>();
-  const double angle = r.norm();
-  if (angle > 0) out.linear() = Eigen::AngleAxisd(angle, r / angle) * pose.linear();
+  out.linear() = RotationBy(twist.head<3>()) * pose.linear();
   out.translation() += twist.tail<3>();
   return out;
 }
@@ -97,15 +96,6 @@ std::vector<T> Kept(const std::vector<T>& all, const std::vector<unsigned char>&
   return kept;
 }
 
-Eigen::Isometry3d PoseOf(const cv::Mat& rodrigues, const cv::Mat& translation) {
-  const Eigen::Vector3d r(rodrigues.at<double>(0), rodrigues.at<double>(1), rodrigues.at<double>(2));
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (r.norm() > 0) pose.linear() = Eigen::AngleAxisd(r.norm(), r.normalized()).toRotationMatrix();
-  pose.translation() =
-      Eigen::Vector3d(translation.at<double>(0), translation.at<double>(1), translation.at<double>(2));
-  return pose;
-}
-
 std::vector<unsigned char> PlanarInliers(const NormalizedPoints& normalized, double gate) {
   std::vector<cv::Point2d> plane;
   plane.reserve(normalized.points.size());
@@ -172,7 +162,7 @@ std::vector<Eigen::Isometry3d> PoseStarts(const Camera& camera, const std::vecto
                         ts, false, normalized.is_planar ? cv::SOLVEPNP_IPPE : cv::SOLVEPNP_SQPNP);
     std::vector<Eigen::Isometry3d> starts;
     for (std::size_t i = 0; i < rs.size(); ++i) {
-      const Eigen::Isometry3d pose = PoseOf(rs[i], ts[i]);
+      const Eigen::Isometry3d pose = PoseOf(rs[i].ptr<double>(), ts[i].ptr<double>());
       if (pose.matrix().allFinite()) starts.push_back(pose);
     }
     return starts;

@@ -43,7 +43,7 @@ Eigen::Vector3d FisheyeDirection(const Camera& camera, const Eigen::Vector2d& xy
   // Bracket the first angle at which the radius reaches the target, while the radius still grows.
   constexpr int kSteps = 64;
   double low = 0, high = kNoImage;
-  for (int i = 1; i <= kSteps && !(high == high); ++i) {
+  for (int i = 1; i <= kSteps && std::isnan(high); ++i) {
     const double theta = M_PI * i / kSteps;
     const Radius radius = RadiusOf(camera.distortion, theta);
     if (radius.value >= target) {
@@ -92,7 +92,6 @@ LensOps FisheyeLens() {
   LensOps ops;
   ops.lens = LensModel::kFisheye;
   ops.key = "fisheye";
-  ops.name = "FISHEYE";
   ops.tried_sizes = {kCoefficients};
   ops.is_tried_on_wide_fields_only = true;
   ops.coefficients = kCoefficients;

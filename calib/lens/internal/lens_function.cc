@@ -5,8 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "calib/lens/lens_family.h"
-
 namespace luxfit {
 namespace {
 
@@ -43,15 +41,10 @@ mrcal_lensmodel_t SplinedModel(int knots, const Camera& wide) {
 }
 
 mrcal_lensmodel_t ModelOf(const LensKind& kind, const Camera& wide) {
-  const bool is_splined = OpsOf(kind.lens).has_control_points;
-  if (is_splined && kind.knots > 0) return SplinedModel(kind.knots, wide);
-  mrcal_lensmodel_t model{};
-  model.type = is_splined               ? MRCAL_LENSMODEL_STEREOGRAPHIC
-               : kind.coefficients == 4 ? MRCAL_LENSMODEL_OPENCV4
-               : kind.coefficients == 5 ? MRCAL_LENSMODEL_OPENCV5
-               : kind.coefficients == 8 ? MRCAL_LENSMODEL_OPENCV8
-                                        : MRCAL_LENSMODEL_OPENCV12;
-  return model;
+  if (OpsOf(kind.lens).has_control_points && kind.knots > 0) return SplinedModel(kind.knots, wide);
+  Camera plain;
+  plain.lens = kind.lens;
+  return ToMrcal(plain, kind.coefficients).model;
 }
 
 Camera CoefficientCamera(const LensOps& ops, const double* parameters) {
@@ -138,16 +131,11 @@ LensPoint ProjectByLens(const LensFunction& lens, const double* parameters, cons
   // A pinhole's formula mirrors points behind the camera into the image, where no camera sees them.
   if (!p_in_cam.allFinite() || (ops.is_pinhole && !(p_in_cam.z() > 0))) return out;
   if (with_parameters) out.d_parameters.resize(2, ParameterCount(lens));
-  mrcal_point3_t p{};
-  mrcal_point2_t q{};
-  mrcal_point3_t gradient[2];
-  p.x = p_in_cam.x();
-  p.y = p_in_cam.y();
-  p.z = p_in_cam.z();
   double* const d_parameters = with_parameters ? out.d_parameters.data() : nullptr;
-  if (!mrcal_project(&q, gradient, d_parameters, &p, 1, &lens.model, parameters)) return out;
-  out.pixel = {q.x, q.y};
-  for (int row = 0; row < 2; ++row) out.d_point.row(row) << gradient[row].x, gradient[row].y, gradient[row].z;
+  const auto projection = ProjectByMrcal(lens.model, parameters, p_in_cam, d_parameters);
+  if (!projection) return out;
+  out.pixel = projection->pixel;
+  out.d_point = projection->d_pixel_d_point;
   return out;
 }
 

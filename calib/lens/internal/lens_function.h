@@ -21,7 +21,7 @@ struct LensFunction {
   mrcal_lensmodel_t model{};  // set for lenses that libmrcal knows
 };
 
-// Returns the function of a kind of lens. `wide` is the plain stereographic camera (SPLINED0) whose image a
+// Returns the function of a kind of lens. `wide` is the plain stereographic camera (splined0) whose image a
 // splined lens has to cover.
 LensFunction MakeLensFunction(const LensKind& kind, const Camera& wide);
 

@@ -9,6 +9,7 @@
 #include "calib/lens/internal/camera_formats.h"
 #include "calib/lens/internal/mrcal_lens.h"
 #include "calib/lens/internal/python_dict.h"
+#include "calib/lens/internal/rotation_vector.h"
 
 namespace luxfit {
 namespace {
@@ -50,15 +51,6 @@ MrcalLens ReadLens(const Entries& entries, const std::string& path) {
   return lens;
 }
 
-// Converts mrcal's rt, a rotation vector and a translation: p_in_cam = R(r) p + t.
-Eigen::Isometry3d ToIsometry(const double* rt) {
-  const Eigen::Vector3d r(rt[0], rt[1], rt[2]);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  if (r.norm() > 0) pose.linear() = Eigen::AngleAxisd(r.norm(), r.normalized()).toRotationMatrix();
-  pose.translation() = Eigen::Vector3d(rt[3], rt[4], rt[5]);
-  return pose;
-}
-
 template <typename Values>
 void AppendNumbers(const Values& values, std::ostringstream& out) {
   for (const double value : values) out << " " << value << ",";
@@ -79,7 +71,7 @@ FiledCamera ReadMrcalCamera(const std::string& path) {
   const std::string pose = entries.count("extrinsics") > 0 ? "extrinsics" : "rt_cam_ref";
   const std::vector<double>& rt = Numbers(entries, path, pose, 6).numbers;
   try {
-    return {"", FromMrcal(lens, size), ToIsometry(rt.data())};
+    return {"", FromMrcal(lens, size), PoseOf(rt.data(), rt.data() + 3)};
   } catch (const std::invalid_argument& e) {
     Fail(path, entries.at("lensmodel").line, "lensmodel",
          e.what() + std::string("; convert it with mrcal-convert-lensmodel"));
@@ -92,8 +84,7 @@ std::string MrcalCameraModel(const FiledCamera& filed) {
   if (!mrcal_lensmodel_name(name, sizeof(name), &lens.model))
     throw std::invalid_argument("camera: mrcal has no name for the lens model");
   const Eigen::Isometry3d pose = filed.cam_from_reference.value_or(Eigen::Isometry3d::Identity());
-  const Eigen::AngleAxisd rotation(pose.linear());
-  const Eigen::Vector3d r = rotation.angle() * rotation.axis();
+  const Eigen::Vector3d r = RotationVectorOf(pose.linear());
   std::ostringstream out;
   out << std::setprecision(17) << "{\n    'lensmodel':  '" << name << "',\n\n"
       << "    # intrinsics are fx,fy,cx,cy,distortion0,distortion1,....\n    'intrinsics': [";

@@ -42,7 +42,7 @@ MrcalLens SplinedToMrcal(const Camera& camera) {
 MrcalLens ToMrcal(const Camera& camera, int min_coefficients) {
   const LensOps& ops = OpsOf(camera.lens);
   if (!ops.is_in_mrcal)
-    throw std::invalid_argument("camera: libmrcal has no lens of the family " + std::string(ops.name));
+    throw std::invalid_argument("camera: libmrcal has no lens of the family " + std::string(ops.key));
   if (ops.has_control_points) return SplinedToMrcal(camera);
   int used = min_coefficients;
   for (int i = 0; i < 12; ++i) {
@@ -57,6 +57,21 @@ MrcalLens ToMrcal(const Camera& camera, int min_coefficients) {
   lens.intrinsics.insert(lens.intrinsics.end(), camera.distortion.begin(),
                          camera.distortion.begin() + coefficients);
   return lens;
+}
+
+std::optional<Projection> ProjectByMrcal(const mrcal_lensmodel_t& model, const double* intrinsics,
+                                         const Eigen::Vector3d& p_in_cam, double* d_intrinsics) {
+  mrcal_point3_t p{};
+  mrcal_point2_t q{};
+  mrcal_point3_t gradient[2];
+  p.x = p_in_cam.x();
+  p.y = p_in_cam.y();
+  p.z = p_in_cam.z();
+  if (!mrcal_project(&q, gradient, d_intrinsics, &p, 1, &model, intrinsics)) return std::nullopt;
+  Projection projection{{q.x, q.y}, {}};
+  for (int row = 0; row < 2; ++row)
+    projection.d_pixel_d_point.row(row) << gradient[row].x, gradient[row].y, gradient[row].z;
+  return projection;
 }
 
 Camera FromMrcal(const MrcalLens& lens, const Camera& size) {

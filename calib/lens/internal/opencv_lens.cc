@@ -110,7 +110,6 @@ LensOps OpenCvLens() {
   LensOps ops;
   ops.lens = LensModel::kOpenCv;
   ops.key = "opencv";
-  ops.name = "OPENCV";
   ops.size = &LensKind::coefficients;
   ops.has_size = [](int size) { return size == 4 || size == 5 || size == 8 || size == 12; };
   ops.tried_sizes = {4, 5, 8, 12};

@@ -16,35 +16,29 @@ MrcalLens UnitLens(const Camera& camera) {
   return lens;
 }
 
-LensImage SplinedImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+LensImage ImageBy(const MrcalLens& lens, const Eigen::Vector3d& p_in_cam) {
   LensImage out;
   out.xy.setConstant(kNoImage);
   out.d_point.setConstant(kNoImage);
   // The stereographic projection lacks an image of one direction only: the axis behind the camera.
   if (!p_in_cam.allFinite() || !(p_in_cam.norm() + p_in_cam.z() > 1e-9 * p_in_cam.norm())) return out;
-  const MrcalLens lens = UnitLens(camera);
-  mrcal_point3_t p{};
-  mrcal_point2_t q{};
-  mrcal_point3_t gradient[2];
-  p.x = p_in_cam.x();
-  p.y = p_in_cam.y();
-  p.z = p_in_cam.z();
-  if (!mrcal_project(&q, gradient, nullptr, &p, 1, &lens.model, lens.intrinsics.data())) return out;
-  out.xy = {q.x, q.y};
-  for (int row = 0; row < 2; ++row) {
-    out.d_point.row(row) << gradient[row].x, gradient[row].y, gradient[row].z;
-  }
-  return out;
+  const auto projection = ProjectByMrcal(lens.model, lens.intrinsics.data(), p_in_cam, nullptr);
+  return projection ? LensImage{projection->pixel, projection->d_pixel_d_point} : out;
+}
+
+LensImage SplinedImage(const Camera& camera, const Eigen::Vector3d& p_in_cam) {
+  return ImageBy(UnitLens(camera), p_in_cam);
 }
 
 Eigen::Vector3d SplinedDirection(const Camera& camera, const Eigen::Vector2d& xy) {
+  const MrcalLens lens = UnitLens(camera);  // once: it copies all control points
   // Newton's method on the unit sphere starts from the plain stereographic lens: tan(theta / 2) = |xy| / 2.
   const double s = xy.squaredNorm() / 4;
   Eigen::Vector3d v = Eigen::Vector3d(xy.x(), xy.y(), 1 - s) / (1 + s);
   constexpr int kMaxIterations = 30;
   constexpr double kTolerance = 1e-12;
   for (int i = 0; i < kMaxIterations; ++i) {
-    const LensImage image = SplinedImage(camera, v);
+    const LensImage image = ImageBy(lens, v);
     if (!image.xy.allFinite()) break;
     const Eigen::Vector2d residual = image.xy - xy;
     if (residual.norm() < kTolerance) return v;
@@ -65,7 +59,6 @@ LensOps SplinedLens() {
   LensOps ops;
   ops.lens = LensModel::kSplined;
   ops.key = "splined";
-  ops.name = "SPLINED";
   ops.size = &LensKind::knots;
   ops.has_size = [](int size) { return size == 0 || (size >= 4 && size <= kMostKnots); };
   ops.tried_sizes = {8, 14};

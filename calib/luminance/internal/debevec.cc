@@ -153,7 +153,7 @@ Eigen::VectorXd SolveChannel(const std::vector<BracketSamples>& brackets, size_t
 }  // namespace
 
 CameraResponse SolveDebevec(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
-                            const DebevecOptions& debevec) {
+                            double smoothing) {
   CheckSamples(brackets);
   std::array<Eigen::VectorXd, 3> curves;
   for (size_t c = 0; c < 3; ++c) {
@@ -161,7 +161,7 @@ CameraResponse SolveDebevec(const std::vector<BracketSamples>& brackets, const R
     for (Eigen::Index k = 0; k < kResponseLevels; ++k)
       weight_of_level[k] = std::pow(Hat(static_cast<double>(k), kResponseLevels - 1), 2);
     for (int round = 0; round < kDebevecRounds; ++round) {
-      curves[c] = SolveChannel(brackets, c, weight_of_level, options, debevec.smoothing);
+      curves[c] = SolveChannel(brackets, c, weight_of_level, options, smoothing);
       weight_of_level = InverseVariance(curves[c]);
     }
   }

@@ -44,21 +44,20 @@ CameraResponse ResponseOf(std::array<Eigen::VectorXd, 3> log_exposure, double fu
   return {Eigen::VectorXd::LinSpaced(kResponseLevels, 0, full_scale_counts), exposure};
 }
 
-Eigen::VectorXd Monotone(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, double least_step) {
+Eigen::VectorXd Monotone(const Eigen::VectorXd& values, double least_step) {
   struct Block {
-    double sum, weight;
+    double sum;
     Eigen::Index size;
-    double mean() const { return sum / weight; }
+    double mean() const { return sum / static_cast<double>(size); }
   };
   std::vector<Block> blocks;
   blocks.reserve(static_cast<size_t>(values.size()));
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    blocks.push_back({weights[i] * values[i], weights[i], 1});
+    blocks.push_back({values[i], 1});
     while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() >= blocks.back().mean()) {
       const Block last = blocks.back();
       blocks.pop_back();
       blocks.back().sum += last.sum;
-      blocks.back().weight += last.weight;
       blocks.back().size += last.size;
     }
   }

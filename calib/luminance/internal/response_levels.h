@@ -29,9 +29,9 @@ void CheckSamples(const std::vector<BracketSamples>& brackets);
 // calib/luminance/response.h.
 CameraResponse ResponseOf(std::array<Eigen::VectorXd, 3> log_exposure, double full_scale_counts);
 
-// Returns the nearest sequence (least squares with these weights > 0) that does not decrease, then raised to
-// steps of at least `least_step`.
-Eigen::VectorXd Monotone(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, double least_step);
+// Returns the nearest sequence (least squares) that does not decrease, then raised to steps of at least
+// `least_step`.
+Eigen::VectorXd Monotone(const Eigen::VectorXd& values, double least_step);
 
 }  // namespace luxfit
 

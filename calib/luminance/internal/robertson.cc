@@ -116,7 +116,7 @@ CameraResponse SolveRobertson(const std::vector<BracketSamples>& brackets, const
   std::array<Eigen::VectorXd, 3> curves;
   for (size_t c = 0; c < 3; ++c) {
     const Eigen::VectorXd curve = SolveChannel(EntriesOf(brackets, c, options));
-    curves[c] = Monotone(curve.array().log(), Eigen::VectorXd::Ones(kResponseLevels), kLeastStep);
+    curves[c] = Monotone(curve.array().log(), kLeastStep);
   }
   return ResponseOf(std::move(curves), options.full_scale_counts);
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/targets/internal/boards/solve_symmetric.h"
 
 namespace luxfit {
@@ -189,10 +190,7 @@ Similarity Refine(const BundleContext& context, const std::vector<Sight>& sights
     const Eigen::Matrix<double, 7, 1> step = SolveSymmetric(normal.left, normal.right);
     if (!step.allFinite()) return start;
     const Eigen::Vector3d turn = step.head<3>();
-    if (turn.norm() > 0) {
-      model_from_world.rotation =
-          Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * model_from_world.rotation;
-    }
+    model_from_world.rotation = RotationBy(turn) * model_from_world.rotation;
     model_from_world.translation += step.segment<3>(3);
     model_from_world.scale *= std::exp(std::clamp(step[6], -0.5, 0.5));
     if (turn.norm() < 1e-12 && std::abs(step[6]) < 1e-12) break;

@@ -38,7 +38,7 @@ std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in
     const Eigen::Isometry3d& cam_from_world = in_world.views[v].cam_from_model;
     const std::vector<bool> agrees = AgreeingTags(context, view, cam_from_world);
     const auto agreeing = std::count(agrees.begin(), agrees.end(), true);
-    const auto by_tags = std::count(view.used.begin(), view.used.end(), true);
+    const auto by_tags = view.TagsUsed();
     if (view.active && by_tags >= 2 && 2 * agreeing < by_tags) {
       notes.push_back(Disagrees(view));
       taken[v] = false;

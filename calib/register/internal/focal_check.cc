@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/register/internal/bundle/pose_start.h"
 #include "calib/register/internal/view_sample.h"
 
@@ -26,7 +27,7 @@ BundleAdjustment TagsOf(BundleAdjustment adjustment) {
   adjustment.points.clear();
   for (BundleView& view : adjustment.views) {
     view.points.clear();
-    view.active = view.active && std::count(view.used.begin(), view.used.end(), true) > 0;
+    view.active = view.active && view.TagsUsed() > 0;
   }
   return adjustment;
 }
@@ -45,9 +46,9 @@ std::map<std::string, Eigen::Matrix<double, 6, 1>> PoseDerivatives(const BundleA
     if (!below.views[v].active) continue;
     const Eigen::Isometry3d low = below.views[v].CamFromWorld().inverse(),
                             high = above.views[v].CamFromWorld().inverse();
-    const Eigen::AngleAxisd turn(high.linear() * low.linear().transpose());
     Eigen::Matrix<double, 6, 1> moved;
-    moved << turn.angle() * turn.axis(), high.translation() - low.translation();
+    moved << RotationVectorOf(high.linear() * low.linear().transpose()),
+        high.translation() - low.translation();
     derivatives[below.views[v].name] = moved / (2 * kStep);
   }
   return derivatives;
@@ -89,8 +90,7 @@ std::optional<FocalScale> EstimateFocalScale(const BundleContext& context, const
                                              int camera) {
   int tags = 0;
   for (const BundleView& view : solved.views) {
-    if (view.active && view.camera == camera)
-      tags += static_cast<int>(std::count(view.used.begin(), view.used.end(), true));
+    if (view.active && view.camera == camera) tags += view.TagsUsed();
   }
   if (tags < kFewestTags) return std::nullopt;
   FocalScale focal;

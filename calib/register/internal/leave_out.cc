@@ -1,10 +1,11 @@
 #include "calib/register/internal/leave_out.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 
 namespace luxfit {
@@ -27,7 +28,7 @@ int WorstTag(const BundleContext& context, const BundleAdjustment& adjustment) {
   std::map<int, Record> records;
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
-    const auto used = std::count(view.used.begin(), view.used.end(), true);
+    const auto used = view.TagsUsed();
     for (std::size_t i = 0; i < view.tags.size(); ++i) {
       if (!view.used[i]) continue;
       Record& record = records[view.tags[i].id];
@@ -73,7 +74,7 @@ BundleView* AstrayView(BundleAdjustment& adjustment) {
   for (BundleView& view : adjustment.views) {
     if (!view.active || view.points.empty()) continue;
     const std::ptrdiff_t used = CountUsed(view.points);
-    const bool has_tags = std::count(view.used.begin(), view.used.end(), true) > 0;
+    const bool has_tags = view.TagsUsed() > 0;
     if (used > 0 && 2 * used < static_cast<std::ptrdiff_t>(view.points.size())) return &view;
     if (!has_tags && used < kFewestPoints) return &view;
   }
@@ -83,7 +84,7 @@ BundleView* AstrayView(BundleAdjustment& adjustment) {
 // Leaves out the view's points; its tags keep the view if it has any.
 void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
   view.points.clear();
-  view.active = std::count(view.used.begin(), view.used.end(), true) > 0;
+  view.active = view.TagsUsed() > 0;
   notes.push_back({view.name, -1, "features_disagree",
                    "Most feature points of view " + view.name + " contradict its tags and the other views; " +
                        (view.active ? "its tags alone place it." : "it is left out."),
@@ -160,13 +161,10 @@ void SolveLeavingOut(const BundleContext& context, BundleAdjustment& adjustment,
     }
     BundleView* const view = WorstView(context, adjustment);
     if (view == nullptr) return;
-    std::ostringstream message;
-    message.precision(2);
-    message << "The corners of view " << view->name << " disagree by "
-            << BundleRmsSigmas(BundleViewErrors(context, adjustment, *view))
-            << " sigma (rms); it is left out.";
     notes.push_back(
-        {view->name, -1, "view_disagrees", message.str(),
+        {view->name, -1, "view_disagrees",
+         fmt::format("The corners of view {} disagree by {:.2g} sigma (rms); it is left out.", view->name,
+                     BundleRmsSigmas(BundleViewErrors(context, adjustment, *view))),
          "See whether the camera moved between photos of this view, and whether it is the right camera."});
     view->active = false;
   }

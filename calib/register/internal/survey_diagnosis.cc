@@ -1,10 +1,11 @@
 #include "calib/register/internal/survey_diagnosis.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 #include <string>
 
 #include "calib/register/internal/bundle/pose_start.h"
@@ -48,13 +49,12 @@ struct Hypothesis {
 };
 
 RegistrationNote SizesWrong(double factor) {
-  std::ostringstream message;
-  message.precision(3);
-  message
-      << "The photos show all tags " << factor
-      << " times as large, against the distances between them, as the survey says; nothing is registered.";
-  return {"", -1, "tag_sizes_wrong", message.str(),
-          "Measure a printed tag's black square, and see whether sizes and places are in one unit (m)."};
+  return {
+      "", -1, "tag_sizes_wrong",
+      fmt::format("The photos show all tags {:.3g} times as large, against the distances between them, as "
+                  "the survey says; nothing is registered.",
+                  factor),
+      "Measure a printed tag's black square, and see whether sizes and places are in one unit (m)."};
 }
 
 std::vector<Hypothesis> Hypotheses() {

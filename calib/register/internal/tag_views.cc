@@ -1,9 +1,9 @@
 #include "calib/register/internal/tag_views.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <iomanip>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -12,12 +12,6 @@
 
 namespace luxfit {
 namespace {
-
-std::string Join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) joined += (joined.empty() ? "" : ", ") + word;
-  return joined;
-}
 
 BundleView ToView(const ViewDetections& detections, const std::map<int, SurveyedTag>& survey,
                   std::map<int, std::vector<std::string>>& unknown, std::vector<RegistrationNote>& notes) {
@@ -140,13 +134,6 @@ std::vector<std::string> ViewsOfOnePlace(const std::vector<Sighting>& sightings)
   return views;
 }
 
-std::string PlaceText(const Eigen::Vector3d& place) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << "(" << place.x() << ", " << place.y() << ", " << place.z()
-       << ")";
-  return text.str();
-}
-
 // Names tags that hang where the survey says and also in a second place.
 void NameCopies(const BundleContext& context, const std::vector<BundleView>& views,
                 const std::vector<PoseStart>& starts, const std::set<int>& moved,
@@ -155,10 +142,11 @@ void NameCopies(const BundleContext& context, const std::vector<BundleView>& vie
     if (moved.count(id) > 0) continue;
     const std::vector<std::string> in = ViewsOfOnePlace(sightings);
     if (in.size() < 2) continue;  // one bad detection is no second tag
+    const Eigen::Vector3d& place = sightings.front().center_in_world;
     notes.push_back({"", id, "tag_duplicated",
-                     "Tag " + std::to_string(id) + " hangs in two places: where the survey says, and (in " +
-                         Join(in) + ") at about " + PlaceText(sightings.front().center_in_world) +
-                         "; it is left out there.",
+                     fmt::format("Tag {} hangs in two places: where the survey says, and (in {}) at about "
+                                 "({:.2f}, {:.2f}, {:.2f}); it is left out there.",
+                                 id, fmt::join(in, ", "), place.x(), place.y(), place.z()),
                      "Hang each tag id once, or take the copy down."});
   }
 }
@@ -213,8 +201,8 @@ std::vector<BundleView> ViewsOf(const BundleContext& context, const std::map<int
   }
   for (const auto& [id, seen_in] : unknown) {
     notes.push_back({"", id, "tag_unknown",
-                     "Tag " + std::to_string(id) + " is seen (in " + Join(seen_in) +
-                         ") but is not in the survey; it is left out.",
+                     fmt::format("Tag {} is seen (in {}) but is not in the survey; it is left out.", id,
+                                 fmt::join(seen_in, ", ")),
                      "Add it to the tag survey, or take it down."});
   }
   return views;

@@ -11,10 +11,6 @@
 
 namespace luxfit {
 
-inline bool HasUnevenEmission(const Luminaire& luminaire) {
-  return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
-}
-
 // Sums `light(cell)`, the DirectIlluminance per lm of one cell.
 template <typename Light>
 DirectIlluminance SumOverCells(Luminaire luminaire, const Light& light) {

@@ -101,10 +101,7 @@ float ProbedShare(const RayScene& rays, const std::vector<Eigen::Vector3d>& prob
 Eigen::Array<Sight, Eigen::Dynamic, Eigen::Dynamic> SightOfPatches(const Patches& patches,
                                                                    const std::vector<int>& elements,
                                                                    const std::vector<Luminaire>& luminaires) {
-  std::vector<Blocker> blockers;
-  blockers.reserve(patches.facets.size());
-  for (size_t f = 0; f < patches.facets.size(); ++f)
-    blockers.push_back(MakeBlocker(patches.facets[f], static_cast<int>(f)));
+  const std::vector<Blocker> blockers = BlockersOf(patches.facets);
   std::vector<int> wanted;
   wanted.reserve(elements.size());
   for (const int e : elements) wanted.push_back(patches.elements[static_cast<size_t>(e)].patch);

@@ -13,8 +13,7 @@ class DirectionCollector {
  public:
   // A direction of any length.
   void Add(const Eigen::Vector3d& direction, double weight);
-  // A point of the unit disc, lifted by Malley's method (LiftedFromDisc in forward/room/internal/sampling.h).
-  void AddLifted(double radius2, double turns, double weight);
+  // Returns the set; there must be a direction in it.
   Directions Get() const;
 
  private:

@@ -10,7 +10,7 @@ Directions IsocellDirections(int count, uint64_t) {
   const std::vector<Eigen::Vector2d> cells = Isocell(count);
   DirectionCollector set;
   for (const Eigen::Vector2d& cell : cells)
-    set.AddLifted(cell[0], cell[1], 1.0 / static_cast<double>(cells.size()));
+    set.Add(LiftedFromDisc(cell[0], cell[1]), 1.0 / static_cast<double>(cells.size()));
   return set.Get();
 }
 

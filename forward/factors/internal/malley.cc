@@ -14,12 +14,12 @@ namespace {
 constexpr int kMalleySets = 64;
 
 Directions MalleyDirections(int count, uint64_t variant) {
-  // Dimensions 1 and 2 of the additive recurrence of the generalised golden ratio (x^5 = x + 1); 3 and 4 are
-  // the origins.
+  // Dimensions 3 and 4 of the recurrence are the origins (ray_rows.cc).
   const double shift = UnitFrom(Mix(variant));
   DirectionCollector set;
   for (int k = 1; k <= count; ++k) {
-    set.AddLifted(Fraction(shift + 0.85667488385450287 * k), Fraction(0.73389185662660285 * k), 1.0 / count);
+    set.Add(LiftedFromDisc(Fraction(shift + kGoldenSteps[0] * k), Fraction(kGoldenSteps[1] * k)),
+            1.0 / count);
   }
   return set.Get();
 }
@@ -31,7 +31,7 @@ Directions StratifiedDirections(int count, uint64_t variant) {
   for (int i = 0; i < side; ++i) {
     for (int j = 0; j < side; ++j) {
       const double s = UnitFrom(state = Mix(state)), t = UnitFrom(state = Mix(state));
-      set.AddLifted((i + s) / side, (j + t) / side, 1.0 / (side * side));
+      set.Add(LiftedFromDisc((i + s) / side, (j + t) / side), 1.0 / (side * side));
     }
   }
   return set.Get();
@@ -49,11 +49,10 @@ FormFactorOps MalleyMethod() {
 }
 
 FormFactorOps MalleyStratifiedMethod() {
-  FormFactorOps ops;
+  FormFactorOps ops = MalleyMethod();
   ops.method = FormFactorMethod::kMalleyStratified;
   ops.name = "malley_stratified";
   ops.directions = StratifiedDirections;
-  ops.direction_sets = kMalleySets;
   return ops;
 }
 

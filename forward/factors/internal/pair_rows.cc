@@ -53,8 +53,8 @@ class PairRows {
   }
 
   // Shares that escape and that meet a back, found with a few rays.
-  RayTally probe() const { return Summarise(tallies_); }
-  bool IsClosed() const { return is_closed_; }
+  const RayTally& probe() const { return probe_; }
+  bool IsClosed() const { return probe_.escaped < kClosed; }
 
   PatchView ViewOf(int p) const {
     PatchView view;
@@ -128,7 +128,7 @@ class PairRows {
                         for (size_t e = range.begin(); e < range.end(); ++e)
                           tallies_[e] = probes.Cast(patches_.elements[e], e, row.data());
                       });
-    is_closed_ = Summarise(tallies_).escaped < kClosed;
+    probe_ = Summarise(tallies_);
   }
 
   // A closed room's row adds up to 1: what is missing belongs to the pairs in doubt, in proportion to the
@@ -165,7 +165,7 @@ class PairRows {
   UnoccludedFactors unoccluded_;
   RayRows buried_;
   std::vector<RayTally> tallies_;  // of the probes, by element
-  bool is_closed_ = false;
+  RayTally probe_;
 };
 
 // `method`: kHybrid, or kAnalytic (the double contour for every pair).
@@ -179,7 +179,7 @@ FormFactors PairFormFactors(const RayScene& rays, const Patches& patches, FormFa
   std::vector<PairRows::Report> reports(patches.patches.size());
   tbb::parallel_for(size_t{0}, patches.patches.size(),
                     [&](size_t p) { reports[p] = rows.Fill(static_cast<int>(p), result.element_to_patch); });
-  const RayTally probe = rows.probe();
+  const RayTally& probe = rows.probe();
   double missing = 0, squares = 0;
   const double n = std::max<double>(1, static_cast<double>(patches.elements.size()));
   result.rays = probe.rays;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace luxfit {
 namespace {
@@ -26,13 +27,7 @@ struct Hierarchy {
 };
 
 // Bounds of a patch in its facet's coordinates.
-struct Extent {
-  Eigen::Array2d lower{1, 1}, upper{0, 0};
-  void Include(const Extent& other) {
-    lower = lower.min(other.lower);
-    upper = upper.max(other.upper);
-  }
-};
+using Extent = Eigen::AlignedBox2d;
 
 class Builder {
  public:
@@ -60,32 +55,28 @@ class Builder {
     edges << facet.edge_u, facet.edge_v;
     const Eigen::Matrix2d normal_matrix = edges.transpose() * edges;
     Extent extent;
-    const bool triangle = facet.kind == FacetKind::kTriangle;
-    const ConvexPolygon corners = MakePolygon(patch.origin, patch.edge_u, patch.edge_v,
-                                              triangle ? FacetKind::kTriangle : FacetKind::kParallelogram);
-    for (int k = 0; k < corners.count; ++k) {
-      const Eigen::Array2d uv = normal_matrix.inverse() * (edges.transpose() * (corners[k] - facet.origin));
-      extent.Include({uv, uv});
-    }
+    const ConvexPolygon corners = MakePolygon(patch.origin, patch.edge_u, patch.edge_v, facet.kind);
+    for (int k = 0; k < corners.count; ++k)
+      extent.extend(normal_matrix.inverse() * (edges.transpose() * (corners[k] - facet.origin)));
     return extent;
   }
 
   int Build(int first, int last) {
     Extent extent;
-    for (int i = first; i < last; ++i) extent.Include(extents_[Patch(i)]);
+    for (int i = first; i < last; ++i) extent.extend(extents_[Patch(i)]);
     const int index = static_cast<int>(tree.groups.size());
     tree.groups.emplace_back();
     Group group = MakeGroup(first, last, extent);
     if (last - first > 1) {
       const Facet& facet = patches_.facets[static_cast<size_t>(group.facet)];
       const Eigen::Array2d lengths =
-          (extent.upper - extent.lower) * Eigen::Array2d(facet.edge_u.norm(), facet.edge_v.norm());
+          extent.sizes().array() * Eigen::Array2d(facet.edge_u.norm(), facet.edge_v.norm());
       const int axis = lengths[0] >= lengths[1] ? 0 : 1;
       const int middle = first + (last - first) / 2;
       const auto at = [&](int i) { return tree.order.begin() + i; };
       std::nth_element(at(first), at(middle), at(last), [&](int a, int b) {
         const Extent &ea = extents_[static_cast<size_t>(a)], &eb = extents_[static_cast<size_t>(b)];
-        const double ca = ea.lower[axis] + ea.upper[axis], cb = eb.lower[axis] + eb.upper[axis];
+        const double ca = ea.min()[axis] + ea.max()[axis], cb = eb.min()[axis] + eb.max()[axis];
         return ca != cb ? ca < cb : a < b;
       });
       group.left = Build(first, middle);
@@ -108,8 +99,8 @@ class Builder {
       // A flipped triangle has both edges turned, so its corners keep their sense.
       return group;
     }
-    const Eigen::Array2d size = extent.upper - extent.lower;
-    group.polygon = MakePolygon(facet.PointAt(extent.lower[0], extent.lower[1]), size[0] * facet.edge_u,
+    const Eigen::Vector2d size = extent.sizes();
+    group.polygon = MakePolygon(facet.PointAt(extent.min().x(), extent.min().y()), size[0] * facet.edge_u,
                                 size[1] * facet.edge_v, FacetKind::kParallelogram);
     if (facet.kind == FacetKind::kTriangle) {  // what lies past the hypotenuse is not of the facet
       const Eigen::Vector3d past = group.normal.cross(facet.edge_v - facet.edge_u);
@@ -192,12 +183,9 @@ class Classifier {
 
 PatchSight::PatchSight(const Patches& patches)
     : count_(patches.patches.size()), sight_(count_ * count_, Sight::kNone) {
-  std::vector<Blocker> blockers;
-  std::vector<int> all;
-  for (size_t f = 0; f < patches.facets.size(); ++f) {
-    all.push_back(static_cast<int>(f));
-    blockers.push_back(MakeBlocker(patches.facets[f], static_cast<int>(f)));
-  }
+  const std::vector<Blocker> blockers = BlockersOf(patches.facets);
+  std::vector<int> all(blockers.size());
+  std::iota(all.begin(), all.end(), 0);
   const Hierarchy tree = Builder(patches).tree;
   const Classifier classifier(tree, blockers, sight_);
   // Patches of one facet do not see each other. Pairs of facets write to different places.

@@ -102,8 +102,6 @@ double DoubleContour(const ConvexPolygon& from, const ConvexPolygon& to, double 
 
 }  // namespace
 
-double ConvexPolygon::AreaM2() const { return AreaVector(*this).norm(); }
-
 ConvexPolygon MakePolygon(const Eigen::Vector3d& origin, const Eigen::Vector3d& edge_u,
                           const Eigen::Vector3d& edge_v, FacetKind kind) {
   ConvexPolygon polygon;

@@ -30,7 +30,6 @@ struct ConvexPolygon {
 
   void Add(const Eigen::Vector3d& p) { vertices[static_cast<size_t>(count++)] = p; }
   const Eigen::Vector3d& operator[](int i) const { return vertices[static_cast<size_t>(i)]; }
-  double AreaM2() const;
 };
 
 // The parallelogram or triangle origin, edge_u, edge_v.

@@ -24,7 +24,7 @@ Eigen::Matrix3f FrameOf(const Element& receiver, double turn) {
   return frame.cast<float>();
 }
 
-// Points spread over a receiver: dimensions 3 and 4 of the sequence in malley.cc, shifted per receiver.
+// Points spread over a receiver: dimensions 3 and 4 of the recurrence in malley.cc, shifted per receiver.
 class Origins {
  public:
   Origins(const Element& receiver, bool triangle, bool center, uint64_t hash)
@@ -36,8 +36,8 @@ class Origins {
         v_(UnitFrom(Mix(hash + 1))) {}
 
   Eigen::Vector3f Next() {
-    u_ += 0.62870672103811578;
-    v_ += 0.53859725722361166;
+    u_ += kGoldenSteps[2];
+    v_ += kGoldenSteps[3];
     u_ -= u_ >= 1 ? 1 : 0;
     v_ -= v_ >= 1 ? 1 : 0;
     const bool mirrored = triangle_ && u_ + v_ > 1;

@@ -25,29 +25,32 @@ bool IsInside(const ConvexPolygon& polygon, const Eigen::Vector3d& normal, const
   return true;
 }
 
+Eigen::AlignedBox3d BoxOf(const ConvexPolygon& polygon) {
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < polygon.count; ++i) box.extend(polygon[i]);
+  return box;
+}
+
+// Tests whether a point lies behind a plane, or in it.
+auto Behind(const Eigen::Vector3d& normal, double offset) {
+  return [&normal, offset](const Eigen::Vector3d& p) { return normal.dot(p) - offset <= kTolerance; };
+}
+
 }  // namespace
 
-Blocker MakeBlocker(const Facet& facet, int index) {
-  Blocker blocker{
-      MakePolygon(facet.origin, facet.edge_u, facet.edge_v, facet.kind), facet.Normal(), {}, {}, index};
-  blocker.lower = blocker.upper = facet.origin;
-  for (int i = 1; i < blocker.polygon.count; ++i) {
-    blocker.lower = blocker.lower.cwiseMin(blocker.polygon[i]);
-    blocker.upper = blocker.upper.cwiseMax(blocker.polygon[i]);
+std::vector<Blocker> BlockersOf(const std::vector<Facet>& facets) {
+  std::vector<Blocker> blockers;
+  blockers.reserve(facets.size());
+  for (const Facet& facet : facets) {
+    const ConvexPolygon polygon = MakePolygon(facet.origin, facet.edge_u, facet.edge_v, facet.kind);
+    blockers.push_back({polygon, facet.Normal(), BoxOf(polygon), static_cast<int>(blockers.size())});
   }
-  return blocker;
+  return blockers;
 }
 
 Shaft::Shaft(const ConvexPolygon& a, const Eigen::Vector3d& normal_a, const ConvexPolygon& b,
              const Eigen::Vector3d& normal_b)
-    : a_(a), b_(b), normal_a_(normal_a), normal_b_(normal_b), lower_(a[0]), upper_(a[0]) {
-  for (const ConvexPolygon* polygon : {&a, &b}) {
-    for (int i = 0; i < polygon->count; ++i) {
-      lower_ = lower_.cwiseMin((*polygon)[i]);
-      upper_ = upper_.cwiseMax((*polygon)[i]);
-    }
-  }
-}
+    : a_(a), b_(b), normal_a_(normal_a), normal_b_(normal_b), box_(BoxOf(a).merged(BoxOf(b))) {}
 
 void Shaft::MakeSides() {
   AddSides(a_, normal_a_, b_);
@@ -81,18 +84,15 @@ bool Shaft::FacesAway() const {
 }
 
 bool Shaft::ClearlyExcludes(const Blocker& blocker) const {
-  if (((blocker.lower - upper_).array() > kTolerance).any() ||
-      ((lower_ - blocker.upper).array() > kTolerance).any())
+  if (((blocker.box.min() - box_.max()).array() > kTolerance).any() ||
+      ((box_.min() - blocker.box.max()).array() > kTolerance).any())
     return true;
   const ConvexPolygon& c = blocker.polygon;
-  const auto behind = [](const Eigen::Vector3d& normal, double offset) {
-    return [&normal, offset](const Eigen::Vector3d& p) { return normal.dot(p) - offset <= kTolerance; };
-  };
-  if (All(c, behind(normal_a_, normal_a_.dot(a_[0]))) || All(c, behind(normal_b_, normal_b_.dot(b_[0]))))
+  if (All(c, Behind(normal_a_, normal_a_.dot(a_[0]))) || All(c, Behind(normal_b_, normal_b_.dot(b_[0]))))
     return true;
   // The facet's own plane has both polygons on one side.
   const double offset = blocker.normal.dot(c[0]);
-  const auto below = behind(blocker.normal, offset);
+  const auto below = Behind(blocker.normal, offset);
   const auto above = [&](const Eigen::Vector3d& p) { return blocker.normal.dot(p) - offset >= -kTolerance; };
   return (All(a_, below) && All(b_, below)) || (All(a_, above) && All(b_, above));
 }
@@ -100,9 +100,7 @@ bool Shaft::ClearlyExcludes(const Blocker& blocker) const {
 bool Shaft::SidesExclude(const Blocker& blocker) const {
   for (int k = 0; k < side_count_; ++k) {
     const Plane& side = sides_[static_cast<size_t>(k)];
-    if (All(blocker.polygon,
-            [&](const Eigen::Vector3d& p) { return side.normal.dot(p) - side.offset <= kTolerance; }))
-      return true;
+    if (All(blocker.polygon, Behind(side.normal, side.offset))) return true;
   }
   return false;
 }

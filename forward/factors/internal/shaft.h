@@ -10,6 +10,7 @@
 #ifndef LUXFIT_FORWARD_FACTORS_INTERNAL_SHAFT_H_
 #define LUXFIT_FORWARD_FACTORS_INTERNAL_SHAFT_H_
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -27,10 +28,10 @@ enum class Sight : uint8_t {
 struct Blocker {
   ConvexPolygon polygon;
   Eigen::Vector3d normal;
-  Eigen::Vector3d lower, upper;  // bounding box
-  int facet = 0;
+  Eigen::AlignedBox3d box;
+  int facet = 0;  // its index
 };
-Blocker MakeBlocker(const Facet& facet, int index);
+std::vector<Blocker> BlockersOf(const std::vector<Facet>& facets);
 
 class Shaft {
  public:
@@ -56,7 +57,7 @@ class Shaft {
 
   const ConvexPolygon &a_, &b_;
   Eigen::Vector3d normal_a_, normal_b_;
-  Eigen::Vector3d lower_, upper_;
+  Eigen::AlignedBox3d box_;
   std::array<Plane, 16> sides_;
   int side_count_ = 0;
 };

@@ -11,11 +11,16 @@
 namespace luxfit {
 namespace {
 
-constexpr double kFar = 4, kMiddle = 2.2;  // distances in radii, see pair_rows.h
+constexpr double kFar = 4, kMiddle = 2.2;  // distances in radii, see pair_rows.cc
 constexpr size_t kPoints = 4;
 
 double RadiusOf(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
   return 0.5 * std::max((u + v).norm(), (u - v).norm());
+}
+
+// The area of a patch, in m2, with what solids cover of it.
+double WholeArea(const Patch& patch, FacetKind kind) {
+  return patch.edge_u.cross(patch.edge_v).norm() * (kind == FacetKind::kTriangle ? 0.5 : 1);
 }
 
 // Gauss rules for both kinds of facet, made once.
@@ -74,8 +79,7 @@ UnoccludedFactors::UnoccludedFactors(const Patches& patches, bool contour_always
     const Eigen::Vector3d normal = facet.Normal();
     for (size_t axis = 0; axis < 3; ++axis)
       normals_[axis * count_ + j] = static_cast<float>(normal[static_cast<Eigen::Index>(axis)]);
-    const double area =
-        patch.edge_u.cross(patch.edge_v).norm() * (facet.kind == FacetKind::kTriangle ? 0.5 : 1);
+    const double area = WholeArea(patch, facet.kind);
     const std::vector<FacetNode>& rule = Rule(facet.kind, 2);
     for (size_t k = 0; k < kPoints; ++k) {
       const Eigen::Vector3d p = patch.origin + rule[k].u * patch.edge_u + rule[k].v * patch.edge_v;
@@ -101,15 +105,10 @@ std::vector<int> UnoccludedFactors::NearOf(int p) const {
   return near;
 }
 
-bool UnoccludedFactors::IsSmall(const Element& element, int j) const {
-  return RadiusOf(element.edge_u, element.edge_v) < 0.3 * radius_[static_cast<size_t>(j)];
-}
-
 void UnoccludedFactors::Far(const Element& element, float* row) const {
   const bool small =
       element_radius_[static_cast<size_t>(element.patch)] < 0.3 * radius_[static_cast<size_t>(element.patch)];
-  const FacetKind kind =
-      patches_.IsTriangle(element.patch) ? FacetKind::kTriangle : FacetKind::kParallelogram;
+  const FacetKind kind = patches_.FacetOf(element.patch).kind;
   const Eigen::Vector3f normal = element.normal.cast<float>();
   const std::vector<FacetNode>& rule = Rule(kind, small ? 1 : 2);
   std::fill(row, row + count_, 0.0f);
@@ -133,10 +132,9 @@ void UnoccludedFactors::Far(const Element& element, float* row) const {
 double UnoccludedFactors::Quadrature(const Element& element, int j, int element_order,
                                      int patch_order) const {
   const Patch& patch = patches_.patches[static_cast<size_t>(j)];
-  const Facet& facet = patches_.facets[static_cast<size_t>(patch.facet)];
+  const Facet& facet = patches_.FacetOf(j);
   const Eigen::Vector3d normal = facet.Normal();
-  const FacetKind kind =
-      patches_.IsTriangle(element.patch) ? FacetKind::kTriangle : FacetKind::kParallelogram;
+  const FacetKind kind = patches_.FacetOf(element.patch).kind;
   std::array<Eigen::Vector3d, 9> points;
   const std::vector<FacetNode>& patch_rule = Rule(facet.kind, patch_order);
   for (size_t k = 0; k < patch_rule.size(); ++k)
@@ -150,21 +148,19 @@ double UnoccludedFactors::Quadrature(const Element& element, int j, int element_
       if (here > 0 && there > 0) sum += node.weight * patch_rule[k].weight * here * there / (r2 * r2);
     }
   }
-  return sum * patch.edge_u.cross(patch.edge_v).norm() * (facet.kind == FacetKind::kTriangle ? 0.5 : 1) /
-         M_PI;
+  return sum * WholeArea(patch, facet.kind) / M_PI;
 }
 
 double UnoccludedFactors::Near(const Element& element, int j) const {
   const Patch& patch = patches_.patches[static_cast<size_t>(j)];
-  const FacetKind kind = patches_.facets[static_cast<size_t>(patch.facet)].kind;
-  const FacetKind own = patches_.IsTriangle(element.patch) ? FacetKind::kTriangle : FacetKind::kParallelogram;
+  const FacetKind kind = patches_.FacetOf(j).kind, own = patches_.FacetOf(element.patch).kind;
   const double radius = RadiusOf(element.edge_u, element.edge_v);
   const double larger = std::max(radius, radius_[static_cast<size_t>(j)]);
   const double distance =
       (patch.origin + (kind == FacetKind::kTriangle ? 1.0 / 3 : 0.5) * (patch.edge_u + patch.edge_v) -
        element.center)
           .norm();
-  const bool small = IsSmall(element, j);
+  const bool small = radius < 0.3 * radius_[static_cast<size_t>(j)];
   if (!contour_always_) {
     if (distance > kFar * larger) return Quadrature(element, j, small ? 1 : 2, 2);
     if (distance > kMiddle * larger) return Quadrature(element, j, small ? 2 : 3, 3);

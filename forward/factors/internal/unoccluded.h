@@ -22,7 +22,6 @@ class UnoccludedFactors {
   double Near(const Element& element, int j) const;
 
  private:
-  bool IsSmall(const Element& element, int j) const;
   double Quadrature(const Element& element, int j, int element_order, int patch_order) const;
 
   const Patches& patches_;

@@ -21,10 +21,8 @@ class PairSequence {
     for (double& s : at_) s = UnitFrom(seed = Mix(seed));
   }
   void Skip(int n) {
-    static constexpr double kStep[4] = {0.85667488385450287, 0.73389185662660285, 0.62870672103811578,
-                                        0.53859725722361166};
     for (int d = 0; d < 4; ++d) {
-      at_[d] += n * kStep[d];
+      at_[d] += n * kGoldenSteps[d];
       at_[d] -= std::floor(at_[d]);
     }
   }

@@ -90,6 +90,8 @@ Limits HorizontalLimits(IesType type) {
 
 }  // namespace
 
+const std::string& FirstLineOf(IesVersion version) { return FirstLines().at(version); }
+
 PlaneSymmetry IesPlaneSymmetry(const std::vector<double>& horizontal_deg) {
   if (horizontal_deg.size() == 1) return PlaneSymmetry::kRotational;
   const double first = horizontal_deg.front(), last = horizontal_deg.back();
@@ -197,7 +199,7 @@ IesFile ReadIes(const std::string& path) {
 }
 
 std::string IesText(const IesFile& file) {
-  std::string out = FirstLines().at(file.version);
+  std::string out = FirstLineOf(file.version);
   if (!out.empty()) out += "\r\n";
   for (const PhotometryKeyword& k : file.keywords)
     out += (k.name.empty() ? k.text : "[" + k.name + "] " + k.text) + "\r\n";

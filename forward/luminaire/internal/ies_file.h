@@ -58,13 +58,16 @@ IesFile ReadIes(const std::string& path);
 // The file's text; reads back equal, number for number. TILT data of another file are included.
 std::string IesText(const IesFile& file);
 
+// The first line of a file of that version; empty for 1986, whose first line is free text.
+const std::string& FirstLineOf(IesVersion version);
+
 // Which planes of type C the horizontal angles give; kPartial where they are none of the standard's sets.
 PlaneSymmetry IesPlaneSymmetry(const std::vector<double>& horizontal_deg);
 
 PhotometryFile PhotometryOf(const IesFile& file);
 
-// Absolute photometry of type C. Throws std::invalid_argument for an empty table.
-IesFile MakeIes(const PhotometryFile& photometry, IesVersion version = IesVersion::k2002);
+// Absolute photometry of type C, LM-63-2002. Throws std::invalid_argument for an empty table.
+IesFile MakeIes(const PhotometryFile& photometry);
 
 }  // namespace luxfit
 

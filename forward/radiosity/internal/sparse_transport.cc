@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-constexpr size_t kRowsPerTask = 256;
+constexpr size_t kSparseRowsPerTask = 256;
 
 using Entry = SparseTransport::Pair;
 
@@ -62,7 +62,7 @@ SparseTransport::SparseTransport(const RayScene& rays, const Patches& patches,
   const RayRows caster(rays, patches, FormFactorMethod::kMalley, options.rays_per_element);
   std::vector<std::vector<Entry>> rows(n);
   std::vector<RayTally> tallies(patches.elements.size());
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, n, kRowsPerTask),
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, n, kSparseRowsPerTask),
                     [&](const tbb::blocked_range<size_t>& range) {
                       for (size_t i = range.begin(); i < range.end(); ++i)
                         rows[i] = CastRow(caster, patches, i, tallies);
@@ -92,7 +92,7 @@ SparseTransport::SparseTransport(const RayScene& rays, const Patches& patches,
   }
   // Pairs that rays found from both ends become one; then the rows close up.
   tbb::parallel_for(
-      tbb::blocked_range<size_t>(0, n, kRowsPerTask), [&](const tbb::blocked_range<size_t>& range) {
+      tbb::blocked_range<size_t>(0, n, kSparseRowsPerTask), [&](const tbb::blocked_range<size_t>& range) {
         for (size_t i = range.begin(); i < range.end(); ++i)
           next[i] = SortAndMerge(pairs_.begin() + row_start_[i], pairs_.begin() + next[i]) - pairs_.begin();
       });
@@ -109,7 +109,7 @@ SparseTransport::SparseTransport(const RayScene& rays, const Patches& patches,
 Eigen::MatrixXf SparseTransport::RowsTimes(Eigen::Index first, Eigen::Index count,
                                            const Eigen::MatrixXf& x) const {
   Eigen::MatrixXf product(count, x.cols());
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, kRowsPerTask),
+  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, kSparseRowsPerTask),
                     [&](const tbb::blocked_range<Eigen::Index>& range) {
                       for (Eigen::Index c = 0; c < x.cols(); ++c) {
                         const float* const column = x.col(c).data();

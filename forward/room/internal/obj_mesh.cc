@@ -8,18 +8,6 @@
 namespace luxfit {
 namespace {
 
-bool IsObjBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
-
-// Cuts the next word off the front of a line; empty at its end.
-std::string_view NextWord(std::string_view& line) {
-  while (!line.empty() && IsObjBlank(line.front())) line.remove_prefix(1);
-  size_t length = 0;
-  while (length < line.size() && !IsObjBlank(line[length])) ++length;
-  const std::string_view word = line.substr(0, length);
-  line.remove_prefix(length);
-  return word;
-}
-
 std::string Quote(std::string_view word) {
   std::string text(word.substr(0, 40));
   for (char& c : text) c = c < 32 || c > 126 ? '?' : c;
@@ -53,7 +41,7 @@ class ObjParser {
       std::string_view line = text_.substr(0, end);
       text_.remove_prefix(std::min(end + 1, text_.size()));
       ++next_line_;
-      while (!line.empty() && IsObjBlank(line.back())) line.remove_suffix(1);
+      while (!line.empty() && IsMeshBlank(line.back())) line.remove_suffix(1);
       const bool goes_on = !line.empty() && line.back() == '\\' && !text_.empty();
       if (!goes_on && joined_.empty()) return line;
       joined_ += goes_on ? line.substr(0, line.size() - 1) : line;
@@ -69,7 +57,7 @@ class ObjParser {
     } else if (keyword == "f") {
       AddFace(rest);
     } else if (keyword == "usemtl") {
-      while (!rest.empty() && IsObjBlank(rest.front())) rest.remove_prefix(1);
+      while (!rest.empty() && IsMeshBlank(rest.front())) rest.remove_prefix(1);
       material_ = mesh.MaterialIndex(std::string(rest.empty() ? kDefaultMaterial : rest));
     }
   }

@@ -74,7 +74,7 @@ double ValueOf(PlyType type, const char* bytes) {
   return 0;
 }
 
-bool IsSpace(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\0'; }
+bool IsSpace(char c) { return c == '\n' || IsMeshBlank(c); }
 
 class PlyParser {
  public:
@@ -103,15 +103,6 @@ class PlyParser {
     throw std::runtime_error(name_ + line + ": " + message);
   }
 
-  std::string_view HeaderWord(std::string_view& line) const {
-    while (!line.empty() && IsSpace(line.front())) line.remove_prefix(1);
-    size_t length = 0;
-    while (length < line.size() && !IsSpace(line[length])) ++length;
-    const std::string_view word = line.substr(0, length);
-    line.remove_prefix(length);
-    return word;
-  }
-
   PlyType TypeOf(std::string_view word) const {
     static constexpr std::string_view kNames[][2] = {
         {"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"},   {"ushort", "uint16"},
@@ -130,7 +121,7 @@ class PlyParser {
       const size_t end = std::min(bytes_.find('\n'), bytes_.size());
       std::string_view line = bytes_.substr(0, end);
       bytes_.remove_prefix(std::min(end + 1, bytes_.size()));
-      const std::string_view keyword = HeaderWord(line);
+      const std::string_view keyword = NextWord(line);
       if (line_ == 1 && keyword != "ply") Fail("expected a PLY file, got another first line than \"ply\"");
       if (keyword == "end_header") {
         if (!has_format) Fail("expected a format line in the header, got none");
@@ -139,7 +130,7 @@ class PlyParser {
         return;
       }
       if (keyword == "format") {
-        const std::string_view word = HeaderWord(line);
+        const std::string_view word = NextWord(line);
         has_format = true;
         format = word == "binary_little_endian" ? PlyFormat::kLittleEndian
                  : word == "binary_big_endian"  ? PlyFormat::kBigEndian
@@ -157,8 +148,8 @@ class PlyParser {
 
   void AddElement(std::string_view line) {
     PlyElement element;
-    element.name = std::string(HeaderWord(line));
-    const std::string_view count = HeaderWord(line);
+    element.name = std::string(NextWord(line));
+    const std::string_view count = NextWord(line);
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc() || end != count.data() + count.size() || element.count < 0 ||
         element.count > 2147483647LL)
@@ -170,14 +161,14 @@ class PlyParser {
   void AddProperty(std::string_view line) {
     if (elements_.empty()) Fail("property: expected an element before it, got none; export again");
     PlyProperty property;
-    std::string_view type = HeaderWord(line);
+    std::string_view type = NextWord(line);
     property.is_list = type == "list";
     if (property.is_list) {
-      property.count_type = TypeOf(HeaderWord(line));
-      type = HeaderWord(line);
+      property.count_type = TypeOf(NextWord(line));
+      type = NextWord(line);
     }
     property.type = TypeOf(type);
-    property.name = std::string(HeaderWord(line));
+    property.name = std::string(NextWord(line));
     elements_.back().properties.push_back(property);
   }
 

@@ -43,6 +43,18 @@ constexpr char kDefaultMaterial[] = "DefaultMaterial";
 // Triangulation takes quadratic time and more; no modeller draws such a face.
 constexpr int kMaxPolygonCorners = 1024;
 
+inline bool IsMeshBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\0'; }
+
+// Cuts the next word off the front of a line; empty at its end.
+inline std::string_view NextWord(std::string_view& line) {
+  while (!line.empty() && IsMeshBlank(line.front())) line.remove_prefix(1);
+  size_t length = 0;
+  while (length < line.size() && !IsMeshBlank(line[length])) ++length;
+  const std::string_view word = line.substr(0, length);
+  line.remove_prefix(length);
+  return word;
+}
+
 // Parse a file; messages call it `name`.
 PolygonMesh ParseObj(std::string_view text, const std::string& name);
 PolygonMesh ParsePly(std::string_view bytes, const std::string& name);

@@ -15,6 +15,11 @@ uint64_t Mix(uint64_t x) {
 
 double Fraction(double x) { return x - std::floor(x); }
 
+Eigen::Vector2d PlasticPoint(double index, const Eigen::Vector2d& start) {
+  const Eigen::Vector2d x = start + index * Eigen::Vector2d(0.75487766624669276, 0.56984029099805327);
+  return x.array() - x.array().floor();
+}
+
 Eigen::Vector3d LiftedFromDisc(double radius2, double turns) {
   const double radius = std::sqrt(radius2), angle = 2 * M_PI * turns;
   // The direction is never quite level: a ray in the receiver's own plane meets nothing of use.

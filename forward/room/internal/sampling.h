@@ -1,4 +1,4 @@
-// Samples integrals: hashes as random numbers, even points of the disc, cosine-weighted directions.
+// Samples integrals: hashes as random numbers, even points of square and disc, cosine-weighted directions.
 //
 // Sources: Steele, Lea, Flood (2014), "Fast splittable pseudorandom number generators" (SplitMix64); Malley
 // (1988); Masset, Bruls, Kerschen (2011), "Partition of the circle in cells of equal area and shape".
@@ -16,6 +16,15 @@ uint64_t Mix(uint64_t x);
 // Returns a number in [0, 1).
 inline double UnitFrom(uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1.0p-53; }
 double Fraction(double x);
+
+// Steps of the additive recurrence of the generalised golden ratio in four dimensions (x^5 = x + 1). Its
+// points modulo 1 fill the unit cube evenly.
+inline constexpr double kGoldenSteps[4] = {0.85667488385450287, 0.73389185662660285, 0.62870672103811578,
+                                           0.53859725722361166};
+
+// Returns a point of the same recurrence in two dimensions (the plastic number, x^3 = x + 1): point `index`
+// from `start`, in the unit square.
+Eigen::Vector2d PlasticPoint(double index, const Eigen::Vector2d& start);
 
 // Lifts a point of the unit disc (its radius squared, its angle in turns) to the hemisphere about z: Malley's
 // method.

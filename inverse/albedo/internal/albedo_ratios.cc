@@ -27,26 +27,13 @@ ElementLight LightOfElements(const Room& room, const LightState& state) {
   return {std::move(light), std::move(visibility.receivers)};
 }
 
-Eigen::MatrixXf LumensByState(const LightData& data, const LightState& state) {
-  const Eigen::Index lamps = static_cast<Eigen::Index>(state.luminaires.size());
-  Eigen::MatrixXf lumens(lamps, static_cast<Eigen::Index>(data.dimming.size()));
-  for (Eigen::Index k = 0; k < lamps; ++k) {
-    for (size_t s = 0; s < data.dimming.size(); ++s) {
-      lumens(k, static_cast<Eigen::Index>(s)) =
-          static_cast<float>(data.dimming[s][k] * state.luminaires[static_cast<size_t>(k)].flux_lm);
-    }
-  }
-  return lumens;
-}
-
 // Returns the exitance of every element in every state, in lm/m2: measured, else modelled.
 Eigen::MatrixXf ElementExitance(const Room& room, const LightData& data, const LightState& state,
                                 const Eigen::MatrixXf& total_lx) {
   Eigen::MatrixXf exitance = total_lx;
   for (Eigen::Index e = 0; e < exitance.rows(); ++e) {
-    const int patch = room.patches.elements[static_cast<size_t>(e)].patch;
-    const int material = room.patches.patches[static_cast<size_t>(patch)].material;
-    exitance.row(e) *= static_cast<float>(state.albedo[material]);
+    const Patch& patch = room.patches.PatchOf(static_cast<int>(e));
+    exitance.row(e) *= static_cast<float>(state.albedo[patch.material]);
   }
   for (const Observation& o : data.observations)
     exitance(o.element, o.state) = static_cast<float>(M_PI * o.relative_luminance / state.camera_scale);
@@ -73,7 +60,7 @@ std::vector<AlbedoRatio> AlbedoRatios(const Room& room, const LightData& data, c
   if (light.albedo.size() != static_cast<Eigen::Index>(room.scene.materials.size()))
     throw std::invalid_argument("EstimatePatchAlbedo: expected one albedo a material");
   const ElementLight at = LightOfElements(room, light);
-  const Eigen::MatrixXf lumens = LumensByState(data, light);
+  const Eigen::MatrixXf lumens = LumensByState(data, light.luminaires);
   Eigen::MatrixXf incident_lx = at.light.direct * lumens;
   if (interreflection) {
     const Eigen::MatrixXf exitance = ElementExitance(room, data, light, at.light.total * lumens);

@@ -102,8 +102,7 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
         "ChooseLuminaireCount: expected max_count of at least 1 and of the known places");
   const SubProblem problem = CutAll(room, data, options.max_elements);
   CountChoice choice;
-  if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
-    return choice;
+  if (!problem.CanJudge()) return choice;
   std::vector<Trial> trials;
   constexpr int kPatience = 2;  // numbers in a row without gain that end the search
   const FirstGuessOptions guess_options;

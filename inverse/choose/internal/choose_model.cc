@@ -50,12 +50,11 @@ bool HasAim(const ModelCandidate& candidate) {
   return OpsOf(candidate.distribution).has_aim || candidate.shape != LuminaireShape::kPoint;
 }
 
-void Apply(const ModelCandidate& candidate, bool aim_is_free, double start_size_m, Luminaire& luminaire,
-           FreeQuantities& free) {
+void Apply(const ModelCandidate& candidate, bool aim_is_free, Luminaire& luminaire, FreeQuantities& free) {
   const bool grows = candidate.shape != LuminaireShape::kPoint && luminaire.shape == LuminaireShape::kPoint;
   luminaire.distribution = candidate.distribution;
   luminaire.shape = candidate.shape;
-  if (grows) luminaire.size_m.setConstant(start_size_m);
+  if (grows) luminaire.size_m.setConstant(kStartSizeM);
   if (candidate.shape == LuminaireShape::kDisc) luminaire.size_m[1] = luminaire.size_m[0];
   free.exponent = OpsOf(candidate.distribution).has_exponent;
   free.size = candidate.shape != LuminaireShape::kPoint;
@@ -82,22 +81,16 @@ LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
 struct FittedCandidate {
   int candidate = 0;
   bool aim_is_free = false;
-  Luminaire luminaire;
-  Eigen::VectorXd predicted;  // rows of SubProblem::all
-  double relative_sigma = 1;
+  FittedModel model;
 };
 
-FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free,
-                             const ChooseModelOptions& options) {
+FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free) {
   const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
   const size_t k = static_cast<size_t>(problem.luminaire);
   Luminaire luminaire = problem.state.luminaires[k];
   FreeQuantities free = problem.state.free[k];
-  Apply(candidate, aim_is_free, options.start_size_m, luminaire, free);
-  FittedModel fitted =
-      FitModel(room, problem, luminaire, free, {options.max_outer_iterations, options.max_inner_iterations});
-  return {index, aim_is_free, std::move(fitted.luminaire), std::move(fitted.predicted),
-          fitted.relative_sigma};
+  Apply(candidate, aim_is_free, luminaire, free);
+  return {index, aim_is_free, FitModel(room, problem, luminaire, free)};
 }
 
 constexpr double kGoodPoint =
@@ -114,16 +107,16 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
     if (!OpsOf(c.distribution).has_exponent) continue;
     (c.shape == LuminaireShape::kPoint ? point : disc) = &f;
   }
-  if (point == nullptr || point->relative_sigma > kGoodPoint) return false;
+  if (point == nullptr || point->model.relative_sigma > kGoodPoint) return false;
   if (disc == nullptr) return true;  // the disc vanished
-  const Selection selection =
-      SimplestWithinOneStandardError({{ScoreGroups(problem, point->predicted, relative_sigma), 0, true},
-                                      {ScoreGroups(problem, disc->predicted, relative_sigma), 1, true}});
+  const Selection selection = SimplestWithinOneStandardError(
+      {{ScoreGroups(problem, point->model.predicted, relative_sigma), 0, true},
+       {ScoreGroups(problem, disc->model.predicted, relative_sigma), 1, true}});
   return selection.chosen == 0;
 }
 
-AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedCandidate& held,
-                      const FittedCandidate& free) {
+AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedModel& held,
+                      const FittedModel& free) {
   const double relative_sigma = std::min(held.relative_sigma, free.relative_sigma);
   const Selection selection =
       SimplestWithinOneStandardError({{ScoreGroups(problem, held.predicted, relative_sigma), 0, true},
@@ -143,9 +136,8 @@ struct ChosenModel {
 // Chooses among the models and aims that are open for one luminaire.
 class LuminaireChooser {
  public:
-  LuminaireChooser(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open,
-                   const ChooseModelOptions& options)
-      : room_(room), problem_(problem), luminaire_(luminaire), open_(open), options_(options) {
+  LuminaireChooser(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open)
+      : room_(room), problem_(problem), luminaire_(luminaire), open_(open) {
     const Luminaire& start = problem.state.luminaires[static_cast<size_t>(problem.luminaire)];
     for (size_t c = 0; c < AllCandidates().size(); ++c) {
       if (Allowed(AllCandidates()[c], start, open)) allowed_.push_back(static_cast<int>(c));
@@ -153,8 +145,8 @@ class LuminaireChooser {
   }
 
   ChosenModel Run() {
-    if (std::none_of(problem_.left_out.begin(), problem_.left_out.end(), [](bool out) { return out; }))
-      return {};
+    // One model with its aim given leaves nothing to choose: a fit of it would not be used.
+    if (!problem_.CanJudge() || (allowed_.size() < 2 && !open_.aim)) return {};
     ChosenModel chosen;
     if (open_.aim) chosen.aim = AimOfAPoint();
     const bool turns = chosen.aim && chosen.aim->is_free;
@@ -164,7 +156,7 @@ class LuminaireChooser {
     chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
     if (!turns) return chosen;
     const FittedCandidate& held = Fitted(chosen.fitted->candidate, false);
-    chosen.aim = CompareAims(problem_, luminaire_, held, *chosen.fitted);
+    chosen.aim = CompareAims(problem_, luminaire_, held.model, chosen.fitted->model);
     if (!chosen.aim->is_free) chosen.fitted = held;
     return chosen;
   }
@@ -178,7 +170,7 @@ class LuminaireChooser {
       if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
     }
     if (trial < 0) return {};
-    return CompareAims(problem_, luminaire_, Fitted(trial, false), Fitted(trial, true));
+    return CompareAims(problem_, luminaire_, Fitted(trial, false).model, Fitted(trial, true).model);
   }
 
   // Returns the fitted candidate. Each is fitted once.
@@ -187,7 +179,7 @@ class LuminaireChooser {
     if (known != fitted_.end()) return known->second;
     return fitted_
         .emplace(std::make_pair(candidate, aim_is_free),
-                 FitCandidate(room_, problem_, candidate, aim_is_free, options_))
+                 FitCandidate(room_, problem_, candidate, aim_is_free))
         .first->second;
   }
 
@@ -199,21 +191,21 @@ class LuminaireChooser {
         continue;
       const FittedCandidate& candidate = Fitted(c, turns);
       // A size that shrank to nothing repeats the point, with one more parameter.
-      if (open_.shape && HasVanished(candidate.luminaire)) continue;
+      if (open_.shape && HasVanished(candidate.model.luminaire)) continue;
       fitted.push_back(candidate);
-      relative_sigma = std::min(relative_sigma, fitted.back().relative_sigma);
+      relative_sigma = std::min(relative_sigma, fitted.back().model.relative_sigma);
     }
     return fitted;
   }
 
   LuminaireChoice ChooseAmong(const std::vector<FittedCandidate>& fitted) const {
     double relative_sigma = 1;
-    for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.relative_sigma);
+    for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.model.relative_sigma);
     std::vector<int> candidates;
     std::vector<GroupScores> scores;
     for (const FittedCandidate& f : fitted) {
       candidates.push_back(f.candidate);
-      scores.push_back(ScoreGroups(problem_, f.predicted, relative_sigma));
+      scores.push_back(ScoreGroups(problem_, f.model.predicted, relative_sigma));
     }
     return Choose(luminaire_, candidates, scores);
   }
@@ -222,17 +214,15 @@ class LuminaireChooser {
   const SubProblem& problem_;
   int luminaire_;
   OpenChoice open_;
-  const ChooseModelOptions& options_;
   std::vector<int> allowed_;
   std::map<std::pair<int, bool>, FittedCandidate> fitted_;
 };
 
-void TakeOver(const FittedCandidate& fitted, const ChooseModelOptions& options, LightState& state,
-              int luminaire) {
+void TakeOver(const FittedCandidate& fitted, LightState& state, int luminaire) {
   const size_t k = static_cast<size_t>(luminaire);
-  state.luminaires[k] = fitted.luminaire;
-  Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, options.start_size_m,
-        state.luminaires[k], state.free[k]);
+  state.luminaires[k] = fitted.model.luminaire;
+  Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, state.luminaires[k],
+        state.free[k]);
 }
 
 }  // namespace
@@ -245,8 +235,7 @@ bool HasVanished(const Luminaire& luminaire) {
 
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
                                   const std::vector<OpenChoice>& open,
-                                  const std::vector<ParameterPrior>& priors,
-                                  const ChooseModelOptions& options) {
+                                  const std::vector<ParameterPrior>& priors) {
   if (open.size() != start.luminaires.size()) {
     throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
   }
@@ -254,17 +243,17 @@ ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const
   std::vector<RefinedLuminaire> refined(open.size());
   tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
     const auto luminaire = static_cast<int>(k);
-    SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
-    chosen[k] = LuminaireChooser(room, problem, luminaire, open[k], options).Run();
-    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, problem.state, problem.luminaire);
-    refined[k] = RefineLuminaire(room, problem, open[k].refinements, options.refine);
+    SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors);
+    chosen[k] = LuminaireChooser(room, problem, luminaire, open[k]).Run();
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, problem.state, problem.luminaire);
+    refined[k] = RefineLuminaire(room, problem, open[k].refinements);
   });
   ModelChoice result;
   result.state = start;
   for (size_t k = 0; k < open.size(); ++k) {
     if (chosen[k].choice) result.choices.push_back(*chosen[k].choice);
     if (chosen[k].aim) result.aims.push_back(*chosen[k].aim);
-    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, options, result.state, static_cast<int>(k));
+    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, result.state, static_cast<int>(k));
     for (Refinement step : refined[k].steps) {
       step.luminaire = static_cast<int>(k);
       result.refinements.push_back(std::move(step));

@@ -65,13 +65,7 @@ struct OpenChoice {
   OpenRefinements refinements = {};  // none, unless a caller asks for them
 };
 
-struct ChooseModelOptions {
-  int max_elements = 2500;       // observed elements used per luminaire, thinned evenly
-  double start_size_m = 0.3;     // start for discs and rectangles
-  int max_outer_iterations = 2;  // the start is converged: visibility and weights are refreshed once
-  int max_inner_iterations = 8;
-  RefineOptions refine;
-};
+constexpr double kStartSizeM = 0.3;  // of a disc or rectangle, until it is estimated
 
 struct ModelChoice {
   LightState state;  // the chosen models at their best so far: a start for the final fit
@@ -87,8 +81,7 @@ bool HasVanished(const Luminaire& luminaire);
 // Throws std::invalid_argument unless `open` has one entry for each luminaire.
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
                                   const std::vector<OpenChoice>& open,
-                                  const std::vector<ParameterPrior>& priors = {},
-                                  const ChooseModelOptions& options = {});
+                                  const std::vector<ParameterPrior>& priors = {});
 
 }  // namespace luxfit
 

@@ -9,16 +9,15 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "inverse/choose/internal/left_out.h"
 #include "inverse/model/internal/measured_indirect.h"
 
 namespace luxfit {
 namespace {
 
 constexpr int kMaxColourElements = 1000;
-constexpr int kColourLeftOutOf = 5;
 constexpr int kMinRows = 20;
 constexpr size_t kFewColouredFacets = 8, kFewPatches = 40;
-constexpr double kMostColourSquare = 9;
 constexpr double kLeastColourSigma = 5e-4;  // for a ratio of channels
 
 // Holds one channel of one observation.
@@ -61,11 +60,11 @@ std::vector<Row> RowsOf(const Room& room, const LightData& data, const Luminaire
     const Observation& o = measured.observations[i];
     const bool is_used = fit.weight[static_cast<Eigen::Index>(i)] > 0;
     if (!is_used || order.at(o.element) % stride != 0 || !(o.relative_rgb.minCoeff() > 0)) continue;
-    const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
+    const Patch& patch = room.patches.PatchOf(o.element);
     Row row;
-    row.material = room.patches.patches[static_cast<size_t>(patch)].material;
-    row.facet = room.patches.patches[static_cast<size_t>(patch)].facet;
-    row.patch = patch;
+    row.material = patch.material;
+    row.facet = patch.facet;
+    row.patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
     row.luminaire = OnlyLuminaire(data.dimming[static_cast<size_t>(o.state)]);
     row.element = o.element;
     const double rho = fit.state.albedo[row.material];
@@ -111,7 +110,7 @@ void Cut(std::vector<Row>& rows) {
   int count = 0;
   for (auto& [piece, n] : number) n = count++;
   for (Row& row : rows) {
-    row.is_left_out = number.at(piece_of(row)) % kColourLeftOutOf == 2;
+    row.is_left_out = IsLeftOut(number.at(piece_of(row)));
     row.group = facets.size() < kFewColouredFacets ? piece_of(row) : row.facet;
   }
 }
@@ -121,10 +120,7 @@ GroupScores Score(const std::vector<Row>& rows, const std::vector<double>& model
   GroupScores scores;
   for (size_t i = 0; i < rows.size(); ++i) {
     if (!rows[i].is_left_out) continue;
-    const double z = (modelled[i] / rows[i].value - 1) / sigma;
-    GroupScore& score = scores[rows[i].group];
-    score.sum += std::min(z * z, kMostColourSquare);
-    ++score.count;
+    scores[rows[i].group].Add((modelled[i] / rows[i].value - 1) / sigma);
   }
   return scores;
 }
@@ -136,7 +132,7 @@ double SigmaOf(const std::vector<Row>& rows, const std::vector<double>& modelled
     if (!rows[i].is_left_out) relative.push_back(std::abs(modelled[i] / rows[i].value - 1));
   }
   return relative.empty() ? kLeastColourSigma
-                          : std::max(kLeastColourSigma, 1.4826 * Median(std::move(relative)));
+                          : std::max(kLeastColourSigma, kSigmaPerMad * Median(std::move(relative)));
 }
 
 bool IsEnough(const std::vector<Row>& rows) {

@@ -25,8 +25,7 @@ Luminaire Unsaid(Luminaire luminaire) {
 
 std::vector<Contradiction> FindContradictions(const Room& room, const LightData& data,
                                               const LightState& start, const std::vector<OpenChoice>& open,
-                                              const std::vector<ParameterPrior>& priors,
-                                              const ChooseModelOptions& options) {
+                                              const std::vector<ParameterPrior>& priors) {
   std::vector<Contradiction> contradictions;
   for (size_t k = 0; k < open.size(); ++k) {
     const FreeQuantities& free = start.free[k];
@@ -37,12 +36,11 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
     LightState unsaid = start;
     unsaid.luminaires[k] = Unsaid(start.luminaires[k]);
     unsaid.free[k].exponent = true;
-    const ModelChoice chosen = ChooseLuminaireModels(room, data, unsaid, others, priors, options);
+    const ModelChoice chosen = ChooseLuminaireModels(room, data, unsaid, others, priors);
     const auto luminaire = static_cast<int>(k);
-    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors, options.max_elements);
-    if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
-      continue;
-    const FitEffort effort{4, options.max_inner_iterations};
+    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors);
+    if (!problem.CanJudge()) continue;
+    const FitEffort effort{4, 8};
     const FittedModel given = FitModel(room, problem, start.luminaires[k], free, effort);
     const FittedModel better =
         FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k], effort);
@@ -55,8 +53,7 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
                                         {ScoreGroups(problem, better.predicted, sigma), 1, true}},
                                        selection_options);
     if (selection.chosen == 1)
-      contradictions.push_back(
-          {luminaire, better.luminaire, selection.score[0], selection.score[1], selection.standard_error[0]});
+      contradictions.push_back({luminaire, better.luminaire, selection.score[0], selection.score[1]});
   }
   return contradictions;
 }

@@ -11,7 +11,6 @@
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CONTRADICTION_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_CONTRADICTION_H_
 
-#include <string>
 #include <vector>
 
 #include "inverse/choose/internal/choose_model.h"
@@ -22,15 +21,13 @@ struct Contradiction {
   int luminaire = 0;
   Luminaire better;                          // model that the data support
   double score_given = 0, score_better = 0;  // mean of min(z^2, 9) on data left out
-  double standard_error = 0;                 // standard error of the difference
 };
 
 // `start`: luminaires as given, at their fitted places. `open`: as for ChooseLuminaireModels; luminaires with
 // distribution and shape open have nothing to contradict.
 std::vector<Contradiction> FindContradictions(const Room& room, const LightData& data,
                                               const LightState& start, const std::vector<OpenChoice>& open,
-                                              const std::vector<ParameterPrior>& priors = {},
-                                              const ChooseModelOptions& options = {});
+                                              const std::vector<ParameterPrior>& priors);
 
 }  // namespace luxfit
 

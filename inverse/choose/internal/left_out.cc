@@ -8,11 +8,6 @@
 namespace luxfit {
 namespace {
 
-constexpr int kFolds = 5;
-
-// Leaves out one group in every five in a row, so that every part of the room keeps most of its data.
-bool LeftOut(int group) { return group % kFolds == 2; }
-
 bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
   return dimming[luminaire] > 0 && dimming.sum() == dimming[luminaire];
 }
@@ -44,10 +39,10 @@ void AddObservations(const Room& room, const LightData& data, const std::vector<
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
     problem.all.observations.push_back(o);
     problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
-    problem.left_out.push_back(LeftOut(patch));
+    problem.left_out.push_back(IsLeftOut(patch));
     problem.value.push_back(o.relative_luminance);
     problem.variance.push_back(o.variance);
-    if (!LeftOut(patch)) problem.fit.observations.push_back(o);
+    if (!IsLeftOut(patch)) problem.fit.observations.push_back(o);
   }
 }
 
@@ -56,7 +51,7 @@ void AddReadings(const LightData& data, const std::vector<bool>& state_used, Sub
     Reading reading = data.readings[i];
     if (!state_used[static_cast<size_t>(reading.state)] || !reading.used) continue;
     const int group = static_cast<int>(problem.all.readings.size());
-    const bool out = LeftOut(group);
+    const bool out = IsLeftOut(group);
     problem.all.readings.push_back(reading);
     problem.group_of_row.push_back(group);
     problem.left_out.push_back(out);
@@ -144,9 +139,7 @@ GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predic
     const double value = problem.value[i];
     const double variance = std::pow(relative_sigma * value, 2) + problem.variance[i];
     const double z = (predicted[static_cast<Eigen::Index>(i)] - value) / std::sqrt(variance);
-    GroupScore& score = scores[problem.group_of_row[i]];
-    score.sum += std::min(z * z, 9.0);
-    ++score.count;
+    scores[problem.group_of_row[i]].Add(z);
   }
   return scores;
 }

@@ -14,9 +14,8 @@
 namespace luxfit {
 namespace {
 
-constexpr double kCauchy = 2.5;    // in units of the residuals' scale
-constexpr double kMostSquare = 9;  // limit of z^2 in a score
-constexpr size_t kFewFacets = 5;   // up to this many, residuals are grouped by patch
+constexpr double kCauchy = 2.5;   // in units of the residuals' scale
+constexpr size_t kFewFacets = 5;  // up to this many, residuals are grouped by patch
 constexpr double kRankLimit = 1e-6;
 constexpr int kLightSteps = 6;
 constexpr double kLightConverged = 1e-6;
@@ -232,7 +231,7 @@ void PhotoEquations::AddElement(const RadiometryUnknowns& unknowns, const Fit& f
 std::vector<PhotoEquations::Sums> PhotoEquations::Linearize(const RadiometryUnknowns& unknowns,
                                                             Fit& fit) const {
   const Sums none{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count),
-                  Eigen::VectorXd::Zero(unknowns.count), 0};
+                  Eigen::VectorXd::Zero(unknowns.count)};
   std::vector<Sums> by_fold(kFolds, none);
   tbb::parallel_for(0, kFolds, [&](int fold) {
     for (int e = 0; e < elements(); ++e) {
@@ -271,8 +270,8 @@ void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const
   // Residuals about fitted light are smaller than the noise, by the degrees of freedom.
   const double count = static_cast<double>(in_sigmas.size());
   const double freedom = std::sqrt(count / std::max(1.0, count - own));
-  fit.scale = std::max(1.0, 1.4826 * freedom * Median(in_sigmas));
-  fit.sigma = 1.4826 * freedom * Median(absolute);
+  fit.scale = std::max(1.0, kSigmaPerMad * freedom * Median(in_sigmas));
+  fit.sigma = kSigmaPerMad * freedom * Median(absolute);
   fit.weight = 1 / (1 + (z.array() / (kCauchy * fit.scale)).square());
 }
 
@@ -286,12 +285,8 @@ GroupScores PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit&
     Eigen::VectorXd light = fit.light.col(e);
     FitLight(element.base, y, Weights(fit, element).cwiseProduct(power.cwiseAbs2()), light);
     const Eigen::VectorXd residual = power.array() * (y.array() - (element.base * light).array().log());
-    GroupScore& score = scores[element.group];
-    for (int i = 0; i < element.count; ++i) {
-      const double sigma = std::hypot(RowOf(element, i).relative_sigma, common_sigma_);
-      score.sum += std::min(std::pow(residual[i] / sigma, 2), kMostSquare);
-      ++score.count;
-    }
+    for (int i = 0; i < element.count; ++i)
+      scores[element.group].Add(residual[i] / std::hypot(RowOf(element, i).relative_sigma, common_sigma_));
   }
   return scores;
 }
@@ -302,8 +297,7 @@ std::map<int, Eigen::VectorXd> PhotoEquations::GradientByGroup(const RadiometryU
   for (int e = 0; e < elements(); ++e) {
     const ElementRows& element = elements_[static_cast<size_t>(e)];
     if (!fit.light.col(e).allFinite()) continue;
-    Sums sums{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count), Eigen::VectorXd::Zero(unknowns.count),
-              0};
+    Sums sums{Eigen::MatrixXd::Zero(unknowns.count, unknowns.count), Eigen::VectorXd::Zero(unknowns.count)};
     AddElement(unknowns, fit, e, sums);
     const auto of_group = gradient.try_emplace(element.group, Eigen::VectorXd::Zero(unknowns.count)).first;
     of_group->second += sums.right;

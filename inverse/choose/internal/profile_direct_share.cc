@@ -76,11 +76,12 @@ class Evaluated {
       Eigen::VectorXd& g = gradient_of_block.try_emplace(block, Eigen::VectorXd::Zero(n)).first->second;
       g += residual_[i] * jacobian_.row(i).transpose();
     }
-    const Eigen::VectorXd back = hessian_.ldlt().solve(ShareGradient());
+    const Eigen::VectorXd share_gradient = ShareGradient();
+    const Eigen::VectorXd back = hessian_.ldlt().solve(share_gradient);
     double variance = 0;
     for (const auto& [block, g] : gradient_of_block) variance += std::pow(g.dot(back), 2);
     // The sigma is never below that of independent readings.
-    return std::sqrt(std::max(variance, ShareGradient().dot(back)));
+    return std::sqrt(std::max(variance, share_gradient.dot(back)));
   }
 
   // Returns squared residuals over a model error common to all candidates, summed by block.
@@ -114,11 +115,9 @@ class Evaluated {
     hessian_ = jacobian_.transpose() * jacobian_;
     for (const ParameterPrior& prior : priors) {
       for (size_t p = 0; p < fit_.parameters.size(); ++p) {
-        const Parameter& of = fit_.parameters[p];
-        const bool same = of.kind == prior.kind && of.index == prior.index &&
-                          (of.kind != ParameterKind::kLuminaire || of.quantity == prior.quantity);
         const auto i = static_cast<Eigen::Index>(p);
-        if (same) hessian_(i, i) += 1 / (prior.sigma * prior.sigma);
+        if (fit_.parameters[p].Is(prior.kind, prior.index, prior.quantity))
+          hessian_(i, i) += 1 / (prior.sigma * prior.sigma);
       }
     }
     AddSmoothness(SmoothnessRows(fit_.state, fit_.parameters), hessian_);
@@ -155,8 +154,7 @@ struct Variant {
 };
 
 // Makes every open luminaire the variant. Returns false where that changes none.
-bool Apply(const Variant& variant, const std::vector<OpenChoice>& open, double start_size_m,
-           LightState& state) {
+bool Apply(const Variant& variant, const std::vector<OpenChoice>& open, LightState& state) {
   bool changed = false;
   for (size_t k = 0; k < state.luminaires.size(); ++k) {
     Luminaire& luminaire = state.luminaires[k];
@@ -170,7 +168,7 @@ bool Apply(const Variant& variant, const std::vector<OpenChoice>& open, double s
       free.table_sigma = 0;
     }
     if (!open[k].shape) continue;
-    if (luminaire.shape == LuminaireShape::kPoint) luminaire.size_m.setConstant(start_size_m);
+    if (luminaire.shape == LuminaireShape::kPoint) luminaire.size_m.setConstant(kStartSizeM);
     luminaire.shape = variant.shape;
     free.size = variant.shape != LuminaireShape::kPoint;
     free.emission_sigma = 0;
@@ -185,14 +183,14 @@ struct Named {
 };
 
 std::vector<Named> FitVariants(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
-                               const DirectShareOptions& options) {
+                               const std::vector<OpenChoice>& open,
+                               const std::vector<ParameterPrior>& priors) {
   std::vector<Named> fits{{"as fitted", fit}};
   for (const LuminaireShape shape :
        {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
     for (const DistributionOps& ops : Distributions()) {
       LightState start = fit.state;
-      if (!ops.is_tried || !Apply({ops.distribution, shape}, open, options.start_size_m, start)) continue;
+      if (!ops.is_tried || !Apply({ops.distribution, shape}, open, start)) continue;
       FitLuminairesOptions quick;
       quick.covariance = false;
       fits.push_back(
@@ -221,10 +219,10 @@ double Sum(const std::map<int, double>& squares) {
 }  // namespace
 
 DirectShare ProfileDirectShare(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
-                               const DirectShareOptions& options) {
+                               const std::vector<OpenChoice>& open,
+                               const std::vector<ParameterPrior>& priors) {
   const Blocks blocks = BlocksOf(data);
-  const std::vector<Named> fits = FitVariants(room, data, fit, open, priors, options);
+  const std::vector<Named> fits = FitVariants(room, data, fit, open, priors);
   double relative_sigma = 1;
   for (const Named& named : fits) relative_sigma = std::min(relative_sigma, named.fit.relative_sigma);
   std::vector<std::map<int, double>> squares;
@@ -240,7 +238,7 @@ DirectShare ProfileDirectShare(const Room& room, const LightData& data, const Lu
   }
   result.share = result.candidates.front().share;
   result.lower = result.upper = result.share;
-  constexpr double kAsGood = 1.15, kTwoSided95 = 1.96;
+  constexpr double kAsGood = 1.15, kTwoSided95 = 1.96, kMostDoubt = 0.1;
   for (size_t c = 0; c < fits.size(); ++c) {
     DirectShareCandidate& candidate = result.candidates[c];
     candidate.is_admissible = c == 0 || candidate.rms <= kAsGood * result.candidates[best].rms ||
@@ -251,8 +249,8 @@ DirectShare ProfileDirectShare(const Room& room, const LightData& data, const Lu
   }
   result.lower = std::max(result.lower, 0.0);
   result.upper = std::min(result.upper, 1.0);
-  result.is_determined = result.upper - result.share <= options.tolerance * result.share &&
-                         result.share - result.lower <= options.tolerance * result.share;
+  result.is_determined = result.upper - result.share <= kMostDoubt * result.share &&
+                         result.share - result.lower <= kMostDoubt * result.share;
   return result;
 }
 

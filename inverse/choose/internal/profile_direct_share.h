@@ -13,8 +13,7 @@
 //
 // The sigma of a share comes from the cluster-robust covariance, because neighbouring residuals share their
 // model error. The clusters are blocks of a state's readings, in a grid of 4 cells along each side of their
-// box. The share is determined where the interval reaches no farther than `tolerance` of the share to either
-// side.
+// box. The share is determined where the interval reaches no farther than a tenth of it to either side.
 //
 // Sources: own; Cameron and Miller (2015) (clusters); Marschner (1998), "Inverse Rendering for Computer
 // Graphics", ch. 6 (the ambiguity).
@@ -29,15 +28,10 @@
 
 namespace luxfit {
 
-struct DirectShareOptions {
-  double tolerance = 0.1;
-  double start_size_m = 0.3;
-};
-
 // `fit`: a fit to readings with free reflectances. `open`: as for ChooseLuminaireModels.
 DirectShare ProfileDirectShare(const Room& room, const LightData& data, const LuminaireFit& fit,
-                               const std::vector<OpenChoice>& open, const std::vector<ParameterPrior>& priors,
-                               const DirectShareOptions& options = {});
+                               const std::vector<OpenChoice>& open,
+                               const std::vector<ParameterPrior>& priors);
 
 }  // namespace luxfit
 

@@ -1,9 +1,10 @@
 #include "inverse/choose/internal/refine_luminaire.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -20,15 +21,11 @@ struct RefinedCandidate {
   FittedModel fitted;
 };
 
-std::string Formatted(const char* format, double a, double b = 0) {
-  char text[80];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
+constexpr double kGoodEnough = 0.01;  // model error below which table and emission are not tried
+constexpr double kNodeStepDeg = 7.5;
 
 // Returns nodes up to 90 degrees; to 180 where light goes up or something above the luminaire was measured.
-std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const Luminaire& luminaire,
-                             double step_deg) {
+std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const Luminaire& luminaire) {
   double lowest = 1;  // cosine of gamma
   const auto see = [&](const Eigen::Vector3d& p) {
     lowest = std::min(lowest, luminaire.aim.dot((p - luminaire.position).normalized()));
@@ -39,7 +36,7 @@ std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const 
   constexpr double kBarelyAbove = -0.1;
   const double last_deg = lowest < kBarelyAbove ? 180 : OpsOf(luminaire.distribution).last_gamma_deg;
   std::vector<double> gamma_rad;
-  const int steps = static_cast<int>(std::lround(last_deg / step_deg));
+  const int steps = static_cast<int>(std::lround(last_deg / kNodeStepDeg));
   gamma_rad.reserve(static_cast<size_t>(steps) + 1);
   for (int j = 0; j <= steps; ++j) gamma_rad.push_back(j * last_deg / steps * M_PI / 180);
   return gamma_rad;
@@ -63,21 +60,20 @@ Luminaire WithTable(Luminaire luminaire, const std::vector<double>& gamma_rad) {
 
 class Refiner {
  public:
-  Refiner(const Room& room, const SubProblem& problem, OpenRefinements open, const RefineOptions& options)
-      : room_(room), problem_(problem), open_(open), options_(options) {}
+  Refiner(const Room& room, const SubProblem& problem, OpenRefinements open)
+      : room_(room), problem_(problem), open_(open) {}
 
   RefinedLuminaire Run() {
     const size_t k = static_cast<size_t>(problem_.luminaire);
     result_.luminaire = problem_.state.luminaires[k];
     result_.free = problem_.state.free[k];
-    const bool can_judge =
-        std::any_of(problem_.left_out.begin(), problem_.left_out.end(), [](bool out) { return out; });
-    if (!can_judge || !(open_.heading || open_.aim || open_.table || open_.emission)) return result_;
+    if (!problem_.CanJudge() || !(open_.heading || open_.aim || open_.table || open_.emission))
+      return result_;
     if (open_.heading) ChooseHeading();
     held_ = Fit(result_.luminaire, result_.free);
     if (open_.aim) TakeBest({AimStep()});
     while (open_.table || open_.emission) {
-      if (held_.relative_sigma <= options_.good_enough && !open_.table_asked_for) break;
+      if (held_.relative_sigma <= kGoodEnough && !open_.table_asked_for) break;
       std::vector<Step> steps;
       if (open_.table) steps.push_back(TableStep());
       if (open_.emission && !open_.table_asked_for) steps.push_back(EmissionStep());
@@ -90,13 +86,13 @@ class Refiner {
   struct Step {
     RefinementKind kind = RefinementKind::kTable;
     std::vector<RefinedCandidate> candidates;  // the first is the luminaire as it was
+    std::vector<double> score = {};            // one for each
     int chosen = 0;
     double gain = 0, standard_error = 0;  // the best against the first
   };
 
   FittedModel Fit(const Luminaire& luminaire, const FreeQuantities& free) const {
-    return FitModel(room_, problem_, luminaire, free,
-                    {options_.max_outer_iterations, options_.max_inner_iterations});
+    return FitModel(room_, problem_, luminaire, free, {3, 10});
   }
 
   // Fits from four headings. All have as many parameters, so the lowest score wins.
@@ -140,7 +136,7 @@ class Refiner {
     std::vector<LuminaireShape> shapes{held_.luminaire.shape};
     const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
     if (may_be_point && !open_.table_asked_for) shapes.push_back(LuminaireShape::kPoint);
-    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire, options_.node_step_deg);
+    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire);
     for (const LuminaireShape shape : shapes) {
       Luminaire start = WithTable(held_.luminaire, nodes);
       FreeQuantities free = held_.free;
@@ -152,7 +148,7 @@ class Refiner {
         FittedModel fitted = Fit(start, free);
         start = fitted.luminaire;  // the next, freer candidate starts from here
         step.candidates.push_back(
-            {"table " + ToString(shape) + Formatted(", smoothness %g", sigma), std::move(fitted)});
+            {fmt::format("table {}, smoothness {:g}", ToString(shape), sigma), std::move(fitted)});
       }
     }
     return Judged(std::move(step));
@@ -169,7 +165,7 @@ class Refiner {
       if (without_gain == 2) break;
       Luminaire start = held_.luminaire;
       start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
-      step.candidates.push_back({Formatted("%g x %g cells", cells, cells), Fit(start, free)});
+      step.candidates.push_back({fmt::format("{0} x {0} cells", cells), Fit(start, free)});
       const double score = Score(step.candidates.back());
       without_gain = score < best ? 0 : without_gain + 1;
       best = std::min(best, score);
@@ -199,10 +195,11 @@ class Refiner {
     selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
     SelectionOptions options;
     options.keeps_first = true;
-    const Selection selection = SimplestWithinOneStandardError(selectable, options);
+    Selection selection = SimplestWithinOneStandardError(selectable, options);
     step.gain = selection.score[0] - selection.score[selection.best];
     step.standard_error = selection.standard_error[0];
     step.chosen = static_cast<int>(selection.chosen);
+    step.score = std::move(selection.score);
     return step;
   }
 
@@ -233,10 +230,9 @@ class Refiner {
     record.kind = step.kind;
     record.chosen = step.chosen;
     record.standard_error = step.standard_error;
-    const double sigma = SmallestSigma(step.candidates);
+    record.score = step.score;
     for (const RefinedCandidate& c : step.candidates) {
       record.among.push_back(c.name);
-      record.score.push_back(Mean(ScoreGroups(problem_, c.fitted.predicted, sigma)));
       record.effective_parameters.push_back(c.fitted.effective_parts);
     }
     result_.steps.push_back(std::move(record));
@@ -251,16 +247,14 @@ class Refiner {
   const Room& room_;
   const SubProblem& problem_;
   OpenRefinements open_;
-  const RefineOptions& options_;
   RefinedLuminaire result_;
   FittedModel held_;
 };
 
 }  // namespace
 
-RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open,
-                                 const RefineOptions& options) {
-  return Refiner(room, problem, open, options).Run();
+RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open) {
+  return Refiner(room, problem, open).Run();
 }
 
 }  // namespace luxfit

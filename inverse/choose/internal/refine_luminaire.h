@@ -13,7 +13,7 @@
 // within one standard error of the best. The step is taken only if it lowers the score by more than a
 // standard error.
 //
-// Table and emission are tried only where the model error is above `good_enough`: a luxmeter could not show a
+// Table and emission are tried only where the model error is above 1 %: a luxmeter could not show a
 // smaller effect. All headings have as many parameters, so the lowest score alone chooses.
 //
 // Sources: Breiman, Friedman, Olshen, Stone (1984), sec. 3.4 (one-standard-error rule); Eilers and Marx
@@ -21,7 +21,6 @@
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_REFINE_LUMINAIRE_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_REFINE_LUMINAIRE_H_
 
-#include <string>
 #include <vector>
 
 #include "inverse/choose/internal/left_out.h"
@@ -38,8 +37,7 @@ struct RefinedLuminaire {
 
 // Refines luminaire problem.luminaire of problem.state from its present model. Returns it unchanged where
 // nothing could be left out.
-RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open,
-                                 const RefineOptions& options);
+RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open);
 
 }  // namespace luxfit
 

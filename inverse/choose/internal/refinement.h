@@ -19,13 +19,6 @@ struct OpenRefinements {
   bool table_asked_for = false;  // true: estimates a table whatever the criterion says
 };
 
-struct RefineOptions {
-  double good_enough = 0.01;  // model error below which table and emission are not tried
-  double node_step_deg = 7.5;
-  int max_outer_iterations = 3;
-  int max_inner_iterations = 10;
-};
-
 struct Refinement {
   int luminaire = 0;
   RefinementKind kind = RefinementKind::kTable;

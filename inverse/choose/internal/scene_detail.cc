@@ -9,6 +9,7 @@
 
 #include "calib/luminance/median.h"
 #include "forward/light/illuminance.h"
+#include "inverse/choose/internal/left_out.h"
 #include "inverse/model/internal/discretisation_bias.h"
 
 namespace luxfit {
@@ -16,12 +17,6 @@ namespace {
 
 constexpr int kMostBounces = 4;
 constexpr int kMaxDetailElements = 800;
-constexpr int kDetailLeftOutOf = 5;
-constexpr double kMostDetailSquare = 9;
-
-int PatchOf(const Room& room, int element) {
-  return room.patches.elements[static_cast<size_t>(element)].patch;
-}
 
 const Patch& PatchAt(const Room& room, int patch) { return room.patches.patches[static_cast<size_t>(patch)]; }
 
@@ -58,12 +53,9 @@ class Comparison {
     for (size_t i = 0; i < rows_.size(); ++i) {
       if (!IsLeftOut(i)) continue;
       const Observation& o = data_.observations[rows_[i]];
-      const Patch& patch = PatchAt(room_, PatchOf(room_, o.element));
+      const Patch& patch = room_.patches.PatchOf(o.element);
       const double modelled = factor[static_cast<size_t>(patch.material)] * Modelled(left_out, i);
-      const double z = (modelled - o.relative_luminance) / std::sqrt(VarianceOf(o));
-      GroupScore& score = scores[patch.facet];
-      score.sum += std::min(z * z, kMostDetailSquare);
-      ++score.count;
+      scores[patch.facet].Add((modelled - o.relative_luminance) / std::sqrt(VarianceOf(o)));
     }
     return scores;
   }
@@ -74,12 +66,13 @@ class Comparison {
     relative.reserve(rows_.size());
     for (size_t i = 0; i < rows_.size(); ++i)
       relative.push_back(std::abs(left_out[static_cast<Eigen::Index>(i)] / Predicted(i)));
-    return 1.4826 * Quantile(std::move(relative), 0.5);
+    return kSigmaPerMad * Quantile(std::move(relative), 0.5);
   }
 
  private:
   bool IsLeftOut(size_t i) const {
-    return PatchOf(room_, data_.observations[rows_[i]].element) % kDetailLeftOutOf == 2;
+    const auto element = static_cast<size_t>(data_.observations[rows_[i]].element);
+    return luxfit::IsLeftOut(room_.patches.elements[element].patch);
   }
   double Predicted(size_t i) const { return fit_.predicted[static_cast<Eigen::Index>(rows_[i])]; }
   double Modelled(const Eigen::VectorXd& left_out, size_t i) const {
@@ -95,7 +88,7 @@ class Comparison {
     for (size_t i = 0; i < rows_.size(); ++i) {
       if (IsLeftOut(i)) continue;
       const Observation& o = data_.observations[rows_[i]];
-      const size_t m = static_cast<size_t>(PatchAt(room_, PatchOf(room_, o.element)).material);
+      const size_t m = static_cast<size_t>(room_.patches.PatchOf(o.element).material);
       const double weight = fit_.weight[static_cast<Eigen::Index>(rows_[i])] / VarianceOf(o);
       product[m] += weight * Modelled(left_out, i) * o.relative_luminance;
       square[m] += weight * Modelled(left_out, i) * Modelled(left_out, i);
@@ -124,15 +117,8 @@ Eigen::MatrixXf PatchDirect(const Room& room, const LightData& data, const Light
   const Receivers receivers = MakeReceivers(room, elements, {});
   const Illuminance light = ComputeDirectIlluminance(
       room, receivers, ComputeReceiverVisibility(room, receivers, state.luminaires, 2), state.luminaires);
-  Eigen::MatrixXf lumens(static_cast<Eigen::Index>(state.luminaires.size()),
-                         static_cast<Eigen::Index>(data.dimming.size()));
-  for (Eigen::Index k = 0; k < lumens.rows(); ++k) {
-    for (Eigen::Index s = 0; s < lumens.cols(); ++s)
-      lumens(k, s) = static_cast<float>(data.dimming[static_cast<size_t>(s)][k] *
-                                        state.luminaires[static_cast<size_t>(k)].flux_lm);
-  }
-  const Eigen::MatrixXf sampled = light.direct * lumens;
-  Eigen::MatrixXf direct(static_cast<Eigen::Index>(room.patches.patches.size()), lumens.cols());
+  const Eigen::MatrixXf sampled = light.direct * LumensByState(data, state.luminaires);
+  Eigen::MatrixXf direct(static_cast<Eigen::Index>(room.patches.patches.size()), sampled.cols());
   for (Eigen::Index p = 0; p < direct.rows(); ++p)
     direct.row(p) = sampled.middleRows(3 * p, 3).colwise().mean();
   return direct;
@@ -144,7 +130,7 @@ Eigen::VectorXd AtRows(const Room& room, const LightData& data, const LightState
   Eigen::VectorXd value(static_cast<Eigen::Index>(rows.size()));
   for (size_t i = 0; i < rows.size(); ++i) {
     const Observation& o = data.observations[rows[i]];
-    const double rho = state.albedo[PatchAt(room, PatchOf(room, o.element)).material];
+    const double rho = state.albedo[room.patches.PatchOf(o.element).material];
     const float lx = room.form_factors.element_to_patch.row(o.element).dot(exitance.col(o.state));
     value[static_cast<Eigen::Index>(i)] = state.camera_scale * rho / M_PI * static_cast<double>(lx);
   }

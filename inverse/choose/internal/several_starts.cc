@@ -64,8 +64,7 @@ SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, cons
     if (rivals[k].empty() || !state.free[k].position) continue;
     const SubProblem problem =
         MakeSubProblem(room, data, result.state, static_cast<int>(k), priors, options.max_elements);
-    if (std::none_of(problem.left_out.begin(), problem.left_out.end(), [](bool out) { return out; }))
-      continue;
+    if (!problem.CanJudge()) continue;
     std::vector<Luminaire> starts = {state.luminaires[k]};
     for (const Luminaire& rival : rivals[k]) {
       if (static_cast<int>(starts.size()) < options.max_starts)

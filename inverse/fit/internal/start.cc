@@ -12,6 +12,7 @@
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
 #include "forward/luminaire/photometry.h"
+#include "inverse/choose/internal/choose_model.h"
 #include "inverse/fit/internal/words.h"
 #include "inverse/model/internal/search/first_guess.h"
 
@@ -23,9 +24,6 @@ constexpr int kMinElementsOfMaterial = 3;
 
 // Smoothness of a table that is to be estimated, until its strength is chosen.
 constexpr double kStartTableSigma = 0.1;
-
-// Size of a disc or rectangle until it is estimated.
-constexpr double kStartSizeM = 0.3;
 
 // Starting flux at a known place about which the guess says nothing.
 constexpr double kAnyFluxLm = 1000;
@@ -83,8 +81,7 @@ class Starter {
   std::vector<std::set<int>> SeenElements() const {
     std::vector<std::set<int>> seen(room_.scene.materials.size());
     for (const Observation& o : light_.data.observations) {
-      const int patch = room_.patches.elements[static_cast<size_t>(o.element)].patch;
-      seen[static_cast<size_t>(room_.patches.patches[static_cast<size_t>(patch)].material)].insert(o.element);
+      seen[static_cast<size_t>(room_.patches.PatchOf(o.element).material)].insert(o.element);
     }
     return seen;
   }

@@ -224,9 +224,8 @@ void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
   for (size_t i = 0; i < result.data.observations.size() && fit.weight.size() > 0; ++i) {
     const double weight = fit.weight[static_cast<Eigen::Index>(i)];
     if (weight == 0) continue;
-    const auto element = static_cast<size_t>(result.data.observations[i].element);
-    const auto patch = static_cast<size_t>(room.patches.elements[element].patch);
-    const auto material = static_cast<size_t>(room.patches.patches[patch].material);
+    const auto material =
+        static_cast<size_t>(room.patches.PatchOf(result.data.observations[i].element).material);
     for (std::pair<int, int>* count : {&all, &of_material[room.scene.materials[material]]}) {
       count->first += weight < kUnexplained ? 1 : 0;
       ++count->second;

@@ -85,8 +85,7 @@ void AddTo(const Room& room, const LightData& data, const LightState& state, con
     const Observation& o = data.observations[i];
     const auto place = std::lower_bound(taken.elements.begin(), taken.elements.end(), o.element);
     if (place == taken.elements.end() || *place != o.element) continue;
-    const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
-    const double rho = state.albedo[room.patches.patches[static_cast<size_t>(patch)].material];
+    const double rho = state.albedo[room.patches.PatchOf(o.element).material];
     const Eigen::VectorXd& dimming = data.dimming[static_cast<size_t>(o.state)];
     double lx = 0;
     for (Eigen::Index k = 0; k < dimming.size(); ++k)

@@ -140,10 +140,8 @@ class StopAfterAcceptedStep : public ceres::IterationCallback {
 
 }  // namespace
 
-double SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x) {
-  if (x.size() == 0) {  // everything is given: nothing to solve, and Ceres aborts on an empty block
-    return 0.5 * (problem.at_base.value - problem.data).cwiseProduct(problem.root_weight).squaredNorm();
-  }
+void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x) {
+  if (x.size() == 0) return;  // everything is given: nothing to solve, and Ceres aborts on an empty block
   ceres::Problem ceres_problem;
   ceres_problem.AddResidualBlock(new FrozenCost(problem, x), nullptr, x.data());
   for (size_t i = 0; i < problem.parameters.size(); ++i) {
@@ -168,7 +166,6 @@ double SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& option
   ceres_options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &ceres_problem, &summary);
-  return summary.final_cost;
 }
 
 }  // namespace luxfit

@@ -42,8 +42,8 @@ struct InnerSolveOptions {
   bool is_near = false;
 };
 
-// Returns the cost at the solution, half the sum of squares. `x`: the start, at `base`; then the solution.
-double SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x);
+// `x`: the start, at `base`; then the solution.
+void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x);
 
 }  // namespace luxfit
 

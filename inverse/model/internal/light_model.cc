@@ -142,8 +142,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
   const Columns columns(state, parameters, with_jacobian);
   const Illuminance light = Light(state, columns.request);
   const ReceiverDerivative derivative(state, light, columns, data_.indirect_is_held);
-  Eigen::VectorXd flux(static_cast<Eigen::Index>(state.luminaires.size()));
-  for (Eigen::Index k = 0; k < flux.size(); ++k) flux[k] = state.luminaires[static_cast<size_t>(k)].flux_lm;
+  const Eigen::VectorXd flux = FluxesLm(state.luminaires);
 
   Prediction prediction;
   prediction.value.resize(row_count());

@@ -57,15 +57,8 @@ Eigen::MatrixXf ModelledIndirect(const Room& room, const LightData& data, const 
   const Illuminance lit =
       ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, light.luminaires, 2),
                          light.luminaires, light.albedo);
-  const auto lamps = static_cast<Eigen::Index>(light.luminaires.size());
-  Eigen::MatrixXf lumens(lamps, static_cast<Eigen::Index>(data.dimming.size()));
-  for (Eigen::Index k = 0; k < lamps; ++k) {
-    for (Eigen::Index s = 0; s < lumens.cols(); ++s) {
-      lumens(k, s) = static_cast<float>(data.dimming[static_cast<size_t>(s)][k] *
-                                        light.luminaires[static_cast<size_t>(k)].flux_lm);
-    }
-  }
-  return (static_cast<float>(light.camera_scale) / kPi) * ((lit.total - lit.direct) * lumens);
+  return (static_cast<float>(light.camera_scale) / kPi) *
+         ((lit.total - lit.direct) * LumensByState(data, light.luminaires));
 }
 
 LightData WithIndirect(const LightData& data, const Eigen::MatrixXf& at_elements) {

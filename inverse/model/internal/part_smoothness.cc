@@ -11,10 +11,6 @@ namespace {
 
 constexpr double kRightAngle = M_PI / 2;
 
-bool IsPartOf(const Parameter& p, int luminaire, LuminaireQuantity quantity) {
-  return p.kind == ParameterKind::kLuminaire && p.index == luminaire && p.quantity == quantity;
-}
-
 // Maps each part to its parameter. The reference part's value is the constant 1.
 struct PartPlaces {
   std::map<int, int> parameter_of_part;
@@ -22,7 +18,7 @@ struct PartPlaces {
 
   PartPlaces(const std::vector<Parameter>& parameters, int luminaire, LuminaireQuantity quantity) {
     for (size_t i = 0; i < parameters.size(); ++i) {
-      if (!IsPartOf(parameters[i], luminaire, quantity)) continue;
+      if (!parameters[i].Is(ParameterKind::kLuminaire, luminaire, quantity)) continue;
       parameter_of_part[parameters[i].part] = static_cast<int>(i);
       reference = parameters[i].reference;
     }
@@ -107,10 +103,7 @@ double EffectiveParts(const Eigen::MatrixXd& data_hessian, const std::vector<Smo
   AddSmoothness(rows, penalised);
   std::vector<Eigen::Index> parts;
   for (size_t i = 0; i < parameters.size(); ++i) {
-    const LuminaireQuantity q = parameters[i].quantity;
-    const bool is_part = q == LuminaireQuantity::kGammaNode || q == LuminaireQuantity::kCell;
-    if (parameters[i].kind == ParameterKind::kLuminaire && is_part)
-      parts.push_back(static_cast<Eigen::Index>(i));
+    if (IsPart(parameters[i])) parts.push_back(static_cast<Eigen::Index>(i));
   }
   // A parameter that no row depends on counts as 0.
   penalised.diagonal().array() += 1e-12 * penalised.diagonal().maxCoeff() + 1e-300;

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "inverse/model/internal/discretisation_bias.h"
-#include "inverse/model/internal/light_model.h"
 
 namespace luxfit {
 
@@ -17,11 +16,6 @@ PhotoBlock::PhotoBlock(const Room& room, const LightData& data) : room_(room), d
                                   std::to_string(room.patches.elements.size()));
     material_.push_back(PatchOf(row).material);
   }
-}
-
-const Patch& PhotoBlock::PatchOf(int row) const {
-  const int patch = room_.patches.elements[static_cast<size_t>(Of(row).element)].patch;
-  return room_.patches.patches[static_cast<size_t>(patch)];
 }
 
 RowResponse PhotoBlock::ResponseOf(const LightState& state, int row) const {

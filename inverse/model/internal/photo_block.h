@@ -31,7 +31,7 @@ class PhotoBlock : public RowBlock {
 
  private:
   const Observation& Of(int row) const { return data_.observations[static_cast<size_t>(row)]; }
-  const Patch& PatchOf(int row) const;
+  const Patch& PatchOf(int row) const { return room_.patches.PatchOf(Of(row).element); }
 
   const Room& room_;
   const LightData& data_;

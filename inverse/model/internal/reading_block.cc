@@ -1,7 +1,5 @@
 #include "inverse/model/internal/reading_block.h"
 
-#include "inverse/model/internal/row_block.h"
-
 namespace luxfit {
 
 RowResponse ReadingBlock::ResponseOf(const LightState& state, int row) const {

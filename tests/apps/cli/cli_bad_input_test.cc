@@ -91,11 +91,10 @@ TEST_F(CliBadInputTest, UnknownCamera) {
 
 TEST_F(CliBadInputTest, WrongHeaderOfTheReadings) {
   folder_.Replace("luxmeter.csv", "id,x_m,y_m,z_m", "name,x,y,z");
-  EXPECT_THAT(
-      RefusalOf(),
-      AllOf(HasSubstr("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux[,sensor]\", got "
-                      "\"name,x,y,z,nx,ny,nz,state,lux\""),
-            HasSubstr("rename, reorder or add it")));
+  EXPECT_THAT(RefusalOf(), AllOf(HasSubstr("luxmeter.csv:1: header: expected "
+                                           "\"id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx[,sensor]\", got "
+                                           "\"name,x,y,z,nx,ny,nz,state,illuminance_lx\""),
+                                 HasSubstr("rename, reorder or add it")));
 }
 
 TEST_F(CliBadInputTest, DecimalComma) {

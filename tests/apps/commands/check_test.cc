@@ -39,7 +39,7 @@ class Check : public testing::Test {
   // What the readings that check are multiplied by.
   using Error = std::function<double(const std::string& id, const std::string& state)>;
 
-  int Fit(const Error& error) const {
+  int Fit(const Error& error, int places_that_check = 5) const {
     std::string table = "id,x_m,y_m,z_m,nx,ny,nz,state,lux\n";
     int n = 0;
     for (const double x : {-1.0, -0.5, 0.1, 0.6, 1.1}) {
@@ -50,7 +50,7 @@ class Check : public testing::Test {
       }
     }
     for (const char* state : {"A", "half"}) {
-      for (int k = 1; k <= 5; ++k) {
+      for (int k = 1; k <= places_that_check; ++k) {
         const std::string id = fmt::format("L{}", k);
         table += Row(id, 0.3 * k - 0.8, 0.45 - 0.2 * k, state, error(id, state));
       }
@@ -83,6 +83,26 @@ TEST_F(Check, ReadingsThatAgreeAreSaidToAgree) {
   EXPECT_THAT(run.output, HasSubstr("95 % interval"));
   EXPECT_THAT(run.output, HasSubstr("no reading disagrees"));
   EXPECT_THAT(run.output, HasSubstr("no more than chance"));
+}
+
+TEST_F(Check, WhereNothingChecksErrorsAreUnknown) {
+  ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.0; }, 0), 0);
+  const json result = json::parse(folder_.Read("out/result.json"));
+  EXPECT_EQ(result["summary"]["readings_checked"], 0);
+  for (const char* key :
+       {"mean_abs_error_lx", "mean_abs_error_lux", "mean_abs_error_percent", "max_abs_error_percent"}) {
+    ASSERT_TRUE(result["summary"].contains(key)) << key;
+    EXPECT_TRUE(result["summary"][key].is_null()) << key;
+  }
+  const json& all = result["check"]["table"][0];
+  EXPECT_EQ(all["readings"], 0);
+  for (const char* key : {"mean_lx", "mean_error_percent", "mean_abs_error_lx", "mean_abs_error_percent",
+                          "max_abs_error_percent"})
+    EXPECT_TRUE(all[key].is_null()) << key;
+  const support::ProgramRun run = Run();
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output,
+              HasSubstr("checked 0 readings: mean error - lx = - % of the mean reading, largest - %"));
 }
 
 TEST_F(Check, OneWrongReadingIsNamedWithARemedy) {

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <string>
 
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/temp_folder.h"

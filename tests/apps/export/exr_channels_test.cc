@@ -1,10 +1,15 @@
 // exr_channels.h and false_colours.h: what is written is read by others as it was.
 #include "apps/export/exr_channels.h"
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
@@ -22,12 +27,30 @@ ImagePlane Ramp(Eigen::Index rows, Eigen::Index cols, float factor) {
   return plane;
 }
 
+// Returns all float channels of a file whose window begins at (0, 0), by name.
+std::map<std::string, ImagePlane> ReadChannels(const std::string& path) {
+  Imf::InputFile file(path.c_str());
+  const Imath::Box2i window = file.header().dataWindow();
+  std::map<std::string, ImagePlane> planes;
+  Imf::FrameBuffer buffer;
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    ImagePlane& plane = planes[channel.name()];
+    plane.resize(window.max.y + 1, window.max.x + 1);
+    buffer.insert(channel.name(), {Imf::FLOAT, reinterpret_cast<char*>(plane.data()), sizeof(float),
+                                   sizeof(float) * static_cast<size_t>(plane.cols())});
+  }
+  file.setFrameBuffer(buffer);
+  file.readPixels(0, window.max.y);
+  return planes;
+}
+
 TEST(ExrChannels, NamedPlanesComeBackBitForBit) {
   const TempFolder folder;
   ImagePlane lux = Ramp(3, 5, 123.456F);
   lux(1, 2) = std::numeric_limits<float>::quiet_NaN();
   WriteExrChannels(folder.Path("a.exr"), {{"illuminance_lx", lux}, {"gap", Ramp(3, 5, 1)}}, {{"note", "x"}});
-  const auto planes = ReadExrChannels(folder.Path("a.exr"));
+  const auto planes = ReadChannels(folder.Path("a.exr"));
   ASSERT_EQ(planes.size(), 2U);
   EXPECT_TRUE(std::isnan(planes.at("illuminance_lx")(1, 2)));
   EXPECT_EQ(planes.at("illuminance_lx")(2, 4), lux(2, 4));
@@ -53,8 +76,6 @@ TEST(ExrChannels, WrongPlanesAndPlacesAreRefused) {
   EXPECT_THROW(WriteExrChannels(folder.Path("a.exr"), {{"a", Ramp(2, 2, 1)}, {"a", Ramp(2, 2, 1)}}),
                std::invalid_argument);
   EXPECT_THROW(WriteExrChannels("/proc/nowhere/a.exr", {{"a", Ramp(2, 2, 1)}}), std::runtime_error);
-  folder.Write("text.exr", "no picture");
-  EXPECT_THROW(ReadExrChannels(folder.Path("text.exr")), std::runtime_error);
 }
 
 TEST(FalseColours, APixelHasTheColourOfItsValue) {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "apps/export/radiance_scene.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 
 namespace luxfit {
 namespace {

@@ -126,10 +126,27 @@ TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "P1", "F1"),
               Holds("luxmeter.csv:4: id: expected one reading per id and state, got \"F1@Z\" in line 3 too",
                     "another id"));
-  EXPECT_THAT(ErrorAfter("luxmeter.csv", "z_m", "height"),
-              Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,lux[,sensor]\", got "
-                    "\"id,x_m,y_m,height,nx,ny,nz,state,lux\"",
-                    "column 4 must be \"z_m\""));
+  EXPECT_THAT(
+      ErrorAfter("luxmeter.csv", "z_m", "height"),
+      Holds("luxmeter.csv:1: header: expected \"id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx[,sensor]\", got "
+            "\"id,x_m,y_m,height,nx,ny,nz,state,lux\"",
+            "column 4 must be \"z_m\""));
+}
+
+TEST_F(SessionErrorsTest, IlluminanceOfReadingsHasOneColumnUnderEitherName) {
+  EXPECT_EQ(ErrorAfter("luxmeter.csv", "state,lux", "state,illuminance_lx"), "");
+  EXPECT_EQ(Read().luxmeter.readings[0].illuminance_lx, 320.5);
+  EXPECT_FALSE(Read().luxmeter.readings[2].is_measured);
+  folder_.Replace("luxmeter.csv", "320.5", "-3");
+  EXPECT_THAT(Error(), HasSubstr("luxmeter.csv:2: illuminance_lx: expected >= 0, got \"-3\"; correct"));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", "state,E"),
+              HasSubstr("column 9 must be \"illuminance_lx\" (or its alias \"lux\"): rename"));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", "state"),
+              HasSubstr("add the column \"illuminance_lx\" (or its alias \"lux\")"));
+  for (const char* both : {"state,illuminance_lx,lux", "state,lux,illuminance_lx"})
+    EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", both),
+                Holds("luxmeter.csv:1: header: expected one of the columns \"illuminance_lx\" and \"lux\"",
+                      "got both; keep one and remove the other"));
 }
 
 TEST_F(SessionErrorsTest, RolesAreChecked) {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calib/lens/camera_file.h"
-#include "calib/targets/corners_file.h"
+#include "calib/targets/board.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/calib/board_views.h"
 #include "tests/support/temp_folder.h"
@@ -62,6 +62,8 @@ TEST_F(CalibrateTest, ARigIsWrittenInEveryFormatThatHoldsIt) {
   ASSERT_EQ(artifact["groups"].size(), 1U);
   const json& group = artifact["groups"][0];
   EXPECT_TRUE(group["is_rig"]);
+  EXPECT_EQ(group["lens"], "OPENCV4") << "scripts compare it";
+  EXPECT_EQ(artifact["choices"][0]["chosen"], "opencv4") << "as sessions spell it";
   EXPECT_NEAR(group["cameras"][1]["position_in_rig_m"][0], 0.1, 1e-3);
   EXPECT_EQ(group["images"].size(), 28U);
   for (const char* name : {"cam0.yaml", "cam1.cameramodel", "camchain.yaml", "cameras.txt"}) {
@@ -83,6 +85,7 @@ TEST_F(CalibrateTest, WhatFailsAGateIsMarkedAndEndsWithOne) {
   folder_.Write("session.toml", CameraToml("cam0") + "[calibration]\nlens = \"opencv4\"\n");
   const support::ProgramRun run = Calibrate();
   EXPECT_EQ(run.status, 1) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("10 images, opencv4: "));
   EXPECT_THAT(run.output, HasSubstr("NOT USABLE"));
   EXPECT_THAT(run.output, HasSubstr("never tilted"));
   EXPECT_THAT(folder_.Read("out/cam0.yaml"), HasSubstr("# NOT USABLE as it is:"));

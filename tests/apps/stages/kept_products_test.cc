@@ -1,6 +1,8 @@
 // What stages keep comes back as it went in, to the last bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/linearize/linearized_json.h"
@@ -55,36 +57,65 @@ TEST(KeptProductsTest, Registration) {
   EXPECT_TRUE(after.registration.IsUsable());
 }
 
+TEST(KeptProductsTest, SigmasOfARegistrationMayBeUnknown) {
+  Session session;
+  session.cameras.resize(1);
+  RegisteredSession before;
+  before.cameras.resize(1);
+  RegisteredView view;
+  view.covariance.setIdentity();
+  view.position_sigma_m = {0.001, std::numeric_limits<double>::quiet_NaN(), 0.003};
+  before.registration.views = {view};
+  // Text has null where the bytes above have NaN.
+  nlohmann::json kept = nlohmann::json::parse(RegistrationJson(session, before).dump());
+  ASSERT_TRUE(kept["views"][0]["position_sigma_m"][1].is_null());
+  const RegisteredView part = RegistrationFromJson(kept).registration.views.at(0);
+  EXPECT_EQ(part.position_sigma_m.x(), 0.001);
+  EXPECT_TRUE(std::isnan(part.position_sigma_m.y()));
+  EXPECT_EQ(part.position_sigma_m.z(), 0.003);
+  EXPECT_EQ(RegistrationTable(kept),
+            "         0 tags, reprojection RMS 0.000 px, camera centre ± 1.0 - 3.0 mm\n");
+  kept["views"][0]["position_sigma_m"] = nullptr;
+  kept["views"][0]["covariance"] = nullptr;
+  const RegisteredView none = RegistrationFromJson(kept).registration.views.at(0);
+  EXPECT_TRUE(none.position_sigma_m.array().isNaN().all());
+  EXPECT_TRUE(none.covariance.array().isNaN().all());
+  EXPECT_EQ(RegistrationTable(kept),
+            "         0 tags, reprojection RMS 0.000 px, camera centre ± - - - mm\n");
+}
+
 TEST(KeptProductsTest, Linearized) {
   const Eigen::VectorXd counts = Eigen::Vector3d(0, 100, 255);
   const Eigen::VectorXd exposure = Eigen::Vector3d(0, 0.3, 1), sigma = Eigen::Vector3d(0.1, 0.01, 0.02);
   Session read;
   read.cameras.resize(1);
-  Session before = read;
+  read.cameras[0].id = "left";
+  LinearizedPhotos before;
+  before.cameras.resize(1);
   before.cameras[0].full_scale_counts = 255;
-  before.cameras[0].response_curve =
+  before.cameras[0].response =
       CameraResponse(counts, {exposure, exposure, exposure}).WithRelativeSigma({sigma, sigma, sigma});
-  before.cameras[0].vignetting_model = Vignetting{{10, 20}, 30, Eigen::Vector2d(-0.1, 0.02)};
-  SessionPhoto photo;
+  before.cameras[0].vignetting = Vignetting{{10, 20}, 30, Eigen::Vector2d(-0.1, 0.02)};
+  LinearizedPhoto photo;
   photo.file = "a.png";
   photo.view = "v";
   photo.state = "s";
-  photo.iso = 200;
+  photo.exposure_s = 1.0 / 7;
   photo.bracket = {{"a.png", 0.5, 3}, {"b.png", 1.0 / 3, 4}};
   before.photos = {photo};
-  const Session after = WithLinearized(read, ThroughCbor(LinearizedJson(before)));
+  const LinearizedPhotos after = LinearizedFromJson(read, ThroughCbor(LinearizedJson(before)));
   ASSERT_EQ(after.photos.size(), 1U);
   EXPECT_EQ(after.photos[0].bracket.at(1).relative_exposure_s, 1.0 / 3);
-  EXPECT_EQ(after.photos[0].iso, 200);
-  EXPECT_FALSE(after.photos[0].f_number);
-  const SessionCamera& camera = after.cameras[0];
+  EXPECT_EQ(after.photos[0].exposure_s, 1.0 / 7);
+  EXPECT_EQ(after.photos[0].view, "v");
+  EXPECT_EQ(after.photos[0].state, "s");
+  const LinearizedCamera& camera = after.cameras.at(0);
+  EXPECT_EQ(camera.given.id, "left");
   EXPECT_EQ(camera.full_scale_counts, 255);
-  EXPECT_EQ(camera.vignetting_model->coefficients, Eigen::Vector2d(-0.1, 0.02));
+  EXPECT_EQ(camera.vignetting->coefficients, Eigen::Vector2d(-0.1, 0.02));
   for (const double count : {0.0, 57.0, 100.0, 250.0}) {
-    EXPECT_EQ(camera.response_curve->Exposure(1, count),
-              before.cameras[0].response_curve->Exposure(1, count));
-    EXPECT_EQ(camera.response_curve->RelativeSigma(2, count),
-              before.cameras[0].response_curve->RelativeSigma(2, count));
+    EXPECT_EQ(camera.response->Exposure(1, count), before.cameras[0].response->Exposure(1, count));
+    EXPECT_EQ(camera.response->RelativeSigma(2, count), before.cameras[0].response->RelativeSigma(2, count));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "apps/stages/observe/observed_light.h"
 #include "tests/support/calib/camera_model.h"
 #include "tests/support/calib/test_dng.h"
+#include "tests/support/inverse/wall_photos.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -59,7 +60,9 @@ class LinearizeTest : public testing::Test {
     folder_.Write("photos.csv", "file,camera,view,state,exposure_s,aperture,iso\n" + rows);
   }
 
-  Session Linearized() { return LinearizeSession(ReadSession(folder_.Path("session.toml")), context_); }
+  LinearizedPhotos Linearized() {
+    return LinearizeSession(ReadSession(folder_.Path("session.toml")), context_).photos;
+  }
 
   std::string Refusal() {
     try {
@@ -70,11 +73,11 @@ class LinearizeTest : public testing::Test {
     return "";
   }
 
-  LuminanceImage Luminance(const Session& session, size_t photo = 0) const {
+  LuminanceImage Luminance(const LinearizedPhotos& linearized, size_t photo = 0) const {
     Camera camera;
     camera.width_px = kWidth;
     camera.height_px = kHeight;
-    return ReadLuminance(session, session.photos[photo], camera);
+    return ReadLuminance(linearized, linearized.photos[photo], camera);
   }
 
   std::vector<std::string> WarningCodes() const {
@@ -94,15 +97,15 @@ TEST_F(LinearizeTest, PlainPhotosStayAsTheyAre) {
   Shoot("a.png", 0.25);
   Shoot("b.png", 0.25);
   WriteSession("", "a.png,cam0,v0,on,0.25,,\nb.png,cam0,v1,on,0.25,,\n");
-  const Session session = Linearized();
-  ASSERT_THAT(session.photos, SizeIs(2));
-  for (const SessionPhoto& photo : session.photos) {
+  const LinearizedPhotos linearized = Linearized();
+  ASSERT_THAT(linearized.photos, SizeIs(2));
+  for (const LinearizedPhoto& photo : linearized.photos) {
     ASSERT_THAT(photo.bracket, SizeIs(1));
     EXPECT_EQ(photo.bracket[0].relative_exposure_s, 0.25);
   }
   EXPECT_THAT(context_.warnings, IsEmpty());
   EXPECT_THAT(context_.choices, IsEmpty());
-  const LuminanceImage image = Luminance(session),
+  const LuminanceImage image = Luminance(linearized),
                        direct = ToRelativeLuminance(ReadPhoto(folder_.Path("a.png")), 0.25);
   EXPECT_TRUE((image.relative_luminance == direct.relative_luminance).all());
   EXPECT_TRUE((image.valid == direct.valid).all());
@@ -118,12 +121,12 @@ TEST_F(LinearizeTest, RowsOfOneViewAndStateAreMerged) {
     rows += name + ",cam0,v0,on," + std::to_string(exposure) + ",,\n";
   }
   WriteSession("", rows);
-  const Session session = Linearized();
-  ASSERT_THAT(session.photos, SizeIs(1));
-  ASSERT_THAT(session.photos[0].bracket, SizeIs(3));
-  EXPECT_THAT(session.photos[0].file, HasSubstr("e4.0"));
+  const LinearizedPhotos linearized = Linearized();
+  ASSERT_THAT(linearized.photos, SizeIs(1));
+  ASSERT_THAT(linearized.photos[0].bracket, SizeIs(3));
+  EXPECT_THAT(linearized.photos[0].file, HasSubstr("e4.0"));
   EXPECT_THAT(context_.warnings, IsEmpty());
-  const LuminanceImage image = Luminance(session);
+  const LuminanceImage image = Luminance(linearized);
   ASSERT_TRUE(image.valid.all());
   // Column means of 120 pixels; the darkest has 160 electrons of noise 13.
   for (int u = 0; u < kWidth; ++u)
@@ -139,11 +142,11 @@ TEST_F(LinearizeTest, AnExposureThatLiesIsNamedAndCorrected) {
     rows += name + ",cam0,v0,on," + std::to_string(stated[i]) + ",,\n";
   }
   WriteSession("", rows);
-  const Session session = Linearized();
+  const LinearizedPhotos linearized = Linearized();
   ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
   EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos.csv:4 (e2.png)"));
   EXPECT_THAT(context_.warnings[0].message, HasSubstr("ISO"));
-  for (const SessionExposure& exposure : session.photos[0].bracket) {
+  for (const PhotoExposure& exposure : linearized.photos[0].bracket) {
     const size_t i = static_cast<size_t>(exposure.line - 2);
     EXPECT_NEAR(exposure.relative_exposure_s / taken[i], 1, 0.01) << i;
   }
@@ -153,9 +156,9 @@ TEST_F(LinearizeTest, IsoAndApertureCount) {
   Shoot("a.png", 0.25);
   Shoot("b.png", 0.25);
   WriteSession("", "a.png,cam0,v0,on,0.25,4,100\nb.png,cam0,v1,on,0.25,5.6,200\n");
-  const Session session = Linearized();
-  EXPECT_DOUBLE_EQ(session.photos[0].bracket[0].relative_exposure_s, 0.25);
-  EXPECT_NEAR(session.photos[1].bracket[0].relative_exposure_s, 0.25 * 2 * std::pow(4 / 5.6, 2), 1e-12);
+  const LinearizedPhotos linearized = Linearized();
+  EXPECT_DOUBLE_EQ(linearized.photos[0].bracket[0].relative_exposure_s, 0.25);
+  EXPECT_NEAR(linearized.photos[1].bracket[0].relative_exposure_s, 0.25 * 2 * std::pow(4 / 5.6, 2), 1e-12);
 }
 
 TEST_F(LinearizeTest, SettingsKnownOfSomePhotosOnlyAreWarnedOf) {
@@ -177,9 +180,9 @@ TEST_F(LinearizeTest, TimesThatTheTableLeavesOutComeFromThePhoto) {
   dng.exposure_s = {1, 8};
   support::WriteTestDng(folder_.Path("a.dng"), dng);
   WriteSession("", "a.dng,cam0,v0,on,,,\n");
-  const Session session = Linearized();
-  EXPECT_DOUBLE_EQ(session.photos[0].bracket[0].relative_exposure_s, 0.125);
-  EXPECT_NEAR(Luminance(session).relative_luminance(5, 5), 2500.0 / 15000 / 0.125, 1e-5);
+  const LinearizedPhotos linearized = Linearized();
+  EXPECT_DOUBLE_EQ(linearized.photos[0].bracket[0].relative_exposure_s, 0.125);
+  EXPECT_NEAR(Luminance(linearized).relative_luminance(5, 5), 2500.0 / 15000 / 0.125, 1e-5);
   EXPECT_THAT(context_.warnings, IsEmpty());
 
   WriteSession("", "a.dng,cam0,v0,on,0.5,,\n");
@@ -189,7 +192,7 @@ TEST_F(LinearizeTest, TimesThatTheTableLeavesOutComeFromThePhoto) {
               HasSubstr("exposure_s is 0.5 in the table and 0.125 in the photo's own"));
 
   WriteSession("black_level = 500", "a.dng,cam0,v0,on,0.125,,\n");
-  const Session with_black = Linearized();
+  const LinearizedPhotos with_black = Linearized();
   EXPECT_THROW(Luminance(with_black), std::runtime_error);
 }
 
@@ -210,7 +213,7 @@ TEST_F(LinearizeTest, AnEstimatedResponseServesAgainAsAFile) {
     rows += name + ",cam0,v0,on," + std::to_string(exposure) + ",,\n";
   }
   WriteSession("response = \"estimate\"", rows);
-  const Session estimated = Linearized();
+  const LinearizedPhotos estimated = Linearized();
   ASSERT_THAT(context_.choices, SizeIs(1));
   EXPECT_EQ(context_.choices[0].what, "response of cam0");
   const LuminanceImage image = Luminance(estimated);
@@ -267,118 +270,65 @@ TEST_F(LinearizeTest, AmbientReadingsAreSubtractedWhereTheyWereTaken) {
   Shoot("a.png", 1);
   WriteSession("", "a.png,cam0,v0,on,1,,\n", "on = { A = 1 }\noff = {}",
                "[luxmeter]\nreadings = \"luxmeter.csv\"\n");
-  const Session session = Linearized();
-  ASSERT_THAT(session.luxmeter.readings, SizeIs(2));
-  EXPECT_EQ(session.luxmeter.readings[0].illuminance_lx, 300);
-  EXPECT_EQ(session.luxmeter.readings[0].ambient_lx, 20);
-  EXPECT_EQ(session.luxmeter.readings[1].illuminance_lx, 200);
+  const std::vector<LuminaireReading> readings =
+      LinearizeSession(ReadSession(folder_.Path("session.toml")), context_).readings;
+  ASSERT_THAT(readings, SizeIs(2));
+  EXPECT_EQ(readings[0].illuminance_lx, 300);
+  EXPECT_EQ(readings[0].ambient_lx, 20);
+  EXPECT_EQ(readings[0].given.illuminance_lx, 320);
+  EXPECT_EQ(readings[1].illuminance_lx, 200);
   ASSERT_THAT(WarningCodes(), ElementsAre("ambient_in_readings"));
   EXPECT_THAT(context_.warnings[0].message, HasSubstr("L2"));
 }
 
-// Eight views that look straight at one wall of 40 x 30 elements, each from another place.
+// The wall's photos, named by a session.
 class ObservedLightTest : public LinearizeTest {
  protected:
   ObservedLightTest() {
     std::string rows;
-    for (int view = 0; view < 8; ++view) {
-      const std::string name = "v" + std::to_string(view);
-      folder_.Write(name + ".png", "");
-      rows += name + ".png,cam0," + name + ",on,0.25,,\n";
+    for (const RegisteredView& view : wall_.views) {
+      folder_.Write(view.view + ".png", "");
+      rows += view.view + ".png,cam0," + view.view + ",on,0.25,,\n";
     }
     WriteSession("vignetting = \"estimate\"", rows);
     session_ = ReadSession(folder_.Path("session.toml"));
     RunContext quiet = context_;
-    session_ = WithBrackets(std::move(session_), quiet);
-    Camera camera;
-    camera.width_px = 640;
-    camera.height_px = 480;
-    camera.fx_px = camera.fy_px = 400;
-    camera.cx_px = 319.5;
-    camera.cy_px = 239.5;
-    registered_.cameras = {camera};
-    for (int y = 0; y < 30; ++y) {
-      for (int x = 0; x < 40; ++x) {
-        Element element;
-        element.center = {0.1 * x, 0.1 * y, 0};
-        element.normal = element.origin = element.edge_u = element.edge_v = Eigen::Vector3d::Zero();
-        // Patches of 5 x 5.
-        element.patch = y / 5 * 8 + x / 5;
-        patches_.elements.push_back(element);
-      }
-    }
-    Patch patch;
-    patch.center = patch.origin = patch.edge_u = patch.edge_v = Eigen::Vector3d::Zero();
-    patches_.patches.assign(48, patch);
-    for (int view = 0; view < 8; ++view) {
-      RegisteredView one;
-      one.view = "v" + std::to_string(view);
-      // Camera frame: the wall lies ahead.
-      one.cam_from_world = Eigen::Translation3d(-0.4 - 0.45 * view, -0.5 - 0.25 * view, 2.0);
-      registered_.registration.views.push_back(one);
-    }
+    photos_ = MakeBrackets(session_, session_.photos, quiet);
+    registered_.cameras = {wall_.camera};
+    registered_.registration.views = wall_.views;
   }
 
-  // `exposure_factor`: by how much a view's photo was longer than stated.
-  std::vector<Observation> Observe(bool vignetted, const std::vector<double>& exposure_factor) {
-    std::normal_distribution<double> noise(0, 0.005);
-    const Vignetting frame = NoVignetting(640, 480);
-    std::vector<Observation> observations;
-    for (int view = 0; view < 8; ++view) {
-      for (int e = 0; e < static_cast<int>(patches_.elements.size()); ++e) {
-        const Eigen::Vector2d pixel = Project(
-            registered_.cameras[0], registered_.registration.views[static_cast<size_t>(view)].cam_from_world *
-                                        patches_.elements[static_cast<size_t>(e)].center);
-        if (pixel.x() < 0 || pixel.y() < 0 || pixel.x() > 639 || pixel.y() > 479) continue;
-        double value = 0.2 + 0.1 * std::sin(0.3 * e);
-        truth_[e] = value;
-        if (vignetted)
-          value *= support::NaturalVignetting((pixel - frame.center_px).norm() / frame.radius_px, 0.7);
-        value *= exposure_factor[static_cast<size_t>(view)] * (1 + noise(rng_));
-        observations.push_back({e, view, 0, 20, value, 1e-8, Eigen::Vector3d::Constant(value)});
-      }
-    }
-    return observations;
+  std::vector<Observation> Calibrated(bool vignetted, const std::vector<double>& exposure_factor) {
+    nlohmann::json artifact;
+    return WithSelfCalibration(session_, photos_, registered_, wall_.patches,
+                               wall_.Observe(vignetted, exposure_factor, rng_), context_, artifact);
   }
 
+  support::WallPhotos wall_;
   Session session_;
+  LinearizedPhotos photos_;
   RegisteredSession registered_;
-  Patches patches_;
-  std::map<int, double> truth_;
 };
 
-TEST_F(ObservedLightTest, VignettingAndSmallGainsAreTakenOut) {
-  const std::vector<double> factors{1, 1.01, 0.99, 1.005, 1, 0.995, 1.01, 0.99};
-  nlohmann::json artifact;
-  const auto corrected =
-      WithSelfCalibration(session_, registered_, patches_, Observe(true, factors), context_, artifact);
+TEST_F(ObservedLightTest, VignettingThatIsAskedForIsNoWarning) {
+  Calibrated(true, {1, 1.01, 0.99, 1.005, 1, 0.995, 1.01, 0.99});
   EXPECT_THAT(context_.warnings, IsEmpty());
-  ASSERT_THAT(context_.choices, SizeIs(1));
-  double scale = 0;
-  for (const Observation& o : corrected) scale += o.relative_luminance / truth_[o.element];
-  scale /= static_cast<double>(corrected.size());
-  double squares = 0;
-  for (const Observation& o : corrected)
-    squares += std::pow(o.relative_luminance / truth_[o.element] / scale - 1, 2);
-  // Noise of 0.5 % stays; the corners were 66 % down.
-  EXPECT_LT(std::sqrt(squares / static_cast<double>(corrected.size())), 0.008);
+  EXPECT_THAT(context_.choices, SizeIs(1));
 }
 
 TEST_F(ObservedLightTest, OnlyThePhotoThatLiesIsNamed) {
   std::vector<double> factors(8, 1.0);
-  nlohmann::json artifact;
-  WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
+  Calibrated(false, factors);
   EXPECT_THAT(context_.warnings, IsEmpty());
   EXPECT_EQ(context_.choices.at(0).chosen, "as recorded");
   factors[3] = 2;
-  const auto corrected =
-      WithSelfCalibration(session_, registered_, patches_, Observe(false, factors), context_, artifact);
+  const auto corrected = Calibrated(false, factors);
   ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
   EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos.csv:5 (v3.png)"));
   // The prior of the eight holds their mean, which the one that is off moves a little.
   EXPECT_THAT(context_.warnings[0].message, AnyOf(HasSubstr("1.99"), HasSubstr("2.00")));
   // It is as bright as the others then.
-  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / truth_[o.element], 1, 0.04);
+  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
 }
 
 }  // namespace

@@ -119,6 +119,17 @@ TEST_F(Simulate, WritesIlluminanceOfEveryReading) {
   EXPECT_GT(lux[1], lux[0] / 2);
 }
 
+TEST_F(Simulate, ComparesNothingWithPlacesThatNobodyMeasured) {
+  folder_.Replace("luxmeter.csv", "both,150", "both,");
+  const support::ProgramRun run = Run();
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, testing::Not(HasSubstr("compared with")));
+  const nlohmann::json summary = Artifact()["summary"];
+  EXPECT_EQ(summary["readings_checked"], 0);
+  EXPECT_TRUE(summary["mean_abs_error_lx"].is_null() && summary["max_abs_error_percent"].is_null())
+      << summary;
+}
+
 TEST_F(Simulate, LeavesAnArtifactThatCanBeUnderstoodAlone) {
   const support::ProgramRun run = Run("--json 2>/dev/null");
   ASSERT_EQ(run.status, 0);

@@ -22,6 +22,16 @@ TEST(FormerKeys, StandBesideThePresentOnesAtAnyDepth) {
                           {"summary", {{"mean_abs_error_lx", nullptr}, {"mean_abs_error_lux", nullptr}}}}));
 }
 
+TEST(FormerKeys, WholeKeysHaveFormerNamesToo) {
+  json finding = {{"fix", "tilt it"}, {"prefix", 1}, {"relative_sigma_prior", 0.02}};
+  AddFormerKeys(finding);
+  EXPECT_EQ(finding, (json{{"fix", "tilt it"},
+                           {"mend", "tilt it"},
+                           {"prefix", 1},
+                           {"relative_sigma_prior", 0.02},
+                           {"relative_sigma_beforehand", 0.02}}));
+}
+
 TEST(FormerKeys, ResultsOfTheFormerVersionAreReadByThePresentOnes) {
   json result = {{"predicted_lux", 4}, {"sigma_lux", 1}, {"sigma_lx", 2}, {"lux", 3}, {"flux_lm", 5}};
   AddPresentKeys(result);

@@ -28,7 +28,7 @@ TEST(CalibrationAccuracy, RecoversALensFromNoisyBoards) {
   BoardViewsOptions views;
   views.images = 100;
   const Calibration result =
-      CalibrateCameras(ViewsOf(truth, views, rng, support::GridTarget(24, 18, 0.025)), Only("OPENCV8"));
+      CalibrateCameras(ViewsOf(truth, views, rng, support::GridTarget(24, 18, 0.025)), Only("opencv8"));
   ASSERT_TRUE(result.IsUsable()) << result.message;
   const CalibratedCamera& camera = result.cameras.front();
   // One sigma is 0.008 % here.
@@ -52,11 +52,11 @@ TEST(CalibrationAccuracy, FisheyeLensesAreFittedBySplinesToo) {
   views.nearest_m = 0.15;
   views.farthest_m = 0.45;
   const CalibrationInput input = ViewsOf(truth, views, rng);
-  const Calibration fisheye = CalibrateCameras(input, Only("FISHEYE"));
+  const Calibration fisheye = CalibrateCameras(input, Only("fisheye"));
   ASSERT_TRUE(fisheye.IsUsable()) << fisheye.message;
   EXPECT_NEAR(fisheye.cameras[0].camera.fx_px, truth.fx_px, 5e-4 * truth.fx_px);
   EXPECT_NEAR(fisheye.held_out_px, kNoisePx, 0.02 * kNoisePx);
-  const Calibration splined = CalibrateCameras(input, Only("SPLINED8"));
+  const Calibration splined = CalibrateCameras(input, Only("splined8"));
   ASSERT_TRUE(splined.converged) << splined.message;
   // Its core means something else, so lenses are compared by where they put directions.
   EXPECT_LT(support::LensDifferencePx(truth, splined.cameras[0].camera, 0.8), 0.15);

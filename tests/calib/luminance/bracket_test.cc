@@ -160,31 +160,6 @@ TEST(BracketTest, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(merger.Add(Shoot(camera, LogRamp(4, 5, 0.1, 0.2), 1, rng), 0.5), std::invalid_argument);
 }
 
-TEST(SensorNoiseTest, IsFoundFromTwoExposuresOfOnePose) {
-  auto rng = support::TestRng();
-  CameraModel camera;
-  camera.full_well = 10000;
-  camera.read_electrons = 12;
-  camera.black_counts = 2000;
-  const auto scene = LogRamp(200, 300, 2e-4, 0.9);
-  const Photo a = Shoot(camera, scene, 1, rng), b = Shoot(camera, scene, 0.25, rng);
-  std::vector<NoisePair> pairs;
-  const auto share = [](const Photo& photo, Eigen::Index i) {
-    return (photo.rgb_counts[1].data()[i] - 2000) / (65535 - 2000);
-  };
-  for (Eigen::Index i = 0; i < a.rgb_counts[1].size(); ++i) pairs.push_back({share(a, i), share(b, i)});
-  const auto noise = EstimateNoise(pairs, 1, 0.25);
-  ASSERT_TRUE(noise.has_value());
-  // A bin of 3000 pairs knows its sigma to 2 % by the median deviation; 20 bins share two parameters.
-  EXPECT_NEAR(noise->read, 1.2e-3, 0.05 * 1.2e-3);
-  EXPECT_NEAR(noise->shot, 1e-4, 0.05 * 1e-4);
-}
-
-TEST(SensorNoiseTest, TooFewPairsGiveNone) {
-  EXPECT_FALSE(EstimateNoise(std::vector<NoisePair>(100), 1, 1).has_value());
-  EXPECT_THROW(EstimateNoise({}, 0, 1), std::invalid_argument);
-}
-
 TEST(WithoutAmbientTest, SubtractsChannelsAndAddsVariances) {
   const CameraModel camera;
   auto rng = support::TestRng();

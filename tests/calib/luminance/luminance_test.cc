@@ -5,8 +5,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "calib/luminance/internal/known_luminance.h"
-
 namespace luxfit {
 namespace {
 
@@ -103,32 +101,6 @@ TEST(LuminanceTest, RefusesWhatHasNoMeaning) {
   LuminanceOptions options;
   options.black_level_counts = 70000;
   EXPECT_THROW(ToRelativeLuminance(photo, 1, options), std::invalid_argument);
-}
-
-TEST(KnownLuminanceTest, GivesTheScaleThatTheFormatMeans) {
-  // 10 000 counts above black in 0.5 s of a surface of 300 cd/m2: 300 / 20 000 per count and second.
-  LuminanceOptions options;
-  options.black_level_counts = 500;
-  const LuminanceImage image = ToRelativeLuminance(Uniform(8, 8, 10500, 10500, 10500), 0.5, options);
-  PixelMask patch = PixelMask::Constant(8, 8, false);
-  patch.block(2, 2, 4, 4).setConstant(true);
-  const auto scale = ScaleFromKnownLuminance(image, patch, 300, 0.02, 65535.0 - 500);
-  ASSERT_TRUE(scale.has_value());
-  EXPECT_NEAR(scale->cdm2_per_count_s, 300.0 / 20000, 1e-7);
-  EXPECT_NEAR(scale->relative_sigma, 0.02, 1e-4);
-}
-
-TEST(KnownLuminanceTest, SaturatedAndSmallPatchesGiveNone) {
-  Photo photo = Uniform(8, 8, 10000, 10000, 10000);
-  photo.rgb_counts[1](3, 3) = 65535;
-  const LuminanceImage image = ToRelativeLuminance(photo, 1);
-  const PixelMask all = PixelMask::Constant(8, 8, true);
-  EXPECT_FALSE(ScaleFromKnownLuminance(image, all, 300, 0, 65535).has_value());
-  PixelMask one = PixelMask::Constant(8, 8, false);
-  one(7, 7) = true;
-  EXPECT_FALSE(ScaleFromKnownLuminance(image, one, 300, 0, 65535).has_value());
-  EXPECT_THROW(ScaleFromKnownLuminance(image, all, 0, 0, 65535), std::invalid_argument);
-  EXPECT_THROW(ScaleFromKnownLuminance(image, PixelMask(2, 2), 300, 0, 65535), std::invalid_argument);
 }
 
 }  // namespace

@@ -66,9 +66,7 @@ TEST(ElementVisibility, IsThatOfTheRays) {
 
 TEST(PatchSightOf, NeverContradictsARay) {
   const Room room = MakeRoom(FurnishedRoom(), {{0.5, 0.25}, {16}});
-  std::vector<Blocker> blockers;
-  for (size_t f = 0; f < room.patches.facets.size(); ++f)
-    blockers.push_back(MakeBlocker(room.patches.facets[f], static_cast<int>(f)));
+  const std::vector<Blocker> blockers = BlockersOf(room.patches.facets);
   std::mt19937_64 rng(6);
   int decided = 0;
   for (int trial = 0; trial < 40; ++trial) {

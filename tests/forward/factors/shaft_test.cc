@@ -48,7 +48,7 @@ TEST(Shaft, ProvesWhatRaysFind) {
     const Facet c = RandomPlate(rng, {1, 0, 0}, {1, 0, 0}, trial % 2 == 0 ? 0.3 : 4);
     const ConvexPolygon pa = MakePolygon(a.origin, a.edge_u, a.edge_v, a.kind);
     const ConvexPolygon pb = MakePolygon(b.origin, b.edge_u, b.edge_v, b.kind);
-    const Blocker blocker = MakeBlocker(c, 2);
+    const Blocker blocker = BlockersOf({c}).front();
     Shaft shaft(pa, a.Normal(), pb, b.Normal());
     shaft.MakeSides();
     const bool excludes = shaft.ClearlyExcludes(blocker) || shaft.SidesExclude(blocker);

@@ -321,11 +321,5 @@ TEST_F(Sphere, AutoFactorsForManyColumnsOnly) {
   EXPECT_EQ(chosen(n), RadiositySolver::kCholesky);
 }
 
-TEST(SolverNames, AreReadAsTheyAreWritten) {
-  for (const RadiositySolver solver : kSolvers) EXPECT_EQ(RadiositySolverFromName(ToString(solver)), solver);
-  EXPECT_EQ(RadiositySolverFromName("auto"), RadiositySolver::kAuto);
-  EXPECT_THROW(RadiositySolverFromName("magic"), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace luxfit

@@ -54,10 +54,13 @@ TEST_F(SparseRoom, IterativeSolversGiveWhatTheyGiveForTheDenseMatrix) {
   // short of 0.1 % of it.)
   const Eigen::MatrixXf direct = Eigen::MatrixXf::NullaryExpr(
       dense().rows(), 3, [](Eigen::Index i, Eigen::Index column) { return i % 3 == column ? 100.0f : 0.0f; });
-  for (const char* name :
-       {"auto", "jacobi", "gauss_seidel", "neumann", "shooting", "conjugate_gradient", "bicgstab"}) {
+  for (const RadiositySolver solver :
+       {RadiositySolver::kAuto, RadiositySolver::kJacobi, RadiositySolver::kGaussSeidel,
+        RadiositySolver::kNeumann, RadiositySolver::kShooting, RadiositySolver::kConjugateGradient,
+        RadiositySolver::kBicgstab}) {
+    const std::string name = ToString(solver);
     RadiositySolverOptions options;
-    options.solver = RadiositySolverFromName(name);
+    options.solver = solver;
     const RadiositySolution sparse = SolveRadiosity(*sparse_, PatchAreas(room_->patches),
                                                     PatchMaterials(room_->patches), albedo, direct, options);
     if (options.solver == RadiositySolver::kAuto) options.solver = sparse.solver;

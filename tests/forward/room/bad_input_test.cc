@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "forward/direct/internal/luminaire_rays.h"
 #include "forward/direct/luminaire_body.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/internal/adaptive_patches.h"
@@ -104,8 +103,6 @@ TEST_F(BadLight, LuminairesAreRefusedByEveryPath) {
     expect_refused([&] { WithLuminaireBodies(room_.scene, luminaires); });
     expect_refused([&] { AdaptivePatches(MakeRoom({}), {}, luminaires, 10); });
     EXPECT_THAT(RefusalOf([&] { ShareOutsideRoom(room_.rays, bad); }), HasSubstr("luminaire \"\": expected"));
-    EXPECT_THAT(RefusalOf([&] { LuminaireFormFactors(room_.rays, room_.patches, bad); }),
-                HasSubstr("luminaire \"\": expected"));
   }
 }
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {

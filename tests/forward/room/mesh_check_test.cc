@@ -8,7 +8,7 @@
 #include <string>
 
 #include "forward/light/room.h"
-#include "forward/room/mesh_file.h"
+#include "forward/room/scene.h"
 #include "tests/paths.h"
 #include "tests/support/scenes.h"
 

@@ -57,14 +57,5 @@ TEST(PlaneStatistics, ACommonFactorLeavesUniformityAlone) {
   EXPECT_NEAR(s.uniformity_sigma, 0, 1e-12);
 }
 
-TEST(PlaneStatistics, VerdictsAreAt95Percent) {
-  EXPECT_EQ(AtLeast(520, 10, 500), Verdict::kMet);
-  EXPECT_EQ(AtLeast(519, 10, 500), Verdict::kOpen);
-  EXPECT_EQ(AtLeast(480, 10, 500), Verdict::kMissed);
-  EXPECT_EQ(AtMost(18, 0.4, 19), Verdict::kMet);
-  EXPECT_EQ(AtMost(19.5, 0.4, 19), Verdict::kOpen);
-  EXPECT_EQ(AtLeast(500, std::nan(""), 400), Verdict::kOpen);
-}
-
 }  // namespace
 }  // namespace luxfit

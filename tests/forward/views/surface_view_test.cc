@@ -91,7 +91,7 @@ TEST(RenderView, RaysThatAreNoneAndThatMeetNothingAreBlack) {
   EXPECT_THROW(LightRoom(room, {}, Eigen::MatrixXd::Constant(2, 1, 0.5)), std::invalid_argument);
 }
 
-TEST(SurfaceIlluminance, InterpolatedGatheredAndSensorsAgree) {
+TEST(RenderView, SurfacesShowTheLightThatSensorsReceive) {
   const Room room = BoxRoom();
   Eigen::MatrixXd albedo(1, 2);
   albedo << 0.3, 0.7;
@@ -100,27 +100,14 @@ TEST(SurfaceIlluminance, InterpolatedGatheredAndSensorsAgree) {
     const Eigen::Vector3d p = room.scene.facets[4].PointAt(u, v);
     const Receivers receivers = MakeReceivers(room, {}, {{p, {0, 0, 1}, {}}});
     const LuminaireVisibility visibility = ComputeVisibility(room, receivers, lit.luminaires);
-    const Eigen::RowVectorXd interpolated = SurfaceIlluminance(room, lit, 4, u, v);
-    const Eigen::RowVectorXd gathered = SurfaceIlluminance(room, lit, 4, u, v, {4096});
+    const Eigen::MatrixXd luminance =
+        RenderView(room, lit, p + Eigen::Vector3d(0, 0, 1), -Eigen::Vector3d::UnitZ());
     for (Eigen::Index c = 0; c < 2; ++c) {
       const double expected =
           3000 * ComputeIlluminance(room, receivers, visibility, lit.luminaires, albedo.col(c)).total(0, 0);
-      EXPECT_NEAR(gathered[c], expected, 0.004 * expected);      // 4096 rays
-      EXPECT_NEAR(interpolated[c], expected, 0.006 * expected);  // 4 or more elements of 1024 rays
+      EXPECT_NEAR(luminance(0, c) * kPi / albedo(0, c), expected, 0.006 * expected);  // 4 or more elements
     }
   }
-}
-
-// The furnace: in a room where every surface emits the same, all surfaces get it back.
-TEST(GatherIlluminance, OfAFurnaceIsItsExitance) {
-  const Room room = BoxRoom();
-  const Eigen::MatrixXf exitance =
-      Eigen::MatrixXf::Constant(static_cast<Eigen::Index>(room.patches.elements.size()), 2, 5);
-  const Sensor sensor{{1, 1.2, 0.7}, {0, 0, 1}, {}};
-  const Gathered gathered = GatherIlluminance(room, exitance, sensor, SampleResponse(sensor, 500));
-  EXPECT_NEAR(gathered.illuminance_lx[0], 5, 1e-9);
-  EXPECT_NEAR(gathered.illuminance_lx[1], 5, 1e-9);
-  EXPECT_EQ(gathered.back_share, 0);
 }
 
 TEST(GridOf, CellsAreEqualAndTheirCentresInside) {
@@ -141,42 +128,6 @@ TEST(GridOf, WithoutSpacingFollowsEn12464) {
     EXPECT_EQ(GridOf({{0, 0, 0}, {1.0 * length, 0, 0}, {0, 1.0 * length, 0}, 0}).count_u, points) << length;
   // A corridor is divided by its width.
   EXPECT_EQ(GridOf({{0, 0, 0}, {10, 0, 0}, {0, 1, 0}, 0}).count_v, 5);
-}
-
-TEST(ComputePlane, AgreesWithSensorsAndMarksSolids) {
-  Scene scene = support::ClosedRoom({3, 2, 2.5});
-  support::AddBox(scene, {Eigen::Vector3d(2, 1, 0), Eigen::Vector3d(3, 2, 1.2)}, support::Facing::kOutward,
-                  {"box"});
-  const Room room = MakeRoom(scene, {{0.5, 0.25}, {256}});
-  Eigen::MatrixXd albedo(2, 2);
-  albedo << 0.5, 0.7, 0.2, 0.3;
-  const LitRoom lit = LightRoom(room, {Panel()}, albedo);
-  const PlaneIlluminance plane = ComputePlane(room, lit, {{0, 0, 0.8}, {3, 0, 0}, {0, 2, 0}, 0.5});
-  std::vector<Sensor> sensors;
-  for (Eigen::Index k = 0; k < plane.grid.points.cols(); ++k)
-    sensors.push_back({plane.grid.points.col(k), plane.grid.normal, {}});
-  const Receivers receivers = MakeReceivers(room, {}, sensors);
-  const LuminaireVisibility visibility = ComputeVisibility(room, receivers, lit.luminaires);
-  int inside = 0;
-  for (Eigen::Index c = 0; c < 2; ++c) {
-    const Illuminance light = ComputeIlluminance(room, receivers, visibility, lit.luminaires, albedo.col(c));
-    for (Eigen::Index k = 0; k < plane.grid.points.cols(); ++k) {
-      const Eigen::Vector3d p = plane.grid.points.col(k);
-      const bool in_box = p.x() > 2 && p.y() > 1;
-      EXPECT_EQ(plane.is_inside[static_cast<size_t>(k)] == 1, in_box);
-      if (in_box) {
-        ++inside;
-        EXPECT_EQ(plane.direct_lx[k], 0);
-        continue;
-      }
-      const double direct = 3000 * light.direct(k, 0), total = 3000 * light.total(k, 0);
-      // Penumbra of the box: 6 against 12 points a side, and occlusion in the sum against a visible share.
-      EXPECT_NEAR(plane.direct_lx[k], direct, 0.02 * direct);
-      EXPECT_NEAR(plane.indirect_lx(k, c), total - direct,
-                  0.02 * (total - direct));  // 1024 rays against 16384
-    }
-  }
-  EXPECT_EQ(inside, 2 * 4);
 }
 
 }  // namespace

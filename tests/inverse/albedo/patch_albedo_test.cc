@@ -110,6 +110,37 @@ TEST(PatchAlbedo, CommonSigmaIsInEverySigma) {
                std::invalid_argument);
 }
 
+// The fit knows the wall to 3 %, holds the floor and does not determine the ceiling.
+TEST(PatchAlbedo, CommonSigmaIsThatOfTheFit) {
+  LuminaireFit fit;
+  fit.state = support::PosterRoomLight();
+  for (const int m : {kWall, kCeiling}) {
+    Parameter parameter;
+    parameter.kind = ParameterKind::kAlbedo;
+    parameter.index = m;
+    parameter.owner = TheRoom().scene.materials[static_cast<size_t>(m)];
+    fit.parameters.push_back(parameter);
+  }
+  const double sigma = 0.03 * fit.state.albedo[kWall];
+  fit.covariance = Eigen::Vector2d(sigma * sigma, 1).asDiagonal();
+  fit.undetermined = {fit.parameters[1].id()};
+  PatchAlbedoOptions options;
+  options.common_sigma = Eigen::Vector3d(0.03, 0, 0);
+  const PatchAlbedo given = EstimatePatchAlbedo(TheRoom(), TheData(), fit.state, options);
+  const PatchAlbedo fitted = EstimatePatchAlbedo(TheRoom(), TheData(), fit);
+  for (const size_t m : {kWall, kFloor, kCeiling})
+    EXPECT_NEAR(fitted.materials[m].sigma, given.materials[m].sigma, 1e-12) << m;  // rounding
+}
+
+TEST(PatchAlbedo, AFewUnlikeElementsAreBorderAndStains) {
+  MaterialAlbedo material;
+  material.elements = 100;
+  material.unlike_elements = 2;
+  EXPECT_FALSE(material.IsUneven());
+  material.unlike_elements = 3;
+  EXPECT_TRUE(material.IsUneven());
+}
+
 // One state: an element's others are its neighbours, so nothing finer than patches can be told.
 TEST(PatchAlbedo, OneStateIsEnoughForMaterials) {
   LightData one = TheData();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace luxfit {
 namespace {
 
@@ -20,12 +22,12 @@ TEST(SummarizeLuxmeter, MeanErrorIsOfTheMeanReading) {
   EXPECT_NEAR(summary.max_abs_error_percent, 10, 1e-12);
 }
 
-TEST(SummarizeLuxmeter, NoReadingsGiveZeros) {
+TEST(SummarizeLuxmeter, NoReadingsHaveNoError) {
   const LuxmeterSummary summary = SummarizeLuxmeter({});
   EXPECT_EQ(summary.readings_checked, 0);
-  EXPECT_EQ(summary.mean_abs_error_lx, 0);
-  EXPECT_EQ(summary.mean_abs_error_percent, 0);
-  EXPECT_EQ(summary.max_abs_error_percent, 0);
+  EXPECT_TRUE(std::isnan(summary.mean_abs_error_lx));
+  EXPECT_TRUE(std::isnan(summary.mean_abs_error_percent));
+  EXPECT_TRUE(std::isnan(summary.max_abs_error_percent));
 }
 
 TEST(SummarizeLuxmeter, AReadingOfNothingHasNoPercentOfItsOwn) {

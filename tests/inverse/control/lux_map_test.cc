@@ -9,6 +9,7 @@
 
 #include "forward/light/room.h"
 #include "inverse/control/dimming.h"
+#include "inverse/model/fit_uncertainty.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
@@ -62,6 +63,26 @@ TEST(LuxMap, IlluminanceIsPiLOverRhoAndUnknownPixelsSayWhy) {
   EXPECT_EQ(lux.gap(0, 3), static_cast<float>(PixelGap::kSaturated));
   EXPECT_NEAR(lux.known_share, 0.25, 1e-12);
   EXPECT_NEAR(lux.saturated_share, 1.0 / 3, 1e-12);
+}
+
+// var(ln c rho) = var(ln c) + 2 cov(ln c, rho) / rho + var(rho) / rho^2.
+TEST(LuxMap, TheProductOfScaleAndReflectanceIsKnownBetterThanEither) {
+  const ParameterId camera{ParameterKind::kLogCameraScale, ""}, wall{ParameterKind::kAlbedo, "wall"};
+  FitUncertainty fit;
+  fit.parameters = {camera, wall};
+  fit.is_determined = {true, true};
+  fit.covariance = Eigen::Vector2d(4e-4, 1e-4).asDiagonal();
+  fit.covariance(0, 1) = fit.covariance(1, 0) = -1.8e-4;
+  fit.relative_model_sigma = 0.01;
+  const FittedSurfaces surfaces{
+      {"wall", "given", "unseen"}, Eigen::Vector3d(0.5, 0.3, 0.2), {true, true, false}};
+  const SurfaceScale scale = ScaleOfSurfaces(2.5, surfaces, fit);
+  EXPECT_NEAR(scale.relative_sigma[0], std::sqrt(4e-4 - 2 * 1.8e-4 / 0.5 + 1e-4 / 0.25), 1e-12);  // rounding
+  EXPECT_DOUBLE_EQ(scale.relative_sigma[1], 0.02);  // the scale's alone
+  EXPECT_TRUE(std::isnan(scale.relative_sigma[2]));
+  EXPECT_EQ(scale.camera_scale, 2.5);
+  EXPECT_EQ(scale.relative_model_sigma, 0.01);
+  EXPECT_THROW(ScaleOfSurfaces(1, {{"wall"}, {}, {}}, fit), std::invalid_argument);
 }
 
 TEST(LuxMap, RefusesACameraWithoutScale) {

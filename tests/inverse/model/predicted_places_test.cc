@@ -1,4 +1,4 @@
-#include "inverse/model/predicted_places.h"
+#include "inverse/model/fit_uncertainty.h"
 
 #include <gtest/gtest.h>
 

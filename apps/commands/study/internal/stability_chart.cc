@@ -5,14 +5,14 @@
 #include <cmath>
 #include <functional>
 
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 
 namespace luxfit {
 namespace {
 
-LineSeries Series(const DegradationResult& result, const std::string& name,
-                  const std::function<double(const LevelResult&)>& value) {
-  LineSeries series{name, {}, {}, true};
+XySeries Series(const DegradationResult& result, const std::string& name,
+                const std::function<double(const LevelResult&)>& value) {
+  XySeries series{name, {}, {}, true};
   for (const LevelResult& level : result.levels) series.points.push_back({level.level, value(level)});
   return series;
 }
@@ -24,7 +24,7 @@ std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{:.4
 }  // namespace
 
 std::string StabilitySvg(const DegradationResult& result, const std::string& session, int trials) {
-  LineChart rates, errors;
+  XyChart rates, errors;
   rates.title = session + ": " + result.degradation.name;
   rates.subtitle = fmt::format("{} trials a level; success: every luminaire within 50 mm and 10 %", trials);
   rates.x = {result.degradation.axis, result.degradation.is_log, {}, {}};
@@ -47,7 +47,7 @@ std::string StabilitySvg(const DegradationResult& result, const std::string& ses
       Series(result, "flux, %", [](const LevelResult& l) { return 100 * l.summary.median_flux_error; }),
       Series(result, "readings, % of their mean",
              [](const LevelResult& l) { return l.median_lux_error_percent; })};
-  return StackedLineChartsSvg({rates, errors});
+  return XyChartsSvg({rates, errors});
 }
 
 std::string StabilityCsv(const std::vector<DegradationResult>& results) {

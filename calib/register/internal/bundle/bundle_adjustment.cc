@@ -15,6 +15,17 @@ namespace {
 
 constexpr double kMedianOfTwo = 1.386;  // median of chi2 with two degrees of freedom, 2 ln 2
 
+// Returns how many active views use each point.
+std::vector<int> ViewsOfPoints(const BundleAdjustment& adjustment) {
+  std::vector<int> views(adjustment.points.size(), 0);
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (const PointObservation& seen : view.points)
+      views[static_cast<std::size_t>(seen.point)] += seen.used ? 1 : 0;
+  }
+  return views;
+}
+
 // Holds a point's residual, and the share of its square that the fit of the point leaves: (2n - 3) / 2n for n
 // views.
 struct PointError {
@@ -23,12 +34,7 @@ struct PointError {
 };
 
 std::vector<PointError> PointErrors(const BundleContext& context, const BundleAdjustment& adjustment) {
-  std::vector<int> seen_by(adjustment.points.size(), 0);
-  for (const BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    for (const PointObservation& seen : view.points)
-      seen_by[static_cast<std::size_t>(seen.point)] += seen.used;
-  }
+  const std::vector<int> seen_by = ViewsOfPoints(adjustment);
   std::vector<PointError> errors;
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
@@ -108,12 +114,7 @@ void BundleView::SetCamFromWorld(const Eigen::Isometry3d& cam_from_world) {
 }
 
 std::vector<bool> UsedPoints(const BundleAdjustment& adjustment) {
-  std::vector<int> seen(adjustment.points.size(), 0);
-  for (const BundleView& view : adjustment.views) {
-    if (!view.active) continue;
-    for (const PointObservation& observation : view.points)
-      seen[static_cast<std::size_t>(observation.point)] += observation.used ? 1 : 0;
-  }
+  const std::vector<int> seen = ViewsOfPoints(adjustment);
   std::vector<bool> used(seen.size());
   std::transform(seen.begin(), seen.end(), used.begin(), [](int n) { return n >= 2; });
   return used;
@@ -179,7 +180,7 @@ void RescaleBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
     unknowns += 6;
-    corners += 4 * static_cast<double>(std::count(view.used.begin(), view.used.end(), true));
+    corners += 4 * view.TagsUsed();
     for (const PointObservation& seen : view.points)
       seen_points += seen.used && used[static_cast<std::size_t>(seen.point)] ? 1 : 0;
   }

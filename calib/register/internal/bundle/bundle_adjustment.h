@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct BundleView {
   // world_from_cam rotation (x y z w), centre in world: the solver's form.
   Eigen::Matrix<double, 7, 1> pose = Eigen::Matrix<double, 7, 1>::Unit(3);
 
+  int TagsUsed() const { return static_cast<int>(std::count(used.begin(), used.end(), true)); }
   Eigen::Isometry3d CamFromWorld() const;
   void SetCamFromWorld(const Eigen::Isometry3d& cam_from_world);
 };

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "calib/lens/internal/cross_matrix.h"
+#include "calib/lens/internal/rotation_vector.h"
 #include "calib/register/feature_model.h"
 
 namespace luxfit {

@@ -7,6 +7,8 @@
 #include <opencv2/calib3d.hpp>
 #include <utility>
 
+#include "calib/lens/internal/rotation_vector.h"
+
 namespace luxfit {
 namespace {
 
@@ -58,18 +60,6 @@ std::vector<cv::SolvePnPMethod> MethodsFor(const std::vector<cv::Point3d>& point
   return {cv::SOLVEPNP_SQPNP};
 }
 
-Eigen::Isometry3d ToIsometry(const cv::Mat& rotation_vector, const cv::Mat& translation,
-                             const Eigen::Vector3d& centroid) {
-  const Eigen::Vector3d r(rotation_vector.at<double>(0), rotation_vector.at<double>(1),
-                          rotation_vector.at<double>(2));
-  const Eigen::Vector3d t(translation.at<double>(0), translation.at<double>(1), translation.at<double>(2));
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const double angle = r.norm();
-  if (angle > 0) pose.linear() = Eigen::AngleAxisd(angle, r / angle).toRotationMatrix();
-  pose.translation() = t - pose.linear() * centroid;
-  return pose;
-}
-
 bool IsSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   constexpr double kSameAngle = 0.01;  // rad; the two solutions of a plane lie several degrees apart or merge
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle() < kSameAngle;
@@ -87,7 +77,8 @@ std::vector<Eigen::Isometry3d> Solve(const std::vector<cv::Point3d>& points,
                         cv::noArray(), rotations, translations, false, method);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
       cv::solvePnPRefineLM(points, rays, identity, cv::noArray(), rotations[i], translations[i]);
-      poses.push_back(ToIsometry(rotations[i], translations[i], centroid));
+      poses.push_back(PoseOf(rotations[i].ptr<double>(), translations[i].ptr<double>()));
+      poses.back().translation() -= poses.back().linear() * centroid;
     }
   } catch (const cv::Exception&) {
     return {};  // degenerate points (all on a line): no solution rather than a wrong one

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "calib/lens/internal/cross_matrix.h"
+#include "calib/lens/internal/rotation_vector.h"
 
 namespace luxfit {
 namespace {

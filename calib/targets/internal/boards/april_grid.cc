@@ -1,8 +1,9 @@
 #include "calib/targets/internal/boards/april_grid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/aruco.hpp>
 #include <utility>
 
@@ -151,12 +152,6 @@ double MeasuredSpacing(const SeenGrid& seen, const Board& board) {
   return Quantile(std::move(gaps), 0.5);
 }
 
-std::string Text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-
 std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
   const std::string grid = std::to_string(board.columns) + " x " + std::to_string(board.rows);
   if (seen.tags.empty())
@@ -186,8 +181,8 @@ std::string WhyNotThisSpacing(const ImagePlane& grey, const SeenGrid& seen, cons
   }
   const double spacing = MeasuredSpacing(straight, board);
   if (std::abs(spacing - board.spacing) > kMostSpacingError)
-    return "the gaps between tags measure " + Text(spacing) + " tag sizes, the board says " +
-           Text(board.spacing) + "; check spacing";
+    return fmt::format("the gaps between tags measure {:.3g} tag sizes, the board says {:.3g}; check spacing",
+                       spacing, board.spacing);
   return "";
 }
 

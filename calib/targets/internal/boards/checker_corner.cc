@@ -1,6 +1,5 @@
 #include "calib/targets/internal/boards/checker_corner.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +9,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kWindowShare = 0.9;
-constexpr double kMostWindowPx = 12;    // more pixels add nothing; lens and perspective bend edges
 constexpr double kLeastContrast = 0.1;  // relative to white: less is no ink on paper
 
 bool HasItsColours(const ImagePlane& grey, const Eigen::Matrix3d& pixel_from_board,
@@ -33,10 +30,7 @@ std::optional<Saddle> MeasureCheckerCorner(const ImagePlane& grey, const Eigen::
                                            const CheckerCorner& corner) {
   const Eigen::Vector2d start = MapPoint(pixel_from_board, corner.place_m);
   if (!start.allFinite() || !HasItsColours(grey, pixel_from_board, corner)) return std::nullopt;
-  const Eigen::Matrix2d board_from_pixel = MapJacobian(pixel_from_board, corner.place_m).inverse();
-  // The window is square in the photo; on the board its image must stay within the clear part.
-  const double reach = board_from_pixel.cwiseAbs().rowwise().sum().maxCoeff();
-  return RefineSaddle(grey, start, std::min(kMostWindowPx, kWindowShare * corner.clear_m / reach));
+  return RefineSaddle(grey, start, pixel_from_board, corner.place_m, corner.clear_m);
 }
 
 }  // namespace luxfit

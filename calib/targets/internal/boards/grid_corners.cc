@@ -1,7 +1,5 @@
 #include "calib/targets/internal/boards/grid_corners.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,8 +13,6 @@
 namespace luxfit {
 namespace {
 
-constexpr double kGridWindowShare = 0.9;  // share of the fields about a corner
-constexpr double kMostGridWindowPx = 12;  // more pixels add nothing; lens and perspective bend edges
 constexpr double kDetectorSigmaPx = 1;
 constexpr int kPixelsAtFirst = 600, kPixels = 1000;  // that a tag's fit uses: a board has many tags
 
@@ -26,12 +22,6 @@ constexpr std::array<std::array<double, 2>, 4> kSquare = {{{0, 0}, {1, 0}, {1, 1
 Eigen::Vector2d FromCorner(std::size_t corner, double along_x, double along_y) {
   const double x = kSquare[corner][0], y = kSquare[corner][1];
   return {x + (x > 0 ? -along_x : along_x), y + (y > 0 ? -along_y : along_y)};
-}
-
-double MeanSide(const std::array<Eigen::Vector2d, 4>& corners_px) {
-  double sum_px = 0;
-  for (std::size_t k = 0; k < 4; ++k) sum_px += (corners_px[(k + 1) % 4] - corners_px[k]).norm();
-  return sum_px / 4;
 }
 
 }  // namespace
@@ -86,11 +76,8 @@ std::optional<bool> GridCornerMeasurer::IsSaddle(const Eigen::Matrix3d& pixel_fr
 void GridCornerMeasurer::MeasureSaddle(const Eigen::Matrix3d& pixel_from_tag, std::size_t corner,
                                        SeenTag& tag) const {
   const Eigen::Vector2d place(kSquare[corner][0], kSquare[corner][1]);
-  const Eigen::Matrix2d tag_from_pixel = MapJacobian(pixel_from_tag, place).inverse();
-  // The window is square in the photo; on the board its image must stay within border and gap.
-  const double reach = tag_from_pixel.cwiseAbs().rowwise().sum().maxCoeff();
-  const double half_px = std::min(kMostGridWindowPx, kGridWindowShare * std::min(border_, spacing_) / reach);
-  const auto saddle = RefineSaddle(grey_, tag.corners_px[corner], half_px);
+  const auto saddle =
+      RefineSaddle(grey_, tag.corners_px[corner], pixel_from_tag, place, std::min(border_, spacing_));
   if (!saddle) return;
   tag.corners_px[corner] = saddle->pixel;
   tag.sigma_px[corner] = saddle->sigma_px;
@@ -115,7 +102,7 @@ std::optional<TagDetection> GridCornerMeasurer::FitTag(const SeenTag& tag, doubl
   detection.id = first_id_ + tag.number;
   detection.corners_px = tag.corners_px;
   for (Eigen::Vector2d& corner : detection.corners_px) corner -= begin.cast<double>().matrix();
-  detection.side_px = MeanSide(tag.corners_px);
+  detection.side_px = MeanSidePx(tag.corners_px);
   detection.corner_sigma_px = kDetectorSigmaPx;
   RefineTagCornersOptions options = refine_;
   options.min_corner_sigma_px = floor_px;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/luminance/internal/plane_sample.h"
+#include "calib/targets/internal/boards/homography.h"
 
 namespace luxfit {
 namespace {
@@ -14,6 +15,8 @@ constexpr double kSaddleConvergedPx = 1e-3;
 constexpr double kLeastCondition = 0.02;  // conditioning of the normal matrix: less is an edge, not a corner
 constexpr double kMostAsymmetry = 0.15;   // share of the patch's variance: more is an occluder, or only noise
 constexpr double kFloorPx = 0.02;         // aliasing, print, flatness
+constexpr double kWindowShare = 0.9;      // of what is clear
+constexpr double kMostWindowPx = 12;      // more pixels add nothing; lens and perspective bend edges
 
 // Holds the sums over the window of w g g^T and w g g^T p, with offsets relative to its middle.
 struct WindowSums {
@@ -125,6 +128,15 @@ std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d
   const double variance = window.Asymmetry() * covariance.trace() / 2 + kFloorPx * kFloorPx;
   if (!std::isfinite(variance)) return std::nullopt;
   return Saddle{at, std::sqrt(variance)};
+}
+
+std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d& start,
+                                   const Eigen::Matrix3d& pixel_from_board, const Eigen::Vector2d& place,
+                                   double clear) {
+  const Eigen::Matrix2d board_from_pixel = MapJacobian(pixel_from_board, place).inverse();
+  // The window is square in the photo: its corners reach furthest on the board.
+  const double reach = board_from_pixel.cwiseAbs().rowwise().sum().maxCoeff();
+  return RefineSaddle(grey, start, std::min(kMostWindowPx, kWindowShare * clear / reach));
 }
 
 }  // namespace luxfit

@@ -29,6 +29,11 @@ struct Saddle {
 // not finite or no saddle, or the corner drifts away.
 std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d& start,
                                    double half_window_px);
+// Returns the same by the largest window whose image on the board stays within `clear` of `place`, where only
+// the four fields are.
+std::optional<Saddle> RefineSaddle(const ImagePlane& grey, const Eigen::Vector2d& start,
+                                   const Eigen::Matrix3d& pixel_from_board, const Eigen::Vector2d& place,
+                                   double clear);
 
 }  // namespace luxfit
 

@@ -1,4 +1,4 @@
-#include "apps/charts/line_chart_svg.h"
+#include "apps/charts/xy_chart_svg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,6 +21,8 @@ TEST(ChartAxisTest, TicksAreRoundAndInside) {
                           testing::DoubleEq(0.8), 1));
   EXPECT_THAT((ChartAxis{0.9, 21, 0, 1, true}.Ticks()), ElementsAre(1, 2, 5, 10, 20));
   EXPECT_THAT((ChartAxis{1, 2e5, 0, 1, true}.Ticks()), ElementsAre(1, 10, 100, 1000, 1e4, 1e5));
+  EXPECT_THAT((ChartAxis{0.7, 0.99, 0, 1, true}.Ticks().size()), testing::Ge(3U))
+      << "less than a factor of two";
 }
 
 TEST(ChartAxisTest, ValuesLieWhereTheyShould) {
@@ -30,12 +32,12 @@ TEST(ChartAxisTest, ValuesLieWhereTheyShould) {
   EXPECT_DOUBLE_EQ(linear(7), 20);  // beyond: at the end
 }
 
-TEST(LineChartTest, PointsThatCannotBeDrawnBreakTheLine) {
-  LineChart chart;
+TEST(XyChartTest, PointsThatCannotBeDrawnBreakTheLine) {
+  XyChart chart;
   chart.title = "a < b";
   chart.series = {
       {"one", {{1, 1}, {2, 2}, {3, std::numeric_limits<double>::quiet_NaN()}, {4, 4}, {5, 5}}, {}, true}};
-  const std::string svg = LineChartSvg(chart);
+  const std::string svg = XyChartsSvg({chart});
   EXPECT_THAT(svg, HasSubstr("a &lt; b"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   const std::size_t begin = svg.find("<path d=\""), end = svg.find("fill", begin);
@@ -44,12 +46,30 @@ TEST(LineChartTest, PointsThatCannotBeDrawnBreakTheLine) {
   EXPECT_EQ(std::count(path.begin(), path.end(), 'L'), 2);
 }
 
-TEST(LineChartTest, NothingToDrawIsNothing) {
-  EXPECT_EQ(LineChartSvg({}), "");
-  LineChart chart;
+TEST(XyChartTest, LabelsOfPointsThatCoincideStandApart) {
+  XyChart chart;
+  chart.series = {{"one", {{1, 1}, {1, 1}}, {"first", "second"}, false}};
+  const std::string svg = XyChartsSvg({chart});
+  const auto before = [&svg](const std::string& label) {
+    const std::size_t end = svg.find(">" + label + "<"), begin = svg.rfind("<text", end);
+    return svg.substr(begin, svg.find("font-size", begin) - begin);
+  };
+  EXPECT_NE(before("first"), before("second"));
+}
+
+TEST(XyChartTest, TheLegendNamesWhatIsDrawn) {
+  XyChart chart;
+  chart.series = {{"one\ntwo", {{1, 1}}, {}, false}, {"none", {}, {}, false}};
+  const std::string svg = XyChartsSvg({chart});
+  EXPECT_THAT(svg, testing::AllOf(HasSubstr(">one<"), HasSubstr(">two<"), Not(HasSubstr("none<"))));
+}
+
+TEST(XyChartTest, NothingToDrawIsNothing) {
+  EXPECT_EQ(XyChartsSvg({XyChart{}}), "");
+  XyChart chart;
   chart.y.is_log = true;
   chart.series = {{"one", {{1, 0}}, {}, true}};
-  EXPECT_EQ(LineChartSvg(chart), "");
+  EXPECT_EQ(XyChartsSvg({chart}), "");
 }
 
 }  // namespace

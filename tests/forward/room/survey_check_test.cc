@@ -1,4 +1,4 @@
-#include "inverse/check/survey_check.h"
+#include "forward/room/mesh_check.h"
 
 #include <gtest/gtest.h>
 
