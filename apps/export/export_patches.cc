@@ -36,18 +36,6 @@ std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd
   return values;
 }
 
-// Returns the state with the most light.
-std::string BrightestState(const FittedRoom& fitted) {
-  std::string brightest;
-  double most = -1;
-  for (const SessionState& state : fitted.session.states) {
-    const double sum = DimmingOf(fitted, state.id).sum();
-    if (sum > most) brightest = state.id;
-    most = std::max(most, sum);
-  }
-  return brightest;
-}
-
 Eigen::Matrix3Xi ColoursOf(const Eigen::VectorXd& values, const ColourScale& scale) {
   Eigen::Matrix3Xi rgb(3, values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i)

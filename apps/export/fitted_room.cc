@@ -168,4 +168,19 @@ Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state) {
   throw std::runtime_error(fitted.session.path + ": states: " + ExpectedOneOf(known, state));
 }
 
+std::string BrightestState(const FittedRoom& fitted) {
+  std::string brightest;
+  double largest = -1;
+  for (const SessionState& state : fitted.session.states) {
+    const Eigen::VectorXd dimming = DimmingOf(fitted, state.id);
+    double flux = 0;
+    for (size_t k = 0; k < fitted.luminaires.size(); ++k)
+      flux += dimming[static_cast<Eigen::Index>(k)] * fitted.luminaires[k].flux_lm;
+    if (flux <= largest) continue;
+    largest = flux;
+    brightest = state.id;
+  }
+  return brightest;
+}
+
 }  // namespace luxfit

@@ -60,6 +60,9 @@ PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors,
 // states.
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state);
 
+// Returns the state with the most light; empty without states.
+std::string BrightestState(const FittedRoom& fitted);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_APPS_EXPORT_FITTED_ROOM_H_

@@ -1,5 +1,6 @@
 #include "apps/report/report.h"
 
+#include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -8,6 +9,7 @@
 #include "apps/report/report_places.h"
 #include "apps/report/report_room.h"
 #include "apps/report/report_views.h"
+#include "apps/stages/linearize/linearize.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/version.h"
 
@@ -33,6 +35,20 @@ json StatesJson(const FittedRoom& fitted) {
   return states;
 }
 
+// Returns the largest ambient light that was subtracted from a reading; null where none was measured.
+json AmbientJson(const Session& session) {
+  json most_lx;
+  for (const SessionState& state : session.states) {
+    if (!IsAmbient(session, state)) continue;
+    for (const SessionReading& reading : session.luxmeter.readings) {
+      if (reading.state != state.id || !reading.is_measured) continue;
+      most_lx = most_lx.is_null() ? reading.illuminance_lx
+                                  : std::max(most_lx.get<double>(), reading.illuminance_lx);
+    }
+  }
+  return most_lx;
+}
+
 // Returns the conditions of the measurement.
 json ConditionsJson(const FittedRoom& fitted) {
   const Session& session = fitted.session;
@@ -55,7 +71,7 @@ json ConditionsJson(const FittedRoom& fitted) {
           {"meter_class", session.luxmeter.meter_class},
           {"sensitivity",
            session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
-          {"ambient_lx", nullptr},  // the room holds the readings as they were read
+          {"ambient_lx", AmbientJson(session)},
           {"mesh", session.scene ? json(session.scene->mesh) : json()},
           {"unit", session.scene ? json(session.scene->unit) : json()},
           {"tags", session.tags.survey.size()},
@@ -74,21 +90,6 @@ json TasksJson() {
 }
 
 }  // namespace
-
-std::string BrightestState(const FittedRoom& fitted) {
-  std::string brightest;
-  double largest = -1;
-  for (const SessionState& state : fitted.session.states) {
-    const Eigen::VectorXd dimming = DimmingOf(fitted, state.id);
-    double flux = 0;
-    for (size_t k = 0; k < fitted.luminaires.size(); ++k)
-      flux += dimming[static_cast<Eigen::Index>(k)] * fitted.luminaires[k].flux_lm;
-    if (flux <= largest) continue;
-    largest = flux;
-    brightest = state.id;
-  }
-  return brightest;
-}
 
 json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
   const ReportTargets targets =

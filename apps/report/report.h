@@ -18,9 +18,6 @@ struct ReportOptions {
   std::string command_line;
 };
 
-// Returns the state of the session in which the luminaires give the most light.
-std::string BrightestState(const FittedRoom& fitted);
-
 // Returns all data of the page. Throws std::runtime_error for targets or a state that cannot be read.
 nlohmann::json ReportData(const FittedRoom& fitted, const ReportOptions& options);
 

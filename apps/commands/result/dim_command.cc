@@ -82,18 +82,6 @@ std::vector<Gaze> GazesOf(const DimCommandOptions& options) {
   return gazes;
 }
 
-std::string StateOf(const FittedRoom& fitted, const std::string& given) {
-  if (!given.empty()) return given;
-  std::string most;
-  double sum = -1;
-  for (const SessionState& state : fitted.session.states) {
-    const double own = DimmingOf(fitted, state.id).sum();
-    if (own > sum) most = state.id;
-    sum = std::max(sum, own);
-  }
-  return most;
-}
-
 void ExpectInRoom(const FittedRoom& fitted, const std::vector<Gaze>& gazes) {
   if (fitted.room.scene.facets.empty()) return;
   const Eigen::AlignedBox3d box = fitted.room.scene.Bounds();
@@ -163,7 +151,7 @@ int DimCommand(const DimCommandOptions& options) {
   const std::vector<Gaze> gazes = GazesOf(options);
   const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
   ExpectInRoom(fitted, gazes);
-  const std::string state = StateOf(fitted, options.state);
+  const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
   const Eigen::VectorXd now = DimmingOf(fitted, state);
   std::vector<Sensor> sensors;
   sensors.reserve(gazes.size());

@@ -34,14 +34,17 @@ std::string LuminaireTable(const json& result) {
   std::string text =
       "\nluminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n";
   for (const json& l : result["luminaires"]) {
-    const json &p = l["position_m"], &s = l["position_sigma_m"];
+    const json& p = l["position_m"];
+    std::string sigma_mm;
+    for (const json& s : l["position_sigma_m"])
+      sigma_mm += " " + (s.is_number() ? fmt::format("{:.1f}", 1e3 * s.get<double>()) : std::string("-"));
     std::string lobe = l["photometry"].get<std::string>();
     if (l.contains("cosine_exponent")) lobe += " " + Number(l["cosine_exponent"], "{:.2f}");
-    text += fmt::format("{:<10} {:6.3f} {:6.3f} {:6.3f}  ± {:.1f} {:.1f} {:.1f}{:<12} {:<17} {} {} {}\n",
-                        l["id"].get<std::string>(), p[0].get<double>(), p[1].get<double>(),
-                        p[2].get<double>(), 1e3 * s[0].get<double>(), 1e3 * s[1].get<double>(),
-                        1e3 * s[2].get<double>(), "", PlusMinus(l["flux_lm"], l["flux_sigma_lm"], "{:.0f}"),
-                        lobe, l["shape"].get<std::string>(), SizeText(l["size_m"]));
+    text +=
+        fmt::format("{:<10} {:6.3f} {:6.3f} {:6.3f}  ±{}{:<12} {:<17} {} {} {}\n", l["id"].get<std::string>(),
+                    p[0].get<double>(), p[1].get<double>(), p[2].get<double>(), sigma_mm, "",
+                    PlusMinus(l["flux_lm"], l["flux_sigma_lm"], "{:.0f}"), lobe,
+                    l["shape"].get<std::string>(), SizeText(l["size_m"]));
   }
   return text;
 }

@@ -110,5 +110,19 @@ TEST_F(ReportTest, NothingIsWrittenOutsideOut) {
   EXPECT_EQ(count(), before);
 }
 
+// The light that was there with all luminaires off stands among the conditions.
+TEST(ReportConditions, NameTheAmbientLightThatWasSubtracted) {
+  TempFolder folder;
+  support::FitSmallRoom(folder);
+  std::string session = folder.Read("session.toml");
+  session.replace(session.find("[states]\n"), 9, "[states]\noff = {}\n");
+  folder.Write("session.toml", session);
+  folder.Write("luxmeter.csv", folder.Read("luxmeter.csv") + "P0,0.5,1,0.8,0,0,1,off,2.5\n");
+  const std::string out = folder.Path("lit");
+  ASSERT_EQ(support::RunProgram("fit '" + folder.Path("session.toml") + "' -o '" + out + "'").status, 0);
+  ASSERT_EQ(support::RunProgram("report '" + out + "'").status, 0);
+  EXPECT_EQ(support::ReportDataOf(folder.Read("lit/report.html"))["conditions"]["ambient_lx"], 2.5);
+}
+
 }  // namespace
 }  // namespace luxfit
