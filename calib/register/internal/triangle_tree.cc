@@ -1,8 +1,8 @@
 #include "calib/register/internal/triangle_tree.h"
 
-#include <algorithm>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 namespace luxfit {
 namespace {
@@ -27,66 +27,37 @@ Eigen::Vector3d NearestOnTriangle(const Eigen::Vector3d& p, const Eigen::Vector3
 }  // namespace
 
 TriangleTree::TriangleTree(const Eigen::Matrix3Xd& vertices, const Eigen::Matrix3Xi& triangles)
-    : vertices_(vertices), triangles_(triangles), order_(static_cast<std::size_t>(triangles.cols())) {
-  std::iota(order_.begin(), order_.end(), 0);
-  Build(0, static_cast<int>(order_.size()));
+    : vertices_(vertices), triangles_(triangles) {
+  std::vector<int> indices(static_cast<std::size_t>(triangles.cols()));
+  std::iota(indices.begin(), indices.end(), 0);
+  std::vector<Eigen::AlignedBox3d> boxes(indices.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) boxes[i].extend(Corner(indices[i], corner));
+  }
+  tree_.init(indices.begin(), indices.end(), boxes.begin(), boxes.end());
 }
 
-int TriangleTree::Build(int begin, int end) {
-  const int index = static_cast<int>(nodes_.size());
-  nodes_.emplace_back();
-  Eigen::AlignedBox3d box, middles;
-  const auto middle = [this](int triangle) -> Eigen::Vector3d {
-    return (Corner(triangle, 0) + Corner(triangle, 1) + Corner(triangle, 2)) / 3;
-  };
-  for (int i = begin; i < end; ++i) {
-    const int triangle = order_[static_cast<std::size_t>(i)];
-    for (int corner = 0; corner < 3; ++corner) box.extend(Corner(triangle, corner));
-    middles.extend(middle(triangle));
-  }
-  constexpr int kLeaf = 4;
-  Node node;
-  node.box = box;
-  node.begin = begin;
-  node.end = end;
-  if (end - begin > kLeaf) {
-    Eigen::Index axis = 0;
-    middles.sizes().maxCoeff(&axis);
-    const int half = (begin + end) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
-                     [&](int a, int b) { return middle(a)[axis] < middle(b)[axis]; });
-    node.left = Build(begin, half);
-    node.right = Build(half, end);
-  }
-  nodes_[static_cast<std::size_t>(index)] = node;
-  return index;
-}
-
-void TriangleTree::Search(int index, const Eigen::Vector3d& p, NearestPoint& best) const {
-  const Node& node = nodes_[static_cast<std::size_t>(index)];
-  if (node.box.squaredExteriorDistance(p) >= best.squared_distance) return;
-  if (node.left < 0) {
-    for (int i = node.begin; i < node.end; ++i) {
-      const int triangle = order_[static_cast<std::size_t>(i)];
-      const Eigen::Vector3d q =
-          NearestOnTriangle(p, Corner(triangle, 0), Corner(triangle, 1), Corner(triangle, 2));
-      const double squared = (q - p).squaredNorm();
-      if (squared < best.squared_distance) best = {q, triangle, squared};
-    }
-    return;
-  }
-  const Node& left = nodes_[static_cast<std::size_t>(node.left)];
-  const Node& right = nodes_[static_cast<std::size_t>(node.right)];
-  const bool left_first = left.box.squaredExteriorDistance(p) <= right.box.squaredExteriorDistance(p);
-  Search(left_first ? node.left : node.right, p, best);
-  Search(left_first ? node.right : node.left, p, best);
+Eigen::Vector3d TriangleTree::NearestOn(int triangle, const Eigen::Vector3d& p) const {
+  return NearestOnTriangle(p, Corner(triangle, 0), Corner(triangle, 1), Corner(triangle, 2));
 }
 
 NearestPoint TriangleTree::Nearest(const Eigen::Vector3d& p) const {
-  NearestPoint best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
-  Search(0, p, best);
-  return best;
+  struct Squared {
+    using Scalar = double;
+    const TriangleTree& tree;
+    Eigen::Vector3d p;
+    NearestPoint best = {Eigen::Vector3d::Zero(), -1, std::numeric_limits<double>::infinity()};
+
+    double minimumOnVolume(const Eigen::AlignedBox3d& box) const { return box.squaredExteriorDistance(p); }
+    double minimumOnObject(int triangle) {
+      const Eigen::Vector3d q = tree.NearestOn(triangle, p);
+      const double squared = (q - p).squaredNorm();
+      if (squared < best.squared_distance) best = {q, triangle, squared};
+      return squared;
+    }
+  } squared{*this, p};
+  Eigen::BVMinimize(tree_, squared);
+  return squared.best;
 }
 
 Eigen::Vector3d TriangleTree::Normal(int triangle) const {

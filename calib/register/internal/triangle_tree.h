@@ -1,4 +1,4 @@
-// Finds the nearest point on a set of triangles: a tree of boxes, halved at the median of the longest side.
+// Finds the nearest point on a set of triangles, by Eigen's tree of boxes.
 //
 // Source: Ericson (2005), "Real-time collision detection", 5.1.5 (point and triangle).
 #ifndef LUXFIT_CALIB_REGISTER_INTERNAL_TRIANGLE_TREE_H_
@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <vector>
+#include <unsupported/Eigen/BVH>
 
 namespace luxfit {
 
@@ -24,21 +24,14 @@ class TriangleTree {
   Eigen::Vector3d Normal(int triangle) const;  // unit; zero for a triangle without area
 
  private:
-  struct Node {
-    Eigen::AlignedBox3d box;
-    int left = -1, right = -1;  // nodes
-    int begin = 0, end = 0;     // leaves: order_[begin, end)
-  };
-  int Build(int begin, int end);
-  void Search(int node, const Eigen::Vector3d& p, NearestPoint& best) const;
   Eigen::Vector3d Corner(int triangle, int corner) const {
     return vertices_.col(triangles_(corner, triangle));
   }
+  Eigen::Vector3d NearestOn(int triangle, const Eigen::Vector3d& p) const;
 
   Eigen::Matrix3Xd vertices_;
   Eigen::Matrix3Xi triangles_;
-  std::vector<int> order_;
-  std::vector<Node> nodes_;
+  Eigen::KdBVH<double, 3, int> tree_;  // of the triangles' indices
 };
 
 }  // namespace luxfit
