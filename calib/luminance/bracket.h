@@ -3,7 +3,7 @@
 //   Y_c = sum_i w_i Y_ci / sum_i w_i,   w_i = t_i^2 / sigma_c^2(Y_c t_i),   var(Y_c) = 1 / sum_i w_i
 //
 // Y_ci: channel c of exposure i (luminance.h); t_i: its relative exposure. sigma^2: the noise of a count
-// (sensor_noise.h), through the slope of the response where there is one, or the relative sigma that the
+// (SensorNoise), through the slope of the response where there is one, or the relative sigma that the
 // response states. The noise is that of the expected count, from the exposures merged so far: a weight that
 // followed the pixel's own noise would favour low counts.
 //

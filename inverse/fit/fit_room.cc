@@ -9,6 +9,7 @@
 
 #include "forward/luminaire/photometry.h"
 #include "inverse/albedo/internal/albedo_rgb.h"
+#include "inverse/choose/internal/choose_bodies.h"
 #include "inverse/choose/internal/choose_model.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
@@ -101,7 +102,8 @@ class RoomFitter {
       const bool found = result_.luminaire_found[k];
       open_.push_back({found && known.photometry == KnownPhotometry::kNothing,
                        found && !known.shape_is_known && known.photometry != KnownPhotometry::kFile,
-                       found && !known.aim.has_value(), RefinementsOf(k)});
+                       found && !known.aim.has_value(),
+                       found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
     const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, start_.priors);
     for (const LuminaireChoice& c : choice.choices) RecordChoice(given_, c, result_.findings);
@@ -149,17 +151,17 @@ class RoomFitter {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
-    if (part.observations.size() == result_.data.observations.size())
-      return FitLuminaires(room_, result_.data, start, start_.priors);
     FitLuminairesOptions options;
     options.covariance = false;
     LuminaireFit near = FitLuminaires(room_, part, start, start_.priors, options);
     if (near.status == FitStatus::kNoData) return near;
-    const LightState refined = WithoutVanishedSizes(near.state);
+    near.state = WithoutVanishedSizes(near.state);
+    const BodyChoice bodies = ChooseBodies(room_, part, near, start_.priors);
+    RecordBodies(bodies, result_.findings);
     options.covariance = true;
     options.start_is_near = true;
-    options.initial_relative_sigma = near.relative_sigma;
-    return FitLuminaires(room_, result_.data, refined, start_.priors, options);
+    options.initial_relative_sigma = bodies.relative_sigma;
+    return FitLuminaires(room_, result_.data, bodies.state, start_.priors, options);
   }
 
   // Returns which refinements of the luminaire's simple model are open.

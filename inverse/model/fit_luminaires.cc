@@ -23,7 +23,7 @@ class OuterLoop {
     fit_.state = start;
     fit_.relative_sigma = options.initial_relative_sigma;
     fit_.parameters = FreeParameters(room, start);
-    for (const ParameterPrior& prior : priors) AddPrior(prior);
+    priors_ = PriorsOf(fit_.parameters, priors);
     smoothness_ = SmoothnessRows(start, fit_.parameters);
     ReadRows();
   }
@@ -39,8 +39,8 @@ class OuterLoop {
       const LightState before = fit_.state;
       fit_.parameters = Recentred(fit_.parameters, before);
       Refresh(true);
-      const FrozenProblem problem{model_,       before,  fit_.parameters, values_,
-                                  root_weight_, priors_, smoothness_,     at_state_};
+      const FrozenProblem problem{model_,           before,  fit_.parameters, values_,
+                                  fit_.root_weight, priors_, smoothness_,     at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
       const bool is_near = options_.start_is_near || outer >= 2;
       SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
@@ -59,13 +59,6 @@ class OuterLoop {
   }
 
  private:
-  void AddPrior(const ParameterPrior& prior) {
-    for (size_t i = 0; i < fit_.parameters.size(); ++i) {
-      if (fit_.parameters[i].Is(prior.kind, prior.index, prior.quantity))
-        priors_.push_back({static_cast<int>(i), prior});
-    }
-  }
-
   // Reads from the blocks what no state changes.
   void ReadRows() {
     const int rows = model_.row_count();
@@ -101,14 +94,14 @@ class OuterLoop {
     for (size_t i = 0; i < is_usable_.size(); ++i) is_usable_[i] = is_used_[i] && !penumbra[i];
     EstimateRelativeSigma(residual);
     fit_.weight.setZero(values_.size());
-    root_weight_.setZero(values_.size());
+    fit_.root_weight.setZero(values_.size());
     for (Eigen::Index i = 0; i < values_.size(); ++i) {
       if (!is_usable_[static_cast<size_t>(i)]) continue;
       const double sigma = SigmaOf(i);
       const double z = residual[i] / (options_.robust_sigmas * sigma);
       // Rows of other blocks are few and each was meant: they are not down-weighted.
       fit_.weight[i] = carries_model_error_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
-      root_weight_[i] = std::sqrt(fit_.weight[i]) / sigma;
+      fit_.root_weight[i] = std::sqrt(fit_.weight[i]) / sigma;
     }
   }
 
@@ -182,9 +175,9 @@ class OuterLoop {
 
   WeightedRows RowsAtState() const {
     WeightedRows rows;
-    rows.jacobian = root_weight_.asDiagonal() * at_state_.jacobian;
-    rows.residual = (at_state_.value - values_).cwiseProduct(root_weight_);
-    rows.bias = Bias().cwiseProduct(root_weight_);
+    rows.jacobian = fit_.root_weight.asDiagonal() * at_state_.jacobian;
+    rows.residual = (at_state_.value - values_).cwiseProduct(fit_.root_weight);
+    rows.biases = fit_.root_weight.asDiagonal() * Biases();
     std::map<std::tuple<int, int, int>, int> clusters;
     for (int i = 0; i < model_.row_count(); ++i) {
       const auto cluster = model_.BlockOf(i).ClusterOf(model_.PlaceInBlock(i));
@@ -202,15 +195,17 @@ class OuterLoop {
     return rows;
   }
 
-  // Returns what the model's discretisation leaves out of each row.
-  Eigen::VectorXd Bias() const {
-    Eigen::VectorXd bias(values_.size());
+  // Returns what the model's discretisation leaves out of each row, and an error of the bodies' reflectance.
+  Eigen::MatrixXd Biases() const {
+    Eigen::MatrixXd biases(values_.size(), at_state_.d_body.size() > 0 ? 2 : 1);
+    if (biases.cols() > 1) biases.col(1) = kBodyAlbedoSigma * at_state_.d_body;
+    auto bias = biases.col(0);
     Eigen::Index first = 0;
     for (const auto& block : model_.blocks()) {
       if (block->row_count() > 0) bias.segment(first, block->row_count()) = block->BiasOf(fit_.state);
       first += block->row_count();
     }
-    return bias;
+    return biases;
   }
 
   // Returns the mean square of the normalised residuals of rows that stand alone, at least 1. A reading's
@@ -223,7 +218,7 @@ class OuterLoop {
       if (rows.cluster[i] >= 0) continue;
       const auto row = static_cast<Eigen::Index>(i);
       squares += rows.residual[row] * rows.residual[row];
-      used += root_weight_[row] > 0 ? 1 : 0;
+      used += fit_.root_weight[row] > 0 ? 1 : 0;
     }
     return used > 0 ? std::max(1.0, squares / used) : 1.0;
   }
@@ -232,10 +227,10 @@ class OuterLoop {
   const FitLuminairesOptions& options_;
   LightModel model_;
   LuminaireFit fit_;
-  std::vector<std::pair<int, ParameterPrior>> priors_;
+  IndexedPriors priors_;
   std::vector<Luminaire> frozen_;  // luminaires at which the visibility was computed
   std::vector<SmoothnessRow> smoothness_;
-  Eigen::VectorXd values_, variance_, root_weight_;
+  Eigen::VectorXd values_, variance_;
   std::vector<bool> is_used_, is_usable_;  // fitted to; fitted to and not spoilt at the present state
   std::vector<bool> carries_model_error_;  // rows of the first block that has any
   Prediction at_state_;

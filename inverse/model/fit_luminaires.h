@@ -79,6 +79,7 @@ struct LuminaireFit {
   std::vector<ParameterId> at_bound;           // parameters that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
+  Eigen::VectorXd root_weight;                 // sqrt(weight) / sigma of every row
   Eigen::VectorXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // sigma of the predicted readings
   double relative_sigma = 0;         // f

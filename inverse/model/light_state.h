@@ -51,6 +51,13 @@ struct FreeQuantities {
   double emission_sigma = 0;
 };
 
+// Says when the luminaires' bodies hide the surfaces behind them (forward/light/covered_surfaces.h).
+enum class BodyPresence {
+  kNone,
+  kWhenOn,  // in states where the luminaire is on, as where each is hung up for its own photos
+  kAlways,
+};
+
 struct LightState {
   std::vector<Luminaire> luminaires;
   std::vector<FreeQuantities> free;  // one for each luminaire
@@ -62,6 +69,7 @@ struct LightState {
   bool meter_scale_free = false;   // needs a prior: nothing else tells it from the fluxes
   Eigen::VectorXd sensor_gain;     // by Reading::sensor; empty: 1
   bool sensor_gains_free = false;  // need priors likewise
+  BodyPresence bodies = BodyPresence::kNone;
 };
 
 // Returns the luminaires' fluxes by state: luminaires x states, lm.

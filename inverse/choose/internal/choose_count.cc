@@ -20,8 +20,7 @@ using KnownPositions = std::vector<std::optional<Eigen::Vector3d>>;
 
 struct Trial {
   int count = 0;
-  Eigen::VectorXd predicted;  // rows of SubProblem::all
-  double relative_sigma = 1;
+  LeftOutPrediction left_out;
 };
 
 LightData WithCount(LightData data, int count) {
@@ -63,32 +62,56 @@ bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) 
                      [&](const SparseSource& source) { return source.strength > least_share * sum; });
 }
 
-// Refines the luminaires of `found` together on the data that are not left out.
-std::optional<Trial> Try(const Room& room, const SubProblem& problem, const LightState& given,
-                         const SparseLuminaires& found, const ChooseCountOptions& options) {
+// One fold judges all numbers. The search for places sees the others alone: a place that follows the errors of
+// the rows that judge it would seem to be supported.
+constexpr int kJudgingFold = 0;
+
+LightData WithoutJudgingFold(const SubProblem& problem) {
+  LightData data = problem.data;
+  data.observations.clear();
+  data.readings.clear();
+  const size_t observations = problem.data.observations.size();
+  for (size_t i = 0; i < problem.fold_of_row.size(); ++i) {
+    if (problem.fold_of_row[i] == kJudgingFold) continue;
+    if (i < observations) data.observations.push_back(problem.data.observations[i]);
+    if (i >= observations) data.readings.push_back(problem.data.readings[i - observations]);
+  }
+  return data;
+}
+
+// Refines the luminaires of `found` together on `seen`, and predicts all rows of the problem.
+std::optional<Trial> Try(const Room& room, const SubProblem& problem, const LightData& seen,
+                         const LightState& given, const SparseLuminaires& found,
+                         const ChooseCountOptions& options) {
   const auto count = static_cast<int>(found.sources.size());
-  const LightData seen = WithCount(problem.fit, count), all = WithCount(problem.all, count);
+  const LightData data = WithCount(seen, count), all = WithCount(problem.data, count);
   FitLuminairesOptions fit_options;
   fit_options.covariance = false;
   fit_options.max_outer_iterations = 4;
   fit_options.visibility_order = 2;
-  const double flux_per_strength = seen.observations.empty() ? 1 : M_PI;  // readings: 1, photos: pi
+  const double flux_per_strength = data.observations.empty() ? 1 : M_PI;  // readings: 1, photos: pi
   const LuminaireFit fit = FitLuminaires(
-      room, seen, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
+      room, data, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
   if (fit.status == FitStatus::kNoData) return {};
   LightModel model(room, all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);
-  return Trial{count, model.Predict(fit.state, {}, false).value, fit.relative_sigma};
+  LeftOutPrediction left_out{model.Predict(fit.state, {}, false).value, model.InPenumbra(),
+                             fit.relative_sigma};
+  left_out.is_smooth.flip();
+  for (size_t i = 0; i < left_out.is_smooth.size(); ++i)
+    left_out.is_smooth[i] = left_out.is_smooth[i] && problem.fold_of_row[i] == kJudgingFold;
+  return Trial{count, std::move(left_out)};
 }
 
 Selection Select(const SubProblem& problem, const std::vector<Trial>& trials) {
-  double relative_sigma = 1;
-  for (const Trial& trial : trials) relative_sigma = std::min(relative_sigma, trial.relative_sigma);
+  std::vector<const LeftOutPrediction*> left_out;
+  left_out.reserve(trials.size());
+  for (const Trial& trial : trials) left_out.push_back(&trial.left_out);
+  const std::vector<GroupScores> scores = ScoreTogether(problem, left_out);
   std::vector<SelectionCandidate> candidates;
   candidates.reserve(trials.size());
-  for (const Trial& trial : trials)
-    candidates.push_back(
-        {ScoreGroups(problem, trial.predicted, relative_sigma), static_cast<double>(trial.count), true});
+  for (size_t t = 0; t < trials.size(); ++t)
+    candidates.push_back({scores[t], static_cast<double>(trials[t].count), true});
   return SimplestWithinOneStandardError(candidates);
 }
 
@@ -106,7 +129,8 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
   std::vector<Trial> trials;
   constexpr int kPatience = 2;  // numbers in a row without gain that end the search
   const FirstGuessOptions guess_options;
-  const GroupedLight light = GroupLight(room, WithCount(problem.fit, 1), guess_options.max_elements);
+  const LightData seen = WithoutJudgingFold(problem);
+  const GroupedLight light = GroupLight(room, WithCount(seen, 1), guess_options.max_elements);
   const SparseSearch search(room, light, guess_options.grid_m, guess_options.refinements);
   SparseLuminaires found;
   for (const std::optional<Eigen::Vector3d>& place : known_positions) {
@@ -119,7 +143,7 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
     found = search.Find(0, count, found.sources);
     if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
       break;
-    const std::optional<Trial> trial = Try(room, problem, state, found, options);
+    const std::optional<Trial> trial = Try(room, problem, seen, state, found, options);
     if (!trial) break;
     trials.push_back(*trial);
     if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;

@@ -1,10 +1,10 @@
 // Estimates how many luminaires give the light, where nobody states their number.
 //
-// For each number n, a fifth of the patches (or readings) is left out:
+// For each number n, without one fold of the data in five:
 // 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/search/first_guess.h).
 // 2. They are refined together as cosine-power discs of free size, so that a large one is not mistaken for
 //    several.
-// 3. They predict the data left out. The score is the mean of min(z^2, 9).
+// 3. They are scored on the fold left out (inverse/choose/internal/left_out.h).
 // The smallest n within one standard error of the best score is chosen (paired, facet by facet). Numbers are
 // tried upwards until two in a row bring no gain.
 //

@@ -18,8 +18,8 @@
 namespace luxfit {
 namespace {
 
-// Returns the candidates shape by shape, with one parameter for every length and one for an exponent. A disc
-// or rectangle has an aim; it cannot be isotropic.
+// Returns the candidates shape by shape, with one parameter for every length, one for an exponent and one for
+// a heading. A disc or rectangle has an aim; it cannot be isotropic. Turned rectangles come last.
 std::vector<ModelCandidate> MakeCandidates() {
   const std::array<LuminaireShape, 3> shapes{LuminaireShape::kPoint, LuminaireShape::kDisc,
                                              LuminaireShape::kRectangle};
@@ -27,10 +27,15 @@ std::vector<ModelCandidate> MakeCandidates() {
   for (size_t lengths = 0; lengths < shapes.size(); ++lengths) {
     for (const DistributionOps& ops : Distributions()) {
       if (!ops.is_tried || (lengths > 0 && !ops.has_aim)) continue;
-      candidates.push_back({ops.distribution, shapes[lengths],
+      candidates.push_back({ops.distribution, shapes[lengths], false,
                             static_cast<int>(lengths) + (ops.has_exponent ? 1 : 0),
                             std::string(ops.name) + " " + ToString(shapes[lengths])});
     }
+  }
+  for (const ModelCandidate& straight : std::vector<ModelCandidate>(candidates)) {
+    if (straight.shape != LuminaireShape::kRectangle) continue;
+    candidates.push_back(
+        {straight.distribution, straight.shape, true, straight.parameters + 1, straight.name + ", turned"});
   }
   return candidates;
 }
@@ -42,7 +47,7 @@ const std::vector<ModelCandidate>& AllCandidates() {
 
 bool Allowed(const ModelCandidate& candidate, const Luminaire& luminaire, const OpenChoice& open) {
   return (open.distribution || candidate.distribution == luminaire.distribution) &&
-         (open.shape || candidate.shape == luminaire.shape);
+         (open.shape || candidate.shape == luminaire.shape) && (open.heading || !candidate.is_turned);
 }
 
 // Returns whether turning the candidate changes its light. An isotropic point has no aim.
@@ -59,23 +64,7 @@ void Apply(const ModelCandidate& candidate, bool aim_is_free, Luminaire& luminai
   free.exponent = OpsOf(candidate.distribution).has_exponent;
   free.size = candidate.shape != LuminaireShape::kPoint;
   free.tilt = aim_is_free && HasAim(candidate);
-}
-
-LuminaireChoice Choose(int luminaire, const std::vector<int>& candidates,
-                       const std::vector<GroupScores>& scores) {
-  LuminaireChoice choice;
-  choice.luminaire = luminaire;
-  std::vector<SelectionCandidate> selectable;
-  for (size_t c = 0; c < candidates.size(); ++c) {
-    const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(candidates[c])];
-    choice.among.push_back(candidate.name);
-    selectable.push_back({scores[c], static_cast<double>(candidate.parameters), true});
-  }
-  Selection selection = SimplestWithinOneStandardError(selectable);
-  choice.score = std::move(selection.score);
-  choice.standard_error = std::move(selection.standard_error);
-  choice.chosen = static_cast<int>(selection.chosen);
-  return choice;
+  free.heading = candidate.is_turned;
 }
 
 struct FittedCandidate {
@@ -84,13 +73,38 @@ struct FittedCandidate {
   FittedModel model;
 };
 
+// Returns the selection among fitted models, each with its number of parameters.
+Selection SelectAmong(const SubProblem& problem, const std::vector<const FittedModel*>& models,
+                      const std::vector<int>& parameters) {
+  std::vector<const LeftOutPrediction*> left_out;
+  left_out.reserve(models.size());
+  for (const FittedModel* model : models) left_out.push_back(&model->left_out);
+  const std::vector<GroupScores> scores = ScoreTogether(problem, left_out);
+  std::vector<SelectionCandidate> candidates;
+  candidates.reserve(models.size());
+  for (size_t m = 0; m < models.size(); ++m)
+    candidates.push_back({scores[m], static_cast<double>(parameters[m]), true});
+  return SimplestWithinOneStandardError(candidates);
+}
+
 FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free) {
   const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
   const size_t k = static_cast<size_t>(problem.luminaire);
   Luminaire luminaire = problem.state.luminaires[k];
   FreeQuantities free = problem.state.free[k];
   Apply(candidate, aim_is_free, luminaire, free);
-  return {index, aim_is_free, FitModel(room, problem, luminaire, free)};
+  if (!candidate.is_turned) return {index, aim_is_free, FitModel(room, problem, luminaire, free)};
+  // Both sides are free, so headings repeat after a quarter turn. Two starts a third of it from either end
+  // leave no heading further than an eighth of a turn away.
+  const LuminaireAxes axes = AxesOf(luminaire);
+  std::optional<FittedModel> best;
+  for (const double start_deg : {30.0, 60.0}) {
+    const double angle = start_deg * M_PI / 180;
+    luminaire.heading = std::cos(angle) * axes.along + std::sin(angle) * axes.across;
+    FittedModel fitted = FitModel(room, problem, luminaire, free);
+    if (!best || fitted.left_out.relative_sigma < best->left_out.relative_sigma) best = std::move(fitted);
+  }
+  return {index, aim_is_free, std::move(*best)};
 }
 
 constexpr double kGoodPoint =
@@ -99,7 +113,7 @@ constexpr double kGoodPoint =
 // Returns whether rectangles need no trial: a point explains the light that well, and discs bring no gain
 // over points. Discs alone do not tell: a long panel fits a disc no better than a point.
 bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandidate>& fitted,
-                       double relative_sigma, const ModelCandidate& next) {
+                       const ModelCandidate& next) {
   if (next.shape != LuminaireShape::kRectangle) return false;
   const FittedCandidate *point = nullptr, *disc = nullptr;
   for (const FittedCandidate& f : fitted) {
@@ -107,20 +121,14 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
     if (!OpsOf(c.distribution).has_exponent) continue;
     (c.shape == LuminaireShape::kPoint ? point : disc) = &f;
   }
-  if (point == nullptr || point->model.relative_sigma > kGoodPoint) return false;
+  if (point == nullptr || point->model.left_out.relative_sigma > kGoodPoint) return false;
   if (disc == nullptr) return true;  // the disc vanished
-  const Selection selection = SimplestWithinOneStandardError(
-      {{ScoreGroups(problem, point->model.predicted, relative_sigma), 0, true},
-       {ScoreGroups(problem, disc->model.predicted, relative_sigma), 1, true}});
-  return selection.chosen == 0;
+  return SelectAmong(problem, {&point->model, &disc->model}, {0, 1}).chosen == 0;
 }
 
 AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedModel& held,
                       const FittedModel& free) {
-  const double relative_sigma = std::min(held.relative_sigma, free.relative_sigma);
-  const Selection selection =
-      SimplestWithinOneStandardError({{ScoreGroups(problem, held.predicted, relative_sigma), 0, true},
-                                      {ScoreGroups(problem, free.predicted, relative_sigma), 1, true}});
+  const Selection selection = SelectAmong(problem, {&held, &free}, {0, 1});
   const size_t worse = 1 - selection.best;
   return {luminaire, selection.chosen == 1, selection.score[0], selection.score[1],
           selection.standard_error[worse]};
@@ -185,29 +193,48 @@ class LuminaireChooser {
 
   std::vector<FittedCandidate> FitAll(bool turns) {
     std::vector<FittedCandidate> fitted;
-    double relative_sigma = 1;
     for (const int c : allowed_) {
-      if (SizeDoesNotMatter(problem_, fitted, relative_sigma, AllCandidates()[static_cast<size_t>(c)]))
-        continue;
+      const ModelCandidate& next = AllCandidates()[static_cast<size_t>(c)];
+      if (SizeDoesNotMatter(problem_, fitted, next)) continue;
+      if (next.is_turned && !IsBestStraightRectangle(fitted, next)) continue;
       const FittedCandidate& candidate = Fitted(c, turns);
       // A size that shrank to nothing repeats the point, with one more parameter.
       if (open_.shape && HasVanished(candidate.model.luminaire)) continue;
       fitted.push_back(candidate);
-      relative_sigma = std::min(relative_sigma, fitted.back().model.relative_sigma);
     }
     return fitted;
   }
 
-  LuminaireChoice ChooseAmong(const std::vector<FittedCandidate>& fitted) const {
-    double relative_sigma = 1;
-    for (const FittedCandidate& f : fitted) relative_sigma = std::min(relative_sigma, f.model.relative_sigma);
-    std::vector<int> candidates;
-    std::vector<GroupScores> scores;
+  // Returns whether the straight rectangle of the candidate's distribution explains the light best of all
+  // straight rectangles. The others' headings need no trial.
+  static bool IsBestStraightRectangle(const std::vector<FittedCandidate>& fitted,
+                                      const ModelCandidate& next) {
+    const FittedCandidate* best = nullptr;
     for (const FittedCandidate& f : fitted) {
-      candidates.push_back(f.candidate);
-      scores.push_back(ScoreGroups(problem_, f.model.predicted, relative_sigma));
+      const ModelCandidate& c = AllCandidates()[static_cast<size_t>(f.candidate)];
+      if (c.shape != LuminaireShape::kRectangle || c.is_turned) continue;
+      if (best == nullptr || f.model.left_out.relative_sigma < best->model.left_out.relative_sigma) best = &f;
     }
-    return Choose(luminaire_, candidates, scores);
+    return best != nullptr &&
+           AllCandidates()[static_cast<size_t>(best->candidate)].distribution == next.distribution;
+  }
+
+  LuminaireChoice ChooseAmong(const std::vector<FittedCandidate>& fitted) const {
+    LuminaireChoice choice;
+    choice.luminaire = luminaire_;
+    std::vector<const FittedModel*> models;
+    std::vector<int> parameters;
+    for (const FittedCandidate& f : fitted) {
+      const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(f.candidate)];
+      choice.among.push_back(candidate.name);
+      models.push_back(&f.model);
+      parameters.push_back(candidate.parameters);
+    }
+    Selection selection = SelectAmong(problem_, models, parameters);
+    choice.score = std::move(selection.score);
+    choice.standard_error = std::move(selection.standard_error);
+    choice.chosen = static_cast<int>(selection.chosen);
+    return choice;
   }
 
   const Room& room_;
@@ -229,7 +256,8 @@ void TakeOver(const FittedCandidate& fitted, LightState& state, int luminaire) {
 
 bool HasVanished(const Luminaire& luminaire) {
   constexpr double kVanishedM = 0.01;
-  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.minCoeff() < kVanishedM;
+  // A rectangle with one short side is a strip, not a point.
+  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.maxCoeff() < kVanishedM;
   return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
 }
 

@@ -2,16 +2,13 @@
 //
 // Candidates, by number of free parameters beyond position and flux:
 //   0 isotropic point, Lambertian point · 1 cosine-power point, Lambertian disc · 2 Lambertian rectangle,
-//   cosine-power disc · 3 cosine-power rectangle
-// Luminaires are taken one by one, with reflectances and camera scale held at the start's values. The data
-// are the states where the luminaire is on alone. Where there are none, all states count, with the other
-// luminaires held.
+//   cosine-power disc · 3 cosine-power rectangle; one more for a rectangle with a free heading
+// Luminaires are taken one by one, with the camera's scale held. The data are the states where the luminaire
+// is on alone. Where there are none, all states count, with the other luminaires held.
 //
-// A fifth of the patches is left out. Every candidate is fitted to the rest and scored on the patches left
-// out. The score is the mean of min(z^2, 9), z the residual over its own sigma and one common model error
-// (the smallest that any candidate reached). The simplest candidate within one standard error of the best
-// score is chosen. The standard error is that of the paired difference, facet by facet, because residuals of
-// one facet are not independent.
+// Every candidate is fitted until it converges and scored by cross-validation over five folds
+// (inverse/choose/internal/left_out.h). The simplest candidate within one standard error of the best score is
+// chosen.
 //
 // Aim: a cosine-power point (or the given model) is fitted with the start's aim and with a free one. The
 // candidates turn only where the free aim lowers the score by more than a standard error. The aim of the
@@ -37,6 +34,7 @@ namespace luxfit {
 struct ModelCandidate {
   Distribution distribution = Distribution::kLambertian;
   LuminaireShape shape = LuminaireShape::kPoint;
+  bool is_turned = false;  // its heading is free
   int parameters = 0;
   std::string name;  // "lambertian rectangle"
 };
@@ -62,6 +60,7 @@ struct OpenChoice {
   bool distribution = true;
   bool shape = true;
   bool aim = true;
+  bool heading = true;               // of a rectangle
   OpenRefinements refinements = {};  // none, unless a caller asks for them
 };
 
@@ -74,7 +73,7 @@ struct ModelChoice {
   std::vector<Refinement> refinements;  // in the order they were tried, luminaire by luminaire
 };
 
-// Returns whether a disc or rectangle shrank below 1 cm: its light is that of a point.
+// Returns whether all sides of a disc or rectangle shrank below 1 cm: its light is that of a point.
 bool HasVanished(const Luminaire& luminaire);
 
 // `start` should be a converged fit with cosine-power points (or what is given).

@@ -1,7 +1,5 @@
 #include "inverse/choose/internal/contradiction.h"
 
-#include <algorithm>
-
 #include "inverse/choose/internal/choose_model.h"
 #include "inverse/choose/internal/left_out.h"
 #include "inverse/select/one_standard_error.h"
@@ -30,9 +28,9 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
   for (size_t k = 0; k < open.size(); ++k) {
     const FreeQuantities& free = start.free[k];
     if ((open[k].distribution && open[k].shape) || !free.flux) continue;
-    std::vector<OpenChoice> others(open.size(), OpenChoice{false, false, false, {}});
+    std::vector<OpenChoice> others(open.size(), OpenChoice{false, false, false, false, {}});
     // Where every step solves the radiosity, only points are affordable.
-    others[k] = {true, data.indirect_is_held, false, {}};
+    others[k] = {true, data.indirect_is_held, false, false, {}};
     LightState unsaid = start;
     unsaid.luminaires[k] = Unsaid(start.luminaires[k]);
     unsaid.free[k].exponent = true;
@@ -40,18 +38,14 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
     const auto luminaire = static_cast<int>(k);
     const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors);
     if (!problem.CanJudge()) continue;
-    const FitEffort effort{4, 8};
-    const FittedModel given = FitModel(room, problem, start.luminaires[k], free, effort);
-    const FittedModel better =
-        FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k], effort);
-    const double sigma = std::min(given.relative_sigma, better.relative_sigma);
+    const FittedModel given = FitModel(room, problem, start.luminaires[k], free);
+    const FittedModel better = FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k]);
+    const std::vector<GroupScores> scores = ScoreTogether(problem, {&given.left_out, &better.left_out});
     SelectionOptions selection_options;
     selection_options.standard_errors = kStandardErrors;
     selection_options.worth_having = kRatio - 1;
     const Selection selection =
-        SimplestWithinOneStandardError({{ScoreGroups(problem, given.predicted, sigma), 0, true},
-                                        {ScoreGroups(problem, better.predicted, sigma), 1, true}},
-                                       selection_options);
+        SimplestWithinOneStandardError({{scores[0], 0, true}, {scores[1], 1, true}}, selection_options);
     if (selection.chosen == 1)
       contradictions.push_back({luminaire, better.luminaire, selection.score[0], selection.score[1]});
   }

@@ -3,18 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "inverse/model/internal/light_model.h"
+#include "inverse/select/internal/spatial_blocks.h"
 
 namespace luxfit {
 namespace {
+
+constexpr int kFolds = 5;
+constexpr int kBlocksPerFold = 8;
+constexpr int kVisibilityOrder = 3;  // points along each side of a luminaire tested for occlusion
 
 bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
   return dimming[luminaire] > 0 && dimming.sum() == dimming[luminaire];
 }
 
-LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone) {
+LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone, bool with_albedo) {
   LightState state = start;
-  state.albedo_free.assign(state.albedo_free.size(), false);
+  if (!with_albedo) state.albedo_free.assign(state.albedo_free.size(), false);
   state.camera_scale_free = false;
   state.meter_scale_free = false;
   const size_t k = static_cast<size_t>(luminaire);
@@ -29,40 +33,47 @@ LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone)
   return state;
 }
 
+void CutIntoFolds(const std::vector<Eigen::Vector3d>& place_of_row, SubProblem& problem) {
+  problem.fold_of_row = SpatialBlocks(place_of_row, kFolds * kBlocksPerFold);
+  for (int& fold : problem.fold_of_row) fold %= kFolds;
+}
+
 void AddObservations(const Room& room, const LightData& data, const std::vector<bool>& state_used,
                      int max_elements, SubProblem& problem) {
   std::vector<Observation> own;
   for (const Observation& o : data.observations) {
     if (state_used[static_cast<size_t>(o.state)]) own.push_back(o);
   }
-  for (const Observation& o : ThinElements(own, max_elements)) {
+  problem.data.observations = ThinElements(own, max_elements);
+  std::vector<Eigen::Vector3d> places;
+  for (const Observation& o : problem.data.observations) {
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
-    problem.all.observations.push_back(o);
+    places.push_back(room.patches.patches[static_cast<size_t>(patch)].center);
     problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
-    problem.left_out.push_back(IsLeftOut(patch));
     problem.value.push_back(o.relative_luminance);
     problem.variance.push_back(o.variance);
-    if (!IsLeftOut(patch)) problem.fit.observations.push_back(o);
   }
+  CutIntoFolds(places, problem);
 }
 
 void AddReadings(const LightData& data, const std::vector<bool>& state_used, SubProblem& problem) {
-  for (size_t i = 0; i < data.readings.size(); ++i) {
-    Reading reading = data.readings[i];
+  std::vector<Eigen::Vector3d> places;
+  for (const Reading& reading : data.readings) {
     if (!state_used[static_cast<size_t>(reading.state)] || !reading.used) continue;
-    const int group = static_cast<int>(problem.all.readings.size());
-    const bool out = IsLeftOut(group);
-    problem.all.readings.push_back(reading);
-    problem.group_of_row.push_back(group);
-    problem.left_out.push_back(out);
+    problem.data.readings.push_back(reading);
+    places.push_back(reading.sensor.position);
     problem.value.push_back(reading.illuminance_lx);
     problem.variance.push_back(0);
-    reading.used = !out;
-    problem.fit.readings.push_back(reading);
   }
+  problem.group_of_row = SpatialBlocks(places, static_cast<int>(places.size()));
+  CutIntoFolds(places, problem);
 }
 
 }  // namespace
+
+bool SubProblem::CanJudge() const {
+  return std::any_of(fold_of_row.begin(), fold_of_row.end(), [](int fold) { return fold > 0; });
+}
 
 SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
                           const std::vector<ParameterPrior>& priors, int max_elements) {
@@ -75,16 +86,14 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
                                           [&](const Observation& o) { return is_alone(o.state); })
                             : std::any_of(data.readings.begin(), data.readings.end(),
                                           [&](const Reading& r) { return r.used && is_alone(r.state); });
-  problem.state = AloneOrOthersHeld(start, luminaire, alone);
+  problem.state = AloneOrOthersHeld(start, luminaire, alone, photos && data.indirect_is_held);
   problem.luminaire = alone ? 0 : luminaire;
   std::vector<bool> state_used;
   for (const Eigen::VectorXd& dimming : data.dimming) {
     state_used.push_back(alone ? OnAlone(dimming, luminaire) : dimming[luminaire] > 0);
-    problem.all.dimming.push_back(alone ? Eigen::VectorXd::Constant(1, dimming[luminaire]).eval() : dimming);
+    problem.data.dimming.push_back(alone ? Eigen::VectorXd::Constant(1, dimming[luminaire]).eval() : dimming);
   }
-  problem.all.indirect_is_held = data.indirect_is_held;
-  problem.fit.dimming = problem.all.dimming;
-  problem.fit.indirect_is_held = data.indirect_is_held;
+  problem.data.indirect_is_held = data.indirect_is_held;
   if (photos) {
     AddObservations(room, data, state_used, max_elements, problem);
   } else {
@@ -103,9 +112,8 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
 SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
   SubProblem problem;
   const std::vector<bool> every_state(data.dimming.size(), true);
-  problem.all.dimming = data.dimming;
-  problem.all.indirect_is_held = data.indirect_is_held;
-  problem.fit = problem.all;
+  problem.data.dimming = data.dimming;
+  problem.data.indirect_is_held = data.indirect_is_held;
   if (data.observations.empty()) {
     AddReadings(data, every_state, problem);
   } else {
@@ -124,22 +132,29 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
   options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // gives the effective parameters
   options.max_outer_iterations = effort.max_outer_iterations;
   options.max_inner_iterations = effort.max_inner_iterations;
-  options.visibility_order = 2;
-  const LuminaireFit fit = FitLuminaires(room, problem.fit, state, problem.priors, options);
-  LightModel model(room, problem.all);
-  model.FreezeVisibility(fit.state, options.visibility_order);
-  return {fit.state.luminaires[k], free, model.Predict(fit.state, {}, false).value, fit.relative_sigma,
+  options.visibility_order = kVisibilityOrder;
+  const LuminaireFit fit = FitLuminaires(room, problem.data, state, problem.priors, options);
+  return {fit.state.luminaires[k], free,
+          PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row, kVisibilityOrder),
           fit.effective_parts};
 }
 
-GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted, double relative_sigma) {
-  GroupScores scores;
-  for (size_t i = 0; i < problem.left_out.size(); ++i) {
-    if (!problem.left_out[i]) continue;
+std::vector<GroupScores> ScoreTogether(const SubProblem& problem,
+                                       const std::vector<const LeftOutPrediction*>& models) {
+  double relative_sigma = 1;
+  for (const LeftOutPrediction* model : models)
+    relative_sigma = std::min(relative_sigma, model->relative_sigma);
+  std::vector<GroupScores> scores(models.size());
+  for (size_t i = 0; i < problem.value.size(); ++i) {
+    const bool counts = std::all_of(models.begin(), models.end(),
+                                    [&](const LeftOutPrediction* model) { return model->is_smooth[i]; });
+    if (!counts) continue;
     const double value = problem.value[i];
-    const double variance = std::pow(relative_sigma * value, 2) + problem.variance[i];
-    const double z = (predicted[static_cast<Eigen::Index>(i)] - value) / std::sqrt(variance);
-    scores[problem.group_of_row[i]].Add(z);
+    const double sigma = std::sqrt(std::pow(relative_sigma * value, 2) + problem.variance[i]);
+    for (size_t m = 0; m < models.size(); ++m) {
+      const double z = (models[m]->value[static_cast<Eigen::Index>(i)] - value) / sigma;
+      scores[m][problem.group_of_row[i]].Add(z);
+    }
   }
   return scores;
 }

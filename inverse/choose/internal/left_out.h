@@ -1,9 +1,13 @@
-// Collects the data that judge one luminaire's model, with a fifth left out, and scores models on that fifth.
+// Collects the data that judge one luminaire's model, and scores models by cross-validation.
 //
-// Every fifth patch is left out, or every fifth reading where there are no photos. The score is the sum of
-// min(z^2, 9) over the rows left out, z the residual over its own sigma and one common model error.
-// Differences of two models are paired group by group (facets, or readings), because residuals of one facet
-// are not independent.
+// The data are cut into five folds of whole blocks of neighbouring places (inverse/select/internal/
+// spatial_blocks.h): patches, or readings where there are no photos. Each model is fitted to all data until
+// it converges. Each fold is then predicted by the other four (inverse/model/internal/cross_validation.h).
+//
+// The score is the sum of min(z^2, 9) over all rows, z the residual over its own sigma and one common model
+// error: the smallest of the models compared. Rows that a shadow edge crosses in any of these models count
+// for none, because no fit uses them. Differences of two models are paired group by group (facets, or places
+// of readings), because residuals of one facet are not independent.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 
@@ -12,57 +16,59 @@
 #include <vector>
 
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/model/internal/cross_validation.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 
-// Leaves out one group in every five in a row, so that every part of the room keeps most of its data.
-inline bool IsLeftOut(int group) { return group % 5 == 2; }
+// Leaves out one patch in every five in a row, where a fixed state is judged and nothing is fitted again.
+inline bool IsLeftOut(int patch) { return patch % 5 == 2; }
 
-// Holds one luminaire's own problem: the data that concern it, cut into a fitted and a left-out part.
+// Holds one luminaire's own problem: the data that concern it, cut into folds.
 struct SubProblem {
   LightState state;
   int luminaire = 0;  // its index in `state`
-  LightData all, fit;
-  std::vector<int> group_of_row;  // rows of `all`: facet, or reading
-  std::vector<bool> left_out;     // rows of `all`
-  std::vector<double> value;      // rows of `all`, measured
-  std::vector<double>
-      variance;  // rows of `all`, without model error; 0 for readings: the model error is their scatter
+  LightData data;
+  std::vector<int> group_of_row;  // facet, or place of a reading
+  std::vector<int> fold_of_row;
+  std::vector<double> value;  // measured
+  // Without model error. 0 for readings: the model error is their scatter.
+  std::vector<double> variance;
   std::vector<ParameterPrior> priors;
 
-  // Returns whether anything is left out that can judge a model.
-  bool CanJudge() const { return std::find(left_out.begin(), left_out.end(), true) != left_out.end(); }
+  // Returns whether there are data to leave out.
+  bool CanJudge() const;
 };
 
 // Returns the problem over the states where the luminaire is on alone. Where there are none, it takes all
-// states and holds the other luminaires. Reflectances and scales are held. Of the observed elements, at most
-// `max_elements` are taken evenly.
+// states and holds the other luminaires. Scales are held. With photos and measured indirect light,
+// reflectances are fitted beside the luminaire, so that they carry no other model's errors; otherwise they
+// are held. Of the observed elements, at most `max_elements` are taken evenly.
 SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
                           const std::vector<ParameterPrior>& priors, int max_elements = 2500);
 
 // Returns all of the data, cut likewise. The caller sets state, luminaire and priors.
 SubProblem CutAll(const Room& room, const LightData& data, int max_elements);
 
-// Holds one model fitted to the data that are not left out.
+// Holds one model fitted to the data of a problem.
 struct FittedModel {
   Luminaire luminaire;
   FreeQuantities free;
-  Eigen::VectorXd predicted;  // rows of SubProblem::all
-  double relative_sigma = 1;
+  LeftOutPrediction left_out;
   double effective_parts = 0;  // for its table or emission
 };
 
 struct FitEffort {
-  int max_outer_iterations = 2;  // from a converged start: visibility and weights are refreshed once
+  int max_outer_iterations = 8;  // models are compared where they have converged
   int max_inner_iterations = 8;
 };
 
 FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminaire& start,
                      const FreeQuantities& free, const FitEffort& effort = {});
 
-// Returns the scores by group. `predicted`: rows of SubProblem::all.
-GroupScores ScoreGroups(const SubProblem& problem, const Eigen::VectorXd& predicted, double relative_sigma);
+// Returns the scores of models by group, one for each model, over the same rows and with one model error.
+std::vector<GroupScores> ScoreTogether(const SubProblem& problem,
+                                       const std::vector<const LeftOutPrediction*>& models);
 
 }  // namespace luxfit
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -30,9 +31,9 @@ std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const 
   const auto see = [&](const Eigen::Vector3d& p) {
     lowest = std::min(lowest, luminaire.aim.dot((p - luminaire.position).normalized()));
   };
-  for (const Observation& o : problem.all.observations)
+  for (const Observation& o : problem.data.observations)
     see(room.patches.elements[static_cast<size_t>(o.element)].center);
-  for (const Reading& reading : problem.all.readings) see(reading.sensor.position);
+  for (const Reading& reading : problem.data.readings) see(reading.sensor.position);
   constexpr double kBarelyAbove = -0.1;
   const double last_deg = lowest < kBarelyAbove ? 180 : OpsOf(luminaire.distribution).last_gamma_deg;
   std::vector<double> gamma_rad;
@@ -73,7 +74,7 @@ class Refiner {
     held_ = Fit(result_.luminaire, result_.free);
     if (open_.aim) TakeBest({AimStep()});
     while (open_.table || open_.emission) {
-      if (held_.relative_sigma <= kGoodEnough && !open_.table_asked_for) break;
+      if (held_.left_out.relative_sigma <= kGoodEnough && !open_.table_asked_for) break;
       std::vector<Step> steps;
       if (open_.table) steps.push_back(TableStep());
       if (open_.emission && !open_.table_asked_for) steps.push_back(EmissionStep());
@@ -109,10 +110,9 @@ class Refiner {
       start.heading = std::cos(angle) * axes.along - std::sin(angle) * axes.across;
       candidates.push_back({"from " + std::to_string(degrees) + " deg", Fit(start, free)});
     }
-    const double sigma = SmallestSigma(candidates);
     std::vector<SelectionCandidate> selectable;
+    for (GroupScores& scores : Scores(candidates)) selectable.push_back({std::move(scores), 1, true});
     for (const RefinedCandidate& c : candidates) {
-      selectable.push_back({ScoreGroups(problem_, c.fitted.predicted, sigma), 1, true});
       record.among.push_back(c.name);
       record.effective_parameters.push_back(1);
     }
@@ -159,38 +159,35 @@ class Refiner {
     FreeQuantities free = held_.free;
     free.emission_sigma = 1;
     int without_gain = 0;
-    double best = Score(step.candidates.front());
+    double best = std::numeric_limits<double>::infinity();
     for (const int cells : {2, 3, 4, 6, 8}) {
       // The cost grows with the square of the cells: the search ends after two without gain.
       if (without_gain == 2) break;
       Luminaire start = held_.luminaire;
       start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
       step.candidates.push_back({fmt::format("{0} x {0} cells", cells), Fit(start, free)});
-      const double score = Score(step.candidates.back());
+      const std::vector<GroupScores> scores = Scores(step.candidates);
+      best = std::min(best, Mean(scores.front()));
+      const double score = Mean(scores.back());
       without_gain = score < best ? 0 : without_gain + 1;
       best = std::min(best, score);
     }
     return Judged(std::move(step));
   }
 
-  // Scores by the model error of the held model, so that candidates can be compared before all are fitted.
-  double Score(const RefinedCandidate& candidate) const {
-    return Mean(ScoreGroups(problem_, candidate.fitted.predicted, held_.relative_sigma));
-  }
-
-  static double SmallestSigma(const std::vector<RefinedCandidate>& candidates) {
-    double sigma = 1;
-    for (const RefinedCandidate& c : candidates) sigma = std::min(sigma, c.fitted.relative_sigma);
-    return sigma;
+  std::vector<GroupScores> Scores(const std::vector<RefinedCandidate>& candidates) const {
+    std::vector<const LeftOutPrediction*> left_out;
+    left_out.reserve(candidates.size());
+    for (const RefinedCandidate& c : candidates) left_out.push_back(&c.fitted.left_out);
+    return ScoreTogether(problem_, left_out);
   }
 
   // Chooses the fewest effective parameters within one standard error of the best.
   Step Judged(Step step) const {
-    const double sigma = SmallestSigma(step.candidates);
+    const std::vector<GroupScores> scores = Scores(step.candidates);
     std::vector<SelectionCandidate> selectable;
-    for (const RefinedCandidate& c : step.candidates)
-      selectable.push_back(
-          {ScoreGroups(problem_, c.fitted.predicted, sigma), c.fitted.effective_parts, true});
+    for (size_t c = 0; c < scores.size(); ++c)
+      selectable.push_back({scores[c], step.candidates[c].fitted.effective_parts, true});
     // A requested table is estimated even where a lobe fits as well.
     selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
     SelectionOptions options;

@@ -8,7 +8,7 @@
 //             the shape as it is, or as a point
 //   emission  a rectangle of cells that emit unevenly, 2 x 2 to 8 x 8, until two in a row bring nothing
 //
-// Each candidate is fitted to four fifths of the data that concern the luminaire and scored on the rest
+// Each candidate is fitted to the data that concern the luminaire and scored by cross-validation
 // (inverse/choose/internal/left_out.h). Each step keeps the candidate with the fewest effective parameters
 // within one standard error of the best. The step is taken only if it lowers the score by more than a
 // standard error.

@@ -26,14 +26,15 @@ Luminaire At(const Luminaire& luminaire, const Luminaire& rival) {
 StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>& starts,
                          const std::vector<FittedModel>& fitted, const SeveralStartsOptions& options) {
   StartComparison comparison;
-  double sigma = 1;
-  for (const FittedModel& model : fitted) sigma = std::min(sigma, model.relative_sigma);
-  std::vector<SelectionCandidate> candidates;
+  std::vector<const LeftOutPrediction*> left_out;
   for (size_t i = 0; i < fitted.size(); ++i) {
     comparison.start.push_back(starts[i].position);
     comparison.end.push_back(fitted[i].luminaire.position);
-    candidates.push_back({ScoreGroups(problem, fitted[i].predicted, sigma), 0, true});
+    left_out.push_back(&fitted[i].left_out);
   }
+  std::vector<SelectionCandidate> candidates;
+  for (GroupScores& scores : ScoreTogether(problem, left_out))
+    candidates.push_back({std::move(scores), 0, true});
   SelectionOptions selection_options;
   selection_options.keeps_first = true;
   const Selection selection = SimplestWithinOneStandardError(candidates, selection_options);

@@ -1,7 +1,7 @@
 // Fits a luminaire from several starts where the first guess is ambiguous, and reports whether they agree.
 //
-// Each start is fitted to four fifths of the data that concern the luminaire, with the others held. It is
-// scored on the rest (inverse/choose/internal/left_out.h), and all starts have one common model error. The
+// Each start is fitted to the data that concern the luminaire, with the others held, and scored by
+// cross-validation (inverse/choose/internal/left_out.h). The
 // best score is kept; the first start is kept where no other is better by more than a standard error.
 //
 // Starts that end within `same_place_m` of the kept place agree. A start that ends more than `other_place_m`

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "forward/luminaire/distribution_ops.h"
+#include "inverse/model/internal/light_model.h"
 
 namespace luxfit {
 namespace {
@@ -274,6 +275,16 @@ void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findi
     findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
                                  "check the mesh around it, or give what is known of it"});
   }
+}
+
+void RecordBodies(const BodyChoice& choice, Findings& findings) {
+  if (choice.presence.among.empty()) return;
+  findings.choices.push_back(
+      {"luminaire bodies", choice.presence.Chosen().name, NamesOf(choice.presence),
+       fmt::format(
+           "they hide what is behind them and reflect {:g} +- {:g}; better on patches left out, or as "
+           "good within a tenth (mean squared normalised error: {})",
+           kBodyAlbedo, kBodyAlbedoSigma, ScoresOf(choice.presence))});
 }
 
 void RecordDetail(const SceneDetail& detail, Findings& findings) {

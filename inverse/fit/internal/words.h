@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "inverse/choose/internal/choose_bodies.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
 #include "inverse/choose/internal/scene_detail.h"
@@ -30,6 +31,8 @@ void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eig
 void RecordRefinement(const RoomObservations& given, const Refinement& step, Findings& findings);
 void RecordDirectShare(const DirectShare& share, Findings& findings);
 void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findings& findings);
+// Records when the luminaires' bodies hide what is behind them.
+void RecordBodies(const BodyChoice& choice, Findings& findings);
 // Records reflections, patches and elements. Warns ("elements_too_coarse") where the elements' size causes
 // more error than the rest of the model.
 void RecordDetail(const SceneDetail& detail, Findings& findings);

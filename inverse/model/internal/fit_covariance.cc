@@ -117,8 +117,8 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
     if (whitened(d, d) > 0) floor[d] = std::max(1.0, 1 / std::sqrt(whitened(d, d)));
   }
   whitened = floor.asDiagonal() * whitened * floor.asDiagonal();
-  if (rows.bias.size() > 0) {
-    const Eigen::VectorXd moved = root.transpose() * (rows.jacobian.transpose() * rows.bias);
+  if (rows.biases.size() > 0) {
+    const Eigen::MatrixXd moved = root.transpose() * (rows.jacobian.transpose() * rows.biases);
     whitened += moved * moved.transpose();
   }
   result.covariance = root * whitened * root.transpose();

@@ -1,6 +1,6 @@
 // Computes the covariance of fitted parameters whose residuals are not independent.
 //
-//   H = J^T J + P,   C = H^-1 (T sum_c g_c' g_c'^T T + sum_readings + P) H^-1 + b_theta b_theta^T
+//   H = J^T J + P,   C = H^-1 (T sum_c g_c' g_c'^T T + sum_readings + P) H^-1 + sum_b b_theta b_theta^T
 //
 // J: weighted Jacobian, P: information of priors and smoothness. g_c = J_c^T r_c is the gradient of one
 // cluster, the rows of one facet in one state, which share their model error.
@@ -19,8 +19,10 @@
 // and T belong to the principal axes of the scaled H, so that what cancels in a prediction stays cancelled.
 // Along these axes the covariance is never below the plain H^-1.
 //
-// b_theta = H^-1 J^T b is the effect of a known bias b of the model on the parameters
-// (inverse/model/internal/discretisation_bias.h). Directions of eigenvalue below 1e-10 of the largest (after
+// b_theta = H^-1 J^T b is the effect of an error b of the model that all rows share on the parameters. Each has
+// a known form and an amplitude of 1 sigma: what the discretisation leaves out
+// (inverse/model/internal/discretisation_bias.h), or a quantity that is held although it is not exactly known
+// (a "consider parameter", Schmidt 1966). Directions of eigenvalue below 1e-10 of the largest (after
 // scaling) have no covariance and are returned.
 //
 // Sources: Liang and Zeger (1986); Bell and McCaffrey (2002), "Bias reduction in standard errors for linear
@@ -37,7 +39,7 @@ struct WeightedRows {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
       jacobian;  // derivative of root weight times residual
   Eigen::VectorXd residual;
-  Eigen::VectorXd bias;               // weighted likewise; empty: none is known
+  Eigen::MatrixXd biases;             // one in each column, weighted likewise
   std::vector<int> cluster;           // one for each row, from 0; -1: stands alone
   double alone_scatter = 1;           // expected mean square of the residuals of rows that stand alone
   Eigen::MatrixXd prior_information;  // P, for priors and smoothness: parameters x parameters

@@ -14,22 +14,8 @@
 namespace luxfit {
 namespace {
 
-struct NormalEquations {
-  Eigen::MatrixXd matrix;  // J^T J; the rows' part lies in its lower triangle
-  Eigen::VectorXd gradient;
-  double squares = 0;
-
-  explicit NormalEquations(Eigen::Index n)
-      : matrix(Eigen::MatrixXd::Zero(n, n)), gradient(Eigen::VectorXd::Zero(n)) {}
-
-  void Add(const NormalEquations& other) {
-    matrix += other.matrix;
-    gradient += other.gradient;
-    squares += other.squares;
-  }
-};
-
-// Sums the rows in an order that does not depend on the threads, so that every run gives the same sums.
+// Sums the rows in an order that does not depend on the threads, so that every run gives the same sums. Of
+// the matrix, only the lower triangle is filled.
 NormalEquations SumRows(const Prediction& prediction, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& root_weight) {
   constexpr Eigen::Index kGrain = 1024;
@@ -109,19 +95,7 @@ class FrozenCost : public ceres::CostFunction {
     const Eigen::VectorXd residual = (prediction.value - problem_.data).cwiseProduct(problem_.root_weight);
     NormalEquations equations = SumRows(prediction, residual, problem_.root_weight);
     equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
-    for (const auto& [parameter, prior] : problem_.priors) {
-      const double z = (x[parameter] - prior.mean) / prior.sigma;
-      equations.matrix(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
-      equations.gradient[parameter] += z / prior.sigma;
-      equations.squares += z * z;
-    }
-    AddSmoothness(problem_.smoothness, equations.matrix);
-    for (const SmoothnessRow& row : problem_.smoothness) {
-      const double value = row.Value(x);
-      for (const auto& [parameter, coefficient] : row.terms)
-        equations.gradient[parameter] += coefficient * value;
-      equations.squares += value * value;
-    }
+    equations.Add(problem_.priors, problem_.smoothness, x);
     return Condense(equations);
   }
 
@@ -139,6 +113,33 @@ class StopAfterAcceptedStep : public ceres::IterationCallback {
 };
 
 }  // namespace
+
+IndexedPriors PriorsOf(const std::vector<Parameter>& parameters, const std::vector<ParameterPrior>& priors) {
+  IndexedPriors indexed;
+  for (const ParameterPrior& prior : priors) {
+    for (size_t i = 0; i < parameters.size(); ++i) {
+      if (parameters[i].Is(prior.kind, prior.index, prior.quantity))
+        indexed.emplace_back(static_cast<int>(i), prior);
+    }
+  }
+  return indexed;
+}
+
+void NormalEquations::Add(const IndexedPriors& priors, const std::vector<SmoothnessRow>& smoothness,
+                          const Eigen::VectorXd& x) {
+  for (const auto& [parameter, prior] : priors) {
+    const double z = (x[parameter] - prior.mean) / prior.sigma;
+    matrix(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    gradient[parameter] += z / prior.sigma;
+    squares += z * z;
+  }
+  AddSmoothness(smoothness, matrix);
+  for (const SmoothnessRow& row : smoothness) {
+    const double value = row.Value(x);
+    for (const auto& [parameter, coefficient] : row.terms) gradient[parameter] += coefficient * value;
+    squares += value * value;
+  }
+}
 
 void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x) {
   if (x.size() == 0) return;  // everything is given: nothing to solve, and Ceres aborts on an empty block

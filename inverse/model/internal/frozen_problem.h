@@ -23,13 +23,37 @@
 
 namespace luxfit {
 
+using IndexedPriors = std::vector<std::pair<int, ParameterPrior>>;  // index of the parameter, prior
+
+// Returns the priors that concern one of the parameters.
+IndexedPriors PriorsOf(const std::vector<Parameter>& parameters, const std::vector<ParameterPrior>& priors);
+
+// Holds the Gauss-Newton equations of a sum of squares.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;    // J^T J
+  Eigen::VectorXd gradient;  // J^T r
+  double squares = 0;        // |r|^2
+
+  explicit NormalEquations(Eigen::Index n)
+      : matrix(Eigen::MatrixXd::Zero(n, n)), gradient(Eigen::VectorXd::Zero(n)) {}
+
+  void Add(const NormalEquations& other) {
+    matrix += other.matrix;
+    gradient += other.gradient;
+    squares += other.squares;
+  }
+  // Adds the squares of priors and smoothness at x.
+  void Add(const IndexedPriors& priors, const std::vector<SmoothnessRow>& smoothness,
+           const Eigen::VectorXd& x);
+};
+
 struct FrozenProblem {
   const LightModel& model;
   const LightState& base;  // tilts are relative to its aims
   const std::vector<Parameter>& parameters;
   const Eigen::VectorXd& data;
-  const Eigen::VectorXd& root_weight;                         // sqrt(w) / sigma, 0 for rows left out
-  const std::vector<std::pair<int, ParameterPrior>>& priors;  // index of the parameter, prior
+  const Eigen::VectorXd& root_weight;  // sqrt(w) / sigma, 0 for rows left out
+  const IndexedPriors& priors;
   const std::vector<SmoothnessRow>& smoothness;
   const Prediction& at_base;  // with its Jacobian
 };

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "forward/light/covered_surfaces.h"
+
 namespace luxfit {
 namespace {
 
@@ -115,6 +117,35 @@ LightModel::LightModel(const Room& room, const LightData& data)
 void LightModel::FreezeVisibility(const LightState& state, int order) {
   visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
       room_, receivers_, state.luminaires, order);
+  FreezeBodies(state);
+}
+
+void LightModel::FreezeBodies(const LightState& state) {
+  hidden_.resize(0), reflected_.resize(0);
+  if (state.bodies == BodyPresence::kNone || data_.indirect_is_held || room_.sparse) return;
+  const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room_, state.luminaires);
+  if (surfaces.empty()) return;
+  const Eigen::MatrixXf total = Light(state, {}).total;
+  const CoveredLight covered = ComputeCoveredLight(room_, receivers_, visibility_, state.luminaires,
+                                                   TransportFor(state.albedo), surfaces);
+  const Eigen::VectorXd flux = FluxesLm(state.luminaires);
+  hidden_.setZero(row_count()), reflected_.setZero(row_count());
+  for (Eigen::Index i = 0; i < row_count(); ++i) {
+    const Row& row = rows_[static_cast<size_t>(i)];
+    const Eigen::VectorXd& dimming = data_.dimming[static_cast<size_t>(row.state)];
+    const Eigen::VectorXd lumens = dimming.cwiseProduct(flux);
+    const double illuminance_lx = total.row(row.receiver).cast<double>() * lumens;
+    if (!(illuminance_lx > 0)) continue;
+    const Eigen::VectorXd incident = covered.incident * lumens;
+    for (size_t k = 0; k < surfaces.size(); ++k) {
+      if (state.bodies == BodyPresence::kWhenOn && !(dimming[surfaces[k].luminaire] > 0)) continue;
+      const auto column = static_cast<Eigen::Index>(k);
+      const double share =
+          surfaces[k].share * covered.response(row.receiver, column) * incident[column] / illuminance_lx;
+      reflected_[i] += share;
+      hidden_[i] += state.albedo[surfaces[k].material] * share;
+    }
+  }
 }
 
 std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
@@ -133,8 +164,13 @@ std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
 Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& request) const {
   if (data_.indirect_is_held)
     return ComputeDirectIlluminance(room_, receivers_, visibility_, state.luminaires, request);
-  if (!transport_ || transport_->albedo() != state.albedo) transport_.emplace(room_.transport, state.albedo);
-  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, *transport_, request);
+  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, TransportFor(state.albedo),
+                            request);
+}
+
+const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
+  if (!transport_ || transport_->albedo() != albedo) transport_.emplace(room_.transport, albedo);
+  return *transport_;
 }
 
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
@@ -147,18 +183,22 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
   Prediction prediction;
   prediction.value.resize(row_count());
   prediction.direct.resize(row_count());
+  prediction.d_body.resize(hidden_.size());
   if (with_jacobian) prediction.jacobian.setZero(row_count(), static_cast<Eigen::Index>(parameters.size()));
   tbb::parallel_for(0, row_count(), [&](int i) {
     const Row& row = rows_[static_cast<size_t>(i)];
     const RowBlock& block = *blocks_[static_cast<size_t>(row.block)];
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
     const RowResponse response = block.ResponseOf(state, row.place);
-    const double illuminance_lx = light.total.row(row.receiver).cast<double>() * lumens;
+    const double unhidden_lx = light.total.row(row.receiver).cast<double>() * lumens;
+    const double left = hidden_.size() > 0 ? 1 - hidden_[i] + kBodyAlbedo * reflected_[i] : 1;
+    const double illuminance_lx = left * unhidden_lx;
+    if (hidden_.size() > 0) prediction.d_body[i] = response.gain * unhidden_lx * reflected_[i];
     prediction.value[i] = response.gain * illuminance_lx + response.offset;
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
     for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
       prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
-          derivative.Of(parameters[p], p, row.receiver, response.gain, lumens) +
+          derivative.Of(parameters[p], p, row.receiver, left * response.gain, lumens) +
           block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
     }
   });

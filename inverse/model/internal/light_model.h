@@ -1,11 +1,13 @@
 // Predicts what was observed, with its Jacobian: the model that the fit inverts.
 //
-//   value_i = gain_i(theta) E_i(theta) + offset_i(theta),   E_i = sum_k d_sk Phi_k E_ik(theta)
+//   value_i = gain_i(theta) E_i(theta) + offset_i(theta),   E_i = h_i sum_k d_sk Phi_k E_ik(theta)
 //
 // Row i of a block of rows (inverse/model/internal/row_block.h) receives the illuminance E_i in state s.
 // d: dimming, Phi: flux, E_ik: illuminance per lumen (forward/light/illuminance.h). The block states gain
 // and offset. The gain of a photo's element is c rho / pi; that of a reading belongs to its meter and
-// sensor.
+// sensor. h = 1 - a + rho_body b is what the luminaires' bodies leave of the light
+// (forward/light/covered_surfaces.h); a and b are frozen with the visibility. Photos hardly tell rho_body from
+// the fluxes: it is held at kBodyAlbedo, and its sigma is a part of every covariance.
 //
 // Rows come block by block, in the order of RowBlocksOf. The Jacobian is rows x parameters and exact for
 // frozen visibility. Where the indirect light was measured (LightData::indirect_is_held), E is the direct
@@ -29,9 +31,13 @@ namespace luxfit {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+// Reflectance of luminaires' bodies, from black to white, and its standard deviation.
+constexpr double kBodyAlbedo = 0.5, kBodyAlbedoSigma = 0.3;
+
 struct Prediction {
   Eigen::VectorXd value;
   Eigen::VectorXd direct;   // the part of `value` that is direct light
+  Eigen::VectorXd d_body;   // derivative by the reflectance of the bodies; empty: they hide nothing
   RowMajorMatrix jacobian;  // empty if not asked for
 };
 
@@ -40,8 +46,8 @@ class LightModel {
   // Keeps references: `room` and `data` must outlive it. Not to be shared by threads.
   LightModel(const Room& room, const LightData& data);
 
-  // Computes the visible shares that Predict uses, for the luminaires where `state` has them. `order` is that
-  // of ComputeVisibility.
+  // Computes the visible shares that Predict uses, and what bodies hide, for the luminaires where `state` has
+  // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
   // Marks rows that a shadow edge crosses, in the blocks that it spoils. There, a luminaire dimmed to more
   // than `min_dimming` is seen in part.
@@ -63,6 +69,10 @@ class LightModel {
     int block = 0, place = 0;
     int receiver = 0, state = 0;
   };
+  // Computes what the bodies of `state` hide of each row's light.
+  void FreezeBodies(const LightState& state);
+  // Returns the transport for the reflectances, factored once for those of the last call.
+  const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
   // Returns illuminance per lumen at the receivers.
   Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
 
@@ -72,6 +82,7 @@ class LightModel {
   std::vector<Row> rows_;
   Receivers receivers_;
   LuminaireVisibility visibility_;
+  Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.
   mutable std::optional<Transport> transport_;
 };

@@ -107,11 +107,25 @@ TEST(FitCovarianceTest, AKnownBiasIsContained) {
   const Line line = MakeLine(6);
   WeightedRows rows = RowsOf(line, Eigen::VectorXd::Zero(line.jacobian.rows()));
   const Eigen::MatrixXd without = CovarianceOf(rows).covariance;
-  rows.bias = line.jacobian * Eigen::Vector2d(3, -4);  // moves the parameters by (3, -4)
+  rows.biases = line.jacobian * Eigen::Vector2d(3, -4);  // moves the parameters by (3, -4)
   const Eigen::MatrixXd difference = CovarianceOf(rows).covariance - without;
   EXPECT_NEAR(difference(0, 0), 9, 1e-9);
   EXPECT_NEAR(difference(0, 1), -12, 1e-9);
   EXPECT_NEAR(difference(1, 1), 16, 1e-9);
+}
+
+// Errors of independent causes add as b1 b1^T + b2 b2^T; their sum as one error would have products of both.
+TEST(FitCovarianceTest, BiasesOfTwoCausesAddUp) {
+  const Line line = MakeLine(6);
+  WeightedRows rows = RowsOf(line, Eigen::VectorXd::Zero(line.jacobian.rows()));
+  const Eigen::MatrixXd without = CovarianceOf(rows).covariance;
+  Eigen::Matrix2d moves;
+  moves << 3, 2, -4, 1;  // one column for each cause
+  rows.biases = line.jacobian * moves;
+  const Eigen::MatrixXd difference = CovarianceOf(rows).covariance - without;
+  EXPECT_NEAR(difference(0, 0), 9 + 4, 1e-9);
+  EXPECT_NEAR(difference(0, 1), -12 + 2, 1e-9);
+  EXPECT_NEAR(difference(1, 1), 16 + 1, 1e-9);
 }
 
 TEST(FitCovarianceTest, WhatNothingDeterminesIsNamed) {

@@ -1,0 +1,150 @@
+#include "inverse/model/internal/cross_validation.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "inverse/model/internal/frozen_problem.h"
+#include "inverse/model/internal/light_model.h"
+#include "inverse/model/internal/part_smoothness.h"
+
+namespace luxfit {
+namespace {
+
+class FoldPredictor {
+ public:
+  FoldPredictor(const Room& room, const LightData& data, const LuminaireFit& fit,
+                const std::vector<ParameterPrior>& priors, const std::vector<int>& fold_of_row, int order)
+      : fit_(fit),
+        priors_(PriorsOf(fit.parameters, priors)),
+        smoothness_(SmoothnessRows(fit.state, fit.parameters)),
+        fold_of_row_(fold_of_row),
+        model_(room, data),
+        data_(model_.row_count()) {
+    model_.FreezeVisibility(fit.state, order);
+    for (int i = 0; i < model_.row_count(); ++i) data_[i] = model_.BlockOf(i).ValueOf(model_.PlaceInBlock(i));
+    at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
+    information_ = (fit.root_weight.asDiagonal() * at_fit_.prediction.jacobian)
+                       .colwise()
+                       .squaredNorm()
+                       .transpose()
+                       .cwiseMax(1e-300);
+  }
+
+  LeftOutPrediction Run() {
+    LeftOutPrediction result;
+    result.relative_sigma = fit_.relative_sigma;
+    result.value = at_fit_.prediction.value;
+    result.is_smooth = model_.InPenumbra();
+    result.is_smooth.flip();
+    const int folds = 1 + *std::max_element(fold_of_row_.begin(), fold_of_row_.end());
+    for (int fold = 0; fold < folds; ++fold) {
+      const Eigen::VectorXd value = ValueWithout(fold);
+      for (Eigen::Index i = 0; i < value.size(); ++i)
+        if (FoldOf(i) == fold) result.value[i] = value[i];
+    }
+    return result;
+  }
+
+ private:
+  // Holds a state, what it predicts, and where the fold's steps stand.
+  struct Point {
+    LightState state;
+    std::vector<Parameter> parameters;  // tilts count from `state`
+    Prediction prediction;
+  };
+
+  int FoldOf(Eigen::Index row) const { return fold_of_row_[static_cast<size_t>(row)]; }
+
+  Eigen::VectorXd Residual(const Eigen::VectorXd& value) const {
+    return (value - data_).cwiseProduct(fit_.root_weight);
+  }
+
+  // Returns the squares of the rows outside of the fold, of priors and of smoothness.
+  double SquaresWithout(int fold, const Eigen::VectorXd& value, const Eigen::VectorXd& x) const {
+    NormalEquations known(x.size());
+    known.Add(priors_, smoothness_, x);
+    const Eigen::VectorXd residual = Residual(value);
+    double squares = known.squares;
+    for (Eigen::Index i = 0; i < residual.size(); ++i)
+      if (FoldOf(i) != fold) squares += residual[i] * residual[i];
+    return squares;
+  }
+
+  NormalEquations EquationsWithout(int fold, const Point& at) const {
+    const Eigen::VectorXd x = PackParameters(at.state, at.parameters);
+    NormalEquations equations(x.size());
+    const Eigen::VectorXd residual = Residual(at.prediction.value);
+    for (Eigen::Index i = 0; i < residual.size(); ++i) {
+      if (FoldOf(i) == fold || !(fit_.root_weight[i] > 0)) continue;
+      const Eigen::VectorXd row = fit_.root_weight[i] * at.prediction.jacobian.row(i).transpose();
+      equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
+      equations.gradient += residual[i] * row;
+    }
+    equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
+    equations.Add(priors_, smoothness_, x);
+    // A direction that only the fold determines stays where it is.
+    constexpr double kRidge = 1e-9;
+    equations.matrix.diagonal() += kRidge * information_;
+    return equations;
+  }
+
+  // Takes one step, halved until it lowers the squares. Returns the share of the expected gain that it made;
+  // 0: no step lowers the squares.
+  double Step(int fold, Point& at) const {
+    const NormalEquations equations = EquationsWithout(fold, at);
+    const Eigen::VectorXd step = -equations.matrix.ldlt().solve(equations.gradient);
+    const double expected = -equations.gradient.dot(step);
+    const Eigen::VectorXd x0 = PackParameters(at.state, at.parameters);
+    const double before = SquaresWithout(fold, at.prediction.value, x0);
+    constexpr double kSmallestStep = 1.0 / 8;
+    for (double length = 1; length >= kSmallestStep; length /= 2) {
+      Eigen::VectorXd x = x0 + length * step;
+      for (Eigen::Index p = 0; p < x.size(); ++p) {
+        const Parameter& parameter = at.parameters[static_cast<size_t>(p)];
+        x[p] = std::clamp(x[p], parameter.lower, parameter.upper);
+      }
+      LightState state = WithParameters(at.state, at.parameters, x);
+      Prediction prediction = model_.Predict(state, {}, false);
+      if (!prediction.value.allFinite()) continue;
+      const double gain = before - SquaresWithout(fold, prediction.value, x);
+      if (gain < 0) continue;
+      at = {std::move(state), at.parameters, std::move(prediction)};
+      return expected > 0 ? gain / expected : 1;
+    }
+    return 0;
+  }
+
+  Eigen::VectorXd ValueWithout(int fold) const {
+    if (fit_.parameters.empty()) return at_fit_.prediction.value;
+    constexpr int kMostSteps = 5;
+    constexpr double kNearlyLinear = 0.8;
+    Point at = at_fit_;
+    for (int i = 0; i < kMostSteps; ++i) {
+      const double gained = Step(fold, at);
+      if (gained <= 0 || gained > kNearlyLinear) break;
+      at.parameters = Recentred(at.parameters, at.state);
+      at.prediction = model_.Predict(at.state, at.parameters, true);
+    }
+    return at.prediction.value;
+  }
+
+  const LuminaireFit& fit_;
+  const IndexedPriors priors_;
+  const std::vector<SmoothnessRow> smoothness_;
+  const std::vector<int>& fold_of_row_;
+  LightModel model_;
+  Eigen::VectorXd data_;
+  Point at_fit_;
+  Eigen::VectorXd information_;  // diagonal of the whole fit's matrix
+};
+
+}  // namespace
+
+LeftOutPrediction PredictLeftOut(const Room& room, const LightData& data, const LuminaireFit& fit,
+                                 const std::vector<ParameterPrior>& priors,
+                                 const std::vector<int>& fold_of_row, int visibility_order) {
+  return FoldPredictor(room, data, fit, priors, fold_of_row, visibility_order).Run();
+}
+
+}  // namespace luxfit
