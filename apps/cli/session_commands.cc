@@ -56,9 +56,9 @@ void AddRun(CLI::App& app, Invocation& invocation) {
       "8 views registered, reprojection RMS 0.031 px\n"
       "\n"
       "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
-      "A           1.501  2.002  2.790  ± 0.9 1.5 8.2             3592 ± 72         lambertian disc 0.65 m\n"
+      "A           1.501  2.002  2.790  ± 1.0 1.7 8.2             3604 ± 73         lambertian disc 0.64 m\n"
       "...\n"
-      "checked 47 readings: mean error 1.02 lx = 0.84 % of the mean reading, largest 2.92 %");
+      "checked 47 readings: mean error 1.08 lx = 0.89 % of the mean reading, largest 3.02 %");
   const auto fit = AddSessionCommand(
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);

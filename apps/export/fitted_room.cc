@@ -12,7 +12,9 @@
 #include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
+#include "forward/light/covered_surfaces.h"
 #include "forward/light/illuminance.h"
+#include "inverse/model/light_state.h"
 
 namespace luxfit {
 namespace {
@@ -65,19 +67,31 @@ Eigen::VectorXd AlbedoOf(const json& result, const Scene& scene) {
 
 // Returns receivers x luminaires, lx.
 PlaceLight LightOf(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
-                   const Eigen::VectorXd& albedo) {
-  const Illuminance light =
-      ComputeIlluminance(room, receivers, ComputeVisibility(room, receivers, luminaires), luminaires, albedo);
+                   const Eigen::VectorXd& albedo, const std::string& bodies) {
+  const LuminaireVisibility visibility = ComputeVisibility(room, receivers, luminaires);
+  const Transport transport(room.transport, albedo);
+  const Illuminance light = ComputeIlluminance(room, receivers, visibility, luminaires, transport);
+  Eigen::MatrixXd total = light.total.cast<double>();
+  if (bodies != ToString(BodyPresence::kNone)) {
+    const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room, luminaires);
+    total -= HiddenLight(surfaces,
+                         ComputeCoveredLight(room, receivers, visibility, luminaires, transport, surfaces),
+                         albedo, kBodyAlbedo, bodies == ToString(BodyPresence::kAlways));
+  }
   const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
-  return {light.total.cast<double>() * flux_lm.asDiagonal(),
-          light.direct.cast<double>() * flux_lm.asDiagonal()};
+  return {total * flux_lm.asDiagonal(), light.direct.cast<double>() * flux_lm.asDiagonal()};
+}
+
+// Returns when the fit's luminaires have bodies; "none" in results that do not say.
+std::string BodiesOf(const json& result) {
+  return result.value("luminaire_bodies", ToString(BodyPresence::kNone));
 }
 
 PlaceLight LightOfElements(const Room& room, const std::vector<Luminaire>& luminaires,
-                           const Eigen::VectorXd& albedo) {
+                           const Eigen::VectorXd& albedo, const std::string& bodies) {
   std::vector<int> elements(room.patches.elements.size());
   std::iota(elements.begin(), elements.end(), 0);
-  return LightOf(room, MakeReceivers(room, elements, {}), luminaires, albedo);
+  return LightOf(room, MakeReceivers(room, elements, {}), luminaires, albedo, bodies);
 }
 
 Session FittedSession(const json& result, const std::string& given, const std::string& path) {
@@ -99,7 +113,7 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
   context.is_quiet = true;
   std::vector<Luminaire> luminaires = GivenLuminaires(session, "report", context);
   Eigen::VectorXd albedo = AlbedoOf(result, room.scene);
-  PlaceLight light = LightOfElements(room, luminaires, albedo);
+  PlaceLight light = LightOfElements(room, luminaires, albedo, BodiesOf(result));
   return {out,
           std::make_shared<const json>(result),
           std::move(session),
@@ -150,7 +164,7 @@ FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Ro
 
 PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors, int rays_per_sensor) {
   return LightOf(fitted.room, MakeReceivers(fitted.room, {}, sensors, rays_per_sensor), fitted.luminaires,
-                 fitted.albedo);
+                 fitted.albedo, BodiesOf(*fitted.result));
 }
 
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state) {

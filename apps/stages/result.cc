@@ -212,6 +212,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["luminaires"] = LuminairesJson(session, fit, files);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
+  result["luminaire_bodies"] = ToString(fit.fit.state.bodies);
   AddLuxmeter(readings, fit, result);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);

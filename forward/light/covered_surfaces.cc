@@ -103,4 +103,20 @@ CoveredLight ComputeCoveredLight(const Room& room, const Receivers& receivers,
   return light;
 }
 
+Eigen::MatrixXd HiddenLight(const std::vector<CoveredSurface>& surfaces, const CoveredLight& light,
+                            const Eigen::VectorXd& albedo, double body_albedo, bool always_there) {
+  Eigen::MatrixXd hidden = Eigen::MatrixXd::Zero(light.response.rows(), light.incident.cols());
+  for (size_t k = 0; k < surfaces.size(); ++k) {
+    const auto surface = static_cast<Eigen::Index>(k);
+    const double lost = surfaces[k].share * (albedo[surfaces[k].material] - body_albedo);
+    if (always_there) {
+      hidden += lost * light.response.col(surface) * light.incident.row(surface);
+    } else {
+      const Eigen::Index own = surfaces[k].luminaire;
+      hidden.col(own) += lost * light.incident(surface, own) * light.response.col(surface);
+    }
+  }
+  return hidden;
+}
+
 }  // namespace luxfit

@@ -38,6 +38,11 @@ struct CoveredLight {
   Eigen::MatrixXd incident;  // E_ks, surfaces x luminaires, per lumen of each luminaire
 };
 
+// Returns what the bodies take from the light of each luminaire alone: receivers x luminaires, lx per lm. Where
+// bodies are always there, all of them take from each luminaire; otherwise its own body does.
+Eigen::MatrixXd HiddenLight(const std::vector<CoveredSurface>& surfaces, const CoveredLight& light,
+                            const Eigen::VectorXd& albedo, double body_albedo, bool always_there);
+
 // Throws as ComputeIlluminance does.
 CoveredLight ComputeCoveredLight(const Room& room, const Receivers& receivers,
                                  const LuminaireVisibility& visibility,

@@ -203,6 +203,11 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
   return parameters;
 }
 
+std::string ToString(BodyPresence bodies) {
+  if (bodies == BodyPresence::kNone) return "none";
+  return bodies == BodyPresence::kWhenOn ? "when_on" : "always";
+}
+
 Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parameter>& parameters) {
   Eigen::VectorXd x(static_cast<Eigen::Index>(parameters.size()));
   for (size_t i = 0; i < parameters.size(); ++i) {

@@ -10,6 +10,7 @@
 #define LUXFIT_INVERSE_MODEL_LIGHT_STATE_H_
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "forward/direct/sensor.h"
@@ -57,6 +58,12 @@ enum class BodyPresence {
   kWhenOn,  // in states where the luminaire is on, as where each is hung up for its own photos
   kAlways,
 };
+
+// Reflectance of the bodies, from black to white, and its standard deviation.
+constexpr double kBodyAlbedo = 0.5, kBodyAlbedoSigma = 0.3;
+
+// The word of files: "none", "when_on" or "always".
+std::string ToString(BodyPresence bodies);
 
 struct LightState {
   std::vector<Luminaire> luminaires;

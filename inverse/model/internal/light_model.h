@@ -31,9 +31,6 @@ namespace luxfit {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Reflectance of luminaires' bodies, from black to white, and its standard deviation.
-constexpr double kBodyAlbedo = 0.5, kBodyAlbedoSigma = 0.3;
-
 struct Prediction {
   Eigen::VectorXd value;
   Eigen::VectorXd direct;   // the part of `value` that is direct light
