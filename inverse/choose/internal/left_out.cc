@@ -10,7 +10,6 @@ namespace {
 
 constexpr int kFolds = 5;
 constexpr int kBlocksPerFold = 8;
-constexpr int kVisibilityOrder = 3;  // points along each side of a luminaire tested for occlusion
 
 bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
   return dimming[luminaire] > 0 && dimming.sum() == dimming[luminaire];
@@ -132,11 +131,12 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
   options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // gives the effective parameters
   options.max_outer_iterations = effort.max_outer_iterations;
   options.max_inner_iterations = effort.max_inner_iterations;
-  options.visibility_order = kVisibilityOrder;
+  options.visibility_order = kComparedVisibilityOrder;
   const LuminaireFit fit = FitLuminaires(room, problem.data, state, problem.priors, options);
-  return {fit.state.luminaires[k], free,
-          PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row, kVisibilityOrder),
-          fit.effective_parts};
+  return {
+      fit.state.luminaires[k], free,
+      PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row, kComparedVisibilityOrder),
+      fit.effective_parts};
 }
 
 std::vector<GroupScores> ScoreTogether(const SubProblem& problem,

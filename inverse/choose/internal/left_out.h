@@ -24,6 +24,9 @@ namespace luxfit {
 // Leaves out one patch in every five in a row, where a fixed state is judged and nothing is fitted again.
 inline bool IsLeftOut(int patch) { return patch % 5 == 2; }
 
+// Points along each side of a luminaire that are tested for occlusion, in fits that are compared.
+constexpr int kComparedVisibilityOrder = 3;
+
 // Holds one luminaire's own problem: the data that concern it, cut into folds.
 struct SubProblem {
   LightState state;
