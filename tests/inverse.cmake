@@ -1,4 +1,6 @@
 luxfit_test(inverse/select one_standard_error_test LINK luxfit::inverse)
+luxfit_test(inverse/select spatial_blocks_test LINK luxfit::inverse)
+luxfit_test(inverse/model cross_validation_test LINK luxfit::inverse)
 luxfit_test(inverse/observe observe_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_bodies_test LINK luxfit::inverse)

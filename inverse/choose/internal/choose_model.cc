@@ -87,15 +87,18 @@ Selection SelectAmong(const SubProblem& problem, const std::vector<const FittedM
   return SimplestWithinOneStandardError(candidates);
 }
 
-FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free) {
+// `start`: where the fit starts from; of a turned candidate, the straight one as fitted.
+FittedCandidate FitCandidate(const Room& room, const SubProblem& problem, int index, bool aim_is_free,
+                             const Luminaire& start) {
   const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(index)];
   const size_t k = static_cast<size_t>(problem.luminaire);
-  Luminaire luminaire = problem.state.luminaires[k];
+  Luminaire luminaire = start;
   FreeQuantities free = problem.state.free[k];
   Apply(candidate, aim_is_free, luminaire, free);
   if (!candidate.is_turned) return {index, aim_is_free, FitModel(room, problem, luminaire, free)};
   // Both sides are free, so headings repeat after a quarter turn. Two starts a third of it from either end
-  // leave no heading further than an eighth of a turn away.
+  // leave no heading further than an eighth of a turn away. A square of the same area favours neither side.
+  luminaire.size_m.setConstant(std::sqrt(luminaire.size_m.prod()));
   const LuminaireAxes axes = AxesOf(luminaire);
   std::optional<FittedModel> best;
   for (const double start_deg : {30.0, 60.0}) {
@@ -187,8 +190,19 @@ class LuminaireChooser {
     if (known != fitted_.end()) return known->second;
     return fitted_
         .emplace(std::make_pair(candidate, aim_is_free),
-                 FitCandidate(room_, problem_, candidate, aim_is_free))
+                 FitCandidate(room_, problem_, candidate, aim_is_free, StartOf(candidate, aim_is_free)))
         .first->second;
+  }
+
+  Luminaire StartOf(int candidate, bool aim_is_free) {
+    const ModelCandidate& turned = AllCandidates()[static_cast<size_t>(candidate)];
+    for (const int c : allowed_) {
+      const ModelCandidate& straight = AllCandidates()[static_cast<size_t>(c)];
+      if (turned.is_turned && !straight.is_turned && straight.shape == turned.shape &&
+          straight.distribution == turned.distribution)
+        return Fitted(c, aim_is_free).model.luminaire;
+    }
+    return problem_.state.luminaires[static_cast<size_t>(problem_.luminaire)];
   }
 
   std::vector<FittedCandidate> FitAll(bool turns) {

@@ -2,57 +2,60 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numeric>
+#include <array>
+#include <map>
 
 namespace luxfit {
 namespace {
 
-using Indices = std::vector<int>::iterator;
+using Place = std::array<double, 3>;
+using Places = std::vector<Place>::iterator;
 
 class Halving {
  public:
-  explicit Halving(const std::vector<Eigen::Vector3d>& places) : places_(places), block_(places.size()) {}
-
-  void Cut(Indices begin, Indices end, int blocks) {
-    Eigen::AlignedBox3d box;
-    for (auto i = begin; i != end; ++i) box.extend(At(*i));
-    int axis = 0;
-    if (blocks < 2 || !(box.sizes().maxCoeff(&axis) > 0)) {
-      for (auto i = begin; i != end; ++i) block_[static_cast<size_t>(*i)] = next_;
+  // Cuts distinct places. `blocks`: from 1 to their number.
+  void Cut(Places begin, Places end, int blocks) {
+    if (blocks == 1) {
+      for (auto p = begin; p != end; ++p) block_[*p] = next_;
       ++next_;
       return;
     }
-    // Equal places stay together: the cut lies between two distinct coordinates, as near the middle as they
-    // allow.
-    std::sort(begin, end,
-              [&](int a, int b) { return At(a)[axis] != At(b)[axis] ? At(a)[axis] < At(b)[axis] : a < b; });
-    const double median = At(*(begin + (end - begin) / 2))[axis];
-    const auto below = [&](int i) { return At(i)[axis] < median; };
-    const auto not_above = [&](int i) { return At(i)[axis] <= median; };
-    Indices middle = std::partition_point(begin, end, below);
-    if (middle == begin) middle = std::partition_point(begin, end, not_above);
-    Cut(begin, middle, (blocks + 1) / 2);
-    Cut(middle, end, blocks / 2);
+    Eigen::AlignedBox3d box;
+    for (auto p = begin; p != end; ++p) box.extend(Eigen::Vector3d((*p)[0], (*p)[1], (*p)[2]));
+    size_t axis = 0;
+    box.sizes().maxCoeff(&axis);
+    std::sort(begin, end, [axis](const Place& a, const Place& b) {
+      return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
+    });
+    const int lower = (blocks + 1) / 2;
+    const Places middle = begin + (end - begin) * lower / blocks;
+    Cut(begin, middle, lower);
+    Cut(middle, end, blocks - lower);
   }
 
-  std::vector<int> Take() { return std::move(block_); }
+  int BlockOf(const Place& place) const { return block_.at(place); }
 
  private:
-  const Eigen::Vector3d& At(int i) const { return places_[static_cast<size_t>(i)]; }
-
-  const std::vector<Eigen::Vector3d>& places_;
-  std::vector<int> block_;
+  std::map<Place, int> block_;
   int next_ = 0;
 };
 
 }  // namespace
 
 std::vector<int> SpatialBlocks(const std::vector<Eigen::Vector3d>& places, int blocks) {
-  std::vector<int> order(places.size());
-  std::iota(order.begin(), order.end(), 0);
-  Halving halving(places);
-  if (!order.empty()) halving.Cut(order.begin(), order.end(), blocks);
-  return halving.Take();
+  std::vector<Place> all;
+  all.reserve(places.size());
+  for (const Eigen::Vector3d& p : places) all.push_back({p.x(), p.y(), p.z()});
+  std::vector<Place> distinct = all;
+  std::sort(distinct.begin(), distinct.end());
+  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  Halving halving;
+  if (!distinct.empty())
+    halving.Cut(distinct.begin(), distinct.end(), std::min(blocks, static_cast<int>(distinct.size())));
+  std::vector<int> block;
+  block.reserve(all.size());
+  for (const Place& p : all) block.push_back(halving.BlockOf(p));
+  return block;
 }
 
 }  // namespace luxfit

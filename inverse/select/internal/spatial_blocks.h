@@ -3,8 +3,8 @@
 // Errors of neighbouring places are alike. A place left out alone would be predicted by its neighbours,
 // errors included; a whole block is not.
 //
-// The places are halved at the median along the longest side of their box, until there are `blocks` blocks or
-// one for each distinct place. Blocks are numbered in the order of the halving, so that consecutive numbers
+// The distinct places are cut across the longest side of their box into parts of equal size, until there are
+// `blocks` blocks or one for each distinct place. Blocks are numbered in the order of the cuts, so that consecutive numbers
 // adjoin: block mod folds puts neighbours into different folds.
 //
 // Source: Roberts et al. (2017), "Cross-validation strategies for data with temporal, spatial, hierarchical,
