@@ -8,13 +8,13 @@
 namespace luxfit {
 namespace {
 
-using Place = std::array<double, 3>;
-using Places = std::vector<Place>::iterator;
+using DistinctPlace = std::array<double, 3>;
+using DistinctPlaces = std::vector<DistinctPlace>::iterator;
 
 class Halving {
  public:
   // Cuts distinct places. `blocks`: from 1 to their number.
-  void Cut(Places begin, Places end, int blocks) {
+  void Cut(DistinctPlaces begin, DistinctPlaces end, int blocks) {
     if (blocks == 1) {
       for (auto p = begin; p != end; ++p) block_[*p] = next_;
       ++next_;
@@ -24,29 +24,29 @@ class Halving {
     for (auto p = begin; p != end; ++p) box.extend(Eigen::Vector3d((*p)[0], (*p)[1], (*p)[2]));
     size_t axis = 0;
     box.sizes().maxCoeff(&axis);
-    std::sort(begin, end, [axis](const Place& a, const Place& b) {
+    std::sort(begin, end, [axis](const DistinctPlace& a, const DistinctPlace& b) {
       return a[axis] != b[axis] ? a[axis] < b[axis] : a < b;
     });
     const int lower = (blocks + 1) / 2;
-    const Places middle = begin + (end - begin) * lower / blocks;
+    const DistinctPlaces middle = begin + (end - begin) * lower / blocks;
     Cut(begin, middle, lower);
     Cut(middle, end, blocks - lower);
   }
 
-  int BlockOf(const Place& place) const { return block_.at(place); }
+  int BlockOf(const DistinctPlace& place) const { return block_.at(place); }
 
  private:
-  std::map<Place, int> block_;
+  std::map<DistinctPlace, int> block_;
   int next_ = 0;
 };
 
 }  // namespace
 
 std::vector<int> SpatialBlocks(const std::vector<Eigen::Vector3d>& places, int blocks) {
-  std::vector<Place> all;
+  std::vector<DistinctPlace> all;
   all.reserve(places.size());
   for (const Eigen::Vector3d& p : places) all.push_back({p.x(), p.y(), p.z()});
-  std::vector<Place> distinct = all;
+  std::vector<DistinctPlace> distinct = all;
   std::sort(distinct.begin(), distinct.end());
   distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
   Halving halving;
@@ -54,7 +54,7 @@ std::vector<int> SpatialBlocks(const std::vector<Eigen::Vector3d>& places, int b
     halving.Cut(distinct.begin(), distinct.end(), std::min(blocks, static_cast<int>(distinct.size())));
   std::vector<int> block;
   block.reserve(all.size());
-  for (const Place& p : all) block.push_back(halving.BlockOf(p));
+  for (const DistinctPlace& p : all) block.push_back(halving.BlockOf(p));
   return block;
 }
 
