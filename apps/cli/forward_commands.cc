@@ -99,7 +99,7 @@ void AddChart(CLI::App& app, Invocation& invocation) {
              "\n"
              "on the front:\n"
              "method               rays patch m element m bounces solver                 time s   error %\n"
-             "malley_stratified      32     0.8       0.2       8 neumann                0.0571     0.595\n"
+             "malley_stratified      32     0.8       0.2 ...\n"
              "...");
 }
 

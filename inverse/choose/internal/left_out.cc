@@ -62,7 +62,7 @@ void AddReadings(const LightData& data, const std::vector<bool>& state_used, Sub
     problem.data.readings.push_back(reading);
     places.push_back(reading.sensor.position);
     problem.value.push_back(reading.illuminance_lx);
-    problem.variance.push_back(0);
+    problem.variance.push_back(reading.sigma_lx * reading.sigma_lx);
   }
   problem.group_of_row = SpatialBlocks(places, static_cast<int>(places.size()));
   CutIntoFolds(places, problem);

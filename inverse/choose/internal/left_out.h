@@ -34,9 +34,8 @@ struct SubProblem {
   LightData data;
   std::vector<int> group_of_row;  // facet, or place of a reading
   std::vector<int> fold_of_row;
-  std::vector<double> value;  // measured
-  // Without model error. 0 for readings: the model error is their scatter.
-  std::vector<double> variance;
+  std::vector<double> value;     // measured
+  std::vector<double> variance;  // without model error
   std::vector<ParameterPrior> priors;
 
   // Returns whether there are data to leave out.
