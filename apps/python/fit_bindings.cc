@@ -203,6 +203,7 @@ FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std
     PhotoObservations observed = ObservePhotos(room, lenses, ReadTagMap(tags->string()), images, tag_family);
     given.observations = std::move(observed.observations);
     given.seen = std::move(observed.seen);
+    given.outlines = std::move(observed.outlines);
   }
   FoundLight fitted;
   fitted.fit = FitRoom(room, given);

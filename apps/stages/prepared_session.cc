@@ -100,7 +100,8 @@ PreparedSession PrepareSession(const Session& session, const SessionInputs& inpu
           std::move(room),
           std::move(registered),
           std::move(observed.observations),
-          std::move(observed.seen)};
+          std::move(observed.seen),
+          std::move(observed.outlines)};
 }
 
 PreparedSession PrepareSession(const Session& session, RunContext& context) {

@@ -27,6 +27,7 @@ struct PreparedSession {
   RegisteredSession registered;
   std::vector<Observation> observations;  // from every view, not thinned
   std::vector<SeenPlace> seen;            // where luminaires are visible
+  std::vector<SeenOutline> outlines;      // how they look there
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
 PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context);

@@ -102,6 +102,7 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.dimming = DimmingOf(session);
   given.observations = observed.observations;
   given.seen = observed.seen;
+  given.outlines = observed.outlines;
   given.meter = MeterOf(session, linearized.readings);
   given.albedo = KnownAlbedo(session, room);
   given.camera_scale = CameraScale(linearized.photos);

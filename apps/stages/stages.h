@@ -114,6 +114,7 @@ LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPho
 struct SessionObservations {
   std::vector<Observation> observations;
   std::vector<SeenPlace> seen;
+  std::vector<SeenOutline> outlines;
 };
 SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
                                    const RegisteredSession& registered, const Room& room,

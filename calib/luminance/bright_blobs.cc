@@ -4,6 +4,10 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <utility>
+
+#include "calib/luminance/internal/blob_contour.h"
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -39,6 +43,11 @@ cv::Mat ToMat(const PixelMask& mask) {
   return mat;
 }
 
+cv::Rect BoxOf(const cv::Mat& stats, int label) {
+  return {stats.at<int>(label, cv::CC_STAT_LEFT), stats.at<int>(label, cv::CC_STAT_TOP),
+          stats.at<int>(label, cv::CC_STAT_WIDTH), stats.at<int>(label, cv::CC_STAT_HEIGHT)};
+}
+
 // Holds sums over a blob's pixels.
 struct Moments {
   double count = 0, saturated = 0;
@@ -50,6 +59,18 @@ struct Moments {
     sum += p;
   }
 };
+
+// Returns the median luminance of the blob's pixels.
+float TypicalLuminance(const LuminanceImage& image, const cv::Mat& labels, const cv::Rect& box, int label) {
+  std::vector<double> values;
+  for (int v = box.y; v < box.y + box.height; ++v) {
+    for (int u = box.x; u < box.x + box.width; ++u) {
+      if (labels.at<int>(v, u) == label && std::isfinite(image.relative_luminance(v, u)))
+        values.push_back(image.relative_luminance(v, u));
+    }
+  }
+  return values.empty() ? 0 : static_cast<float>(Median(std::move(values)));
+}
 
 }  // namespace
 
@@ -72,25 +93,33 @@ std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const Brigh
       if (label > 0) moments[static_cast<size_t>(label)].Add({u, v}, saturated(v, u));
     }
   }
-  std::vector<BrightBlob> blobs;
+  std::vector<std::pair<BrightBlob, int>> found;  // with their labels
   for (int label = 1; label < count; ++label) {
     const Moments& m = moments[static_cast<size_t>(label)];
     if (m.count < options.min_area_px2) continue;
     BrightBlob blob;
     blob.center_px = m.sum / m.count;
-    const int left = stats.at<int>(label, cv::CC_STAT_LEFT), top = stats.at<int>(label, cv::CC_STAT_TOP);
-    const int right = left + stats.at<int>(label, cv::CC_STAT_WIDTH);
-    const int bottom = top + stats.at<int>(label, cv::CC_STAT_HEIGHT);
-    blob.extent_px = {Eigen::Vector2d(left - 0.5, top - 0.5), Eigen::Vector2d(right - 0.5, bottom - 0.5)};
-    blob.touches_edge = left == 0 || top == 0 || right == labels.cols || bottom == labels.rows;
+    const cv::Rect box = BoxOf(stats, label);
+    blob.extent_px = {Eigen::Vector2d(box.x - 0.5, box.y - 0.5),
+                      Eigen::Vector2d(box.br().x - 0.5, box.br().y - 0.5)};
+    blob.touches_edge = box.x == 0 || box.y == 0 || box.br().x == labels.cols || box.br().y == labels.rows;
     blob.area_px2 = m.count;
     blob.saturated_share = m.saturated / m.count;
-    blobs.push_back(blob);
+    found.emplace_back(blob, label);
   }
-  std::stable_sort(blobs.begin(), blobs.end(),
-                   [](const BrightBlob& a, const BrightBlob& b) { return a.area_px2 > b.area_px2; });
-  if (blobs.size() > static_cast<size_t>(options.max_blobs))
-    blobs.resize(static_cast<size_t>(options.max_blobs));
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first.area_px2 > b.first.area_px2; });
+  if (found.size() > static_cast<size_t>(options.max_blobs))
+    found.resize(static_cast<size_t>(options.max_blobs));
+  std::vector<BrightBlob> blobs;
+  blobs.reserve(found.size());
+  for (auto& [blob, label] : found) {
+    const cv::Rect box = BoxOf(stats, label);
+    const float level = 0.5f * TypicalLuminance(image, labels, box, label);
+    blob.contour_px =
+        TraceBlobContour(image.relative_luminance, labels, box, label, level, options.contour_points);
+    blobs.push_back(std::move(blob));
+  }
   return blobs;
 }
 

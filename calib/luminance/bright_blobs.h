@@ -8,9 +8,13 @@
 // Highlights, windows and overexposed surfaces are blobs too. Only several views together, and the light
 // itself, tell which blobs are luminaires.
 //
+// A blob's contour lies where the luminance is half of what the blob shows: of its median, which for a
+// saturated blob is the sensor's limit. The blur of a lens thus moves it outwards by a fraction of a pixel.
+//
 // Pixels; (0, 0) is the centre of the top-left one. Bright pixels touching by a side or a corner are one
 // blob.
-// Source: connected components after Bolelli et al. (2020), "Spaghetti labeling", in OpenCV.
+// Sources: connected components after Bolelli et al. (2020), "Spaghetti labeling", in OpenCV; contours as in
+// calib/luminance/internal/blob_contour.h.
 #ifndef LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
 #define LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_
 
@@ -28,12 +32,15 @@ struct BrightBlob {
   double area_px2 = 0;
   double saturated_share = 0;
   bool touches_edge = false;  // the photo's edge: the blob's centre is not the luminaire's
+  // Evenly spaced points of its outer contour. The photo's edge is no contour.
+  std::vector<Eigen::Vector2d> contour_px;
 };
 
 struct BrightBlobOptions {
   double times_surfaces = 4;
   double min_area_px2 = 4;  // a smaller blob is a tag's corner or a hot pixel
   int max_blobs = 24;       // the largest are kept: in a photo with more, most are texture
+  int contour_points = 32;
 };
 
 // Returns the blobs, largest first. Throws std::invalid_argument for an image whose planes differ in size.

@@ -16,6 +16,7 @@
 #include "inverse/choose/internal/profile_direct_share.h"
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
+#include "inverse/fit/internal/outlines.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
 #include "inverse/fit/internal/words.h"
@@ -89,6 +90,7 @@ class RoomFitter {
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
     for (const StartComparison& c : starts.comparisons) RecordStarts(given_, c, result_.findings);
+    result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
     state = ChooseModels(data, starts.state);
     state.camera_scale_free = start_.state.camera_scale_free;
     state.meter_scale_free = start_.state.meter_scale_free;
@@ -155,6 +157,11 @@ class RoomFitter {
     options.covariance = false;
     LuminaireFit near = FitLuminaires(room_, part, start, start_.priors, options);
     if (near.status == FitStatus::kNoData) return near;
+    result_.data.outlines = ExplainedOutlines(given_, part, near, result_.findings);
+    if (result_.data.outlines.size() < part.outlines.size()) {
+      part.outlines = result_.data.outlines;
+      near = FitLuminaires(room_, part, near.state, start_.priors, options);
+    }
     near.state = WithoutVanishedSizes(near.state);
     const BodyChoice bodies = ChooseBodies(room_, part, near, start_.priors);
     RecordBodies(bodies, result_.findings);

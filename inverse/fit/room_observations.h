@@ -17,6 +17,7 @@
 #include "forward/luminaire/photometry_file.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/seen_outlines.h"
 
 namespace luxfit {
 
@@ -65,6 +66,7 @@ struct RoomObservations {
   std::vector<Eigen::VectorXd> dimming;   // one vector per state, by luminaire, 0 to 1
   std::vector<Observation> observations;  // all views (inverse/observe/observe.h)
   std::vector<SeenPlace> seen;            // where luminaires show in photos
+  std::vector<SeenOutline> outlines;      // how they show there
   Meter meter;
   std::vector<std::optional<double>> albedo;  // by material, where known; may be empty
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known

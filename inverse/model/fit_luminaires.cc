@@ -65,6 +65,7 @@ class OuterLoop {
     values_.resize(rows);
     variance_.resize(rows);
     is_used_.resize(static_cast<size_t>(rows));
+    is_robust_.resize(static_cast<size_t>(rows));
     carries_model_error_.resize(static_cast<size_t>(rows));
     for (int i = 0; i < rows; ++i) {
       const RowBlock& block = model_.BlockOf(i);
@@ -72,6 +73,7 @@ class OuterLoop {
       values_[i] = block.ValueOf(place);
       variance_[i] = block.VarianceOf(place);
       is_used_[static_cast<size_t>(i)] = block.IsUsed(place);
+      is_robust_[static_cast<size_t>(i)] = block.IsRobust();
       carries_model_error_[static_cast<size_t>(i)] = model_.block_index(i) == model_.block_index(0);
     }
   }
@@ -99,8 +101,7 @@ class OuterLoop {
       if (!is_usable_[static_cast<size_t>(i)]) continue;
       const double sigma = SigmaOf(i);
       const double z = residual[i] / (options_.robust_sigmas * sigma);
-      // Rows of other blocks are few and each was meant: they are not down-weighted.
-      fit_.weight[i] = carries_model_error_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
+      fit_.weight[i] = is_robust_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
       fit_.root_weight[i] = std::sqrt(fit_.weight[i]) / sigma;
     }
   }
@@ -195,15 +196,18 @@ class OuterLoop {
     return rows;
   }
 
-  // Returns what the model's discretisation leaves out of each row, and an error of the bodies' reflectance.
+  // Returns what the model's discretisation leaves out of each row, errors that the rows of a block share, and
+  // an error of the bodies' reflectance.
   Eigen::MatrixXd Biases() const {
-    Eigen::MatrixXd biases(values_.size(), at_state_.d_body.size() > 0 ? 2 : 1);
-    if (biases.cols() > 1) biases.col(1) = kBodyAlbedoSigma * at_state_.d_body;
-    auto bias = biases.col(0);
+    Eigen::MatrixXd biases(values_.size(), at_state_.d_body.size() > 0 ? 3 : 2);
+    if (biases.cols() > 2) biases.col(2) = kBodyAlbedoSigma * at_state_.d_body;
     Eigen::Index first = 0;
     for (const auto& block : model_.blocks()) {
-      if (block->row_count() > 0) bias.segment(first, block->row_count()) = block->BiasOf(fit_.state);
-      first += block->row_count();
+      const Eigen::Index count = block->row_count();
+      if (count == 0) continue;
+      biases.col(0).segment(first, count) = block->BiasOf(fit_.state);
+      biases.col(1).segment(first, count) = block->SharedErrorOf(fit_.state);
+      first += count;
     }
     return biases;
   }
@@ -232,6 +236,7 @@ class OuterLoop {
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, variance_;
   std::vector<bool> is_used_, is_usable_;  // fitted to; fitted to and not spoilt at the present state
+  std::vector<bool> is_robust_;
   std::vector<bool> carries_model_error_;  // rows of the first block that has any
   Prediction at_state_;
   double relative_sigma_before_ = 0;

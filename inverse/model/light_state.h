@@ -1,6 +1,6 @@
 // Holds the data of a fit, and what the fit varies to explain them.
 //
-// LightData: luminance of elements in photos, and readings of a luxmeter. LightState: luminaires,
+// LightData: luminance of elements in photos, readings of a luxmeter, outlines of luminaires in photos. LightState: luminaires,
 // reflectances and scales, and which of their parameters are free.
 //
 // Free parameters are stacked in one vector. Fluxes, exponents and the scales of camera and meter are
@@ -17,6 +17,7 @@
 #include "forward/light/room.h"
 #include "inverse/model/parameter.h"
 #include "inverse/observe/observe.h"
+#include "inverse/observe/seen_outlines.h"
 
 namespace luxfit {
 
@@ -33,6 +34,7 @@ struct LightData {
   std::vector<Eigen::VectorXd> dimming;  // one vector per state, by luminaire
   std::vector<Observation> observations;
   std::vector<Reading> readings;
+  std::vector<LuminaireOutline> outlines;  // where the photos show luminaires themselves
   // true: the observations carry their indirect light (inverse/model/internal/measured_indirect.h). No
   // radiosity is solved, and there are no readings.
   bool indirect_is_held = false;

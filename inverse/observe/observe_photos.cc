@@ -64,6 +64,7 @@ PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cam
     observed.observations.insert(observed.observations.end(), seen.begin(), seen.end());
   }
   observed.seen = FindSeenLuminaires(room, cameras, views, blobs);
+  observed.outlines = FindSeenOutlines(cameras, views, blobs);
   return observed;
 }
 

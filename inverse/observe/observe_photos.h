@@ -18,6 +18,7 @@
 #include "forward/light/room.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/seen_outlines.h"
 
 namespace luxfit {
 
@@ -32,6 +33,7 @@ struct PhotoObservations {
   Registration registration;
   std::vector<Observation> observations;  // all views; Observation::view indexes registration.views
   std::vector<SeenPlace> seen;
+  std::vector<SeenOutline> outlines;
 };
 
 PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cameras,

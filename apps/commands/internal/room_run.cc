@@ -53,7 +53,8 @@ RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, Room
                           RunContext& context) {
   const StageTimer total(context, "total", "");
   PreparedSession prepared = PrepareSession(read, inputs, context);
-  const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen)};
+  const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen),
+                                     std::move(prepared.outlines)};
   const LinearizedSession& linearized = prepared.linearized;
   const Session session =
       WithCountedLuminaires(std::move(prepared.session), linearized, prepared.room, observed, context);

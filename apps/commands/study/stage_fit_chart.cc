@@ -88,17 +88,25 @@ class FitSweep {
     points_.push_back(std::move(point));
   }
 
-  // Returns places of luminaires that are visible in photos of these observations' states.
-  std::vector<SeenPlace> SeenIn(const std::vector<Observation>& observations) const {
+  // Adds to the observations what their photos show of luminaires: places in their states, and outlines.
+  SessionObservations WithSeen(std::vector<Observation> observations) const {
     std::set<int> states;
-    for (const Observation& o : observations) states.insert(o.state);
-    std::vector<SeenPlace> seen;
-    std::copy_if(prepared_.seen.begin(), prepared_.seen.end(), std::back_inserter(seen),
+    std::set<std::pair<int, int>> photos;
+    for (const Observation& o : observations) {
+      states.insert(o.state);
+      photos.emplace(o.view, o.state);
+    }
+    SessionObservations kept{std::move(observations), {}, {}};
+    std::copy_if(prepared_.seen.begin(), prepared_.seen.end(), std::back_inserter(kept.seen),
                  [&](const SeenPlace& place) {
                    return std::any_of(place.states.begin(), place.states.end(),
                                       [&](int state) { return states.count(state) > 0; });
                  });
-    return seen;
+    std::copy_if(prepared_.outlines.begin(), prepared_.outlines.end(), std::back_inserter(kept.outlines),
+                 [&](const SeenOutline& outline) {
+                   return photos.count({outline.view, outline.state}) > 0;
+                 });
+    return kept;
   }
 
   std::vector<Observation> Thinned() const { return ThinElements(prepared_.observations, elements_); }
@@ -113,7 +121,7 @@ class FitSweep {
     counts.push_back(std::max(1, static_cast<int>(observed.size())));
     for (const int n : counts)
       Add("elements", n, prepared_.session, prepared_.linearized, prepared_.room,
-          {ThinElements(prepared_.observations, n), prepared_.seen}, 0);
+          {ThinElements(prepared_.observations, n), prepared_.seen, prepared_.outlines}, 0);
     if (truth_.empty()) truth_ = points_.back().found;
   }
 
@@ -127,7 +135,7 @@ class FitSweep {
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.view <= last; });
       Add("views", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
-          {kept, {}}, 0);
+          {kept, {}, WithSeen(kept).outlines}, 0);
     }
   }
 
@@ -143,7 +151,7 @@ class FitSweep {
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.state <= last; });
       Add("states", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
-          {kept, SeenIn(kept)}, 0);
+          WithSeen(kept), 0);
     }
   }
 
@@ -196,7 +204,7 @@ class FitSweep {
       });
       if (!has_scale && !readings.empty()) readings.front().given.role = ReadingRole::kScale;
       if (kept.empty() && readings.empty()) continue;
-      Add("luminaires", static_cast<double>(n), session, linearized, prepared_.room, {kept, SeenIn(kept)}, 0);
+      Add("luminaires", static_cast<double>(n), session, linearized, prepared_.room, WithSeen(kept), 0);
     }
   }
 

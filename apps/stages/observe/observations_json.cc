@@ -39,6 +39,31 @@ Observation FromNumbers(const std::array<double, kNumbers>& n) {
   return o;
 }
 
+// The rays follow one another: direction and pixels per radian.
+json OutlineJson(const SeenOutline& outline) {
+  Eigen::VectorXd rays(4 * static_cast<Eigen::Index>(outline.rays.size()));
+  for (size_t i = 0; i < outline.rays.size(); ++i)
+    rays.segment<4>(4 * static_cast<Eigen::Index>(i)) << outline.rays[i].direction,
+        outline.rays[i].px_per_rad;
+  return {{"view", outline.view},
+          {"camera", outline.camera},
+          {"state", outline.state},
+          {"eye_m", VectorJson(outline.eye)},
+          {"rays", VectorJson(rays)}};
+}
+
+SeenOutline OutlineFromJson(const json& entry) {
+  SeenOutline outline;
+  outline.view = entry.at("view");
+  outline.camera = entry.at("camera");
+  outline.state = entry.at("state");
+  outline.eye = VectorFromJson(entry.at("eye_m"));
+  const Eigen::VectorXd rays = VectorFromJson(entry.at("rays"));
+  for (Eigen::Index i = 0; i + 4 <= rays.size(); i += 4)
+    outline.rays.push_back({rays.segment<3>(i), rays[i + 3]});
+  return outline;
+}
+
 }  // namespace
 
 json ObservationsJson(const SessionObservations& observed) {
@@ -57,7 +82,9 @@ json ObservationsJson(const SessionObservations& observed) {
                     {"views", p.views},
                     {"missing", p.missing},
                     {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
-  return {{"observations", json::binary(std::move(bytes))}, {"seen", seen}};
+  json outlines = json::array();
+  for (const SeenOutline& outline : observed.outlines) outlines.push_back(OutlineJson(outline));
+  return {{"observations", json::binary(std::move(bytes))}, {"seen", seen}, {"outlines", outlines}};
 }
 
 SessionObservations ObservationsFromJson(const json& in) {
@@ -81,6 +108,7 @@ SessionObservations ObservationsFromJson(const json& in) {
     place.area_m2 = VectorFromJson(entry.at("area_m2"))[0];
     observed.seen.push_back(place);
   }
+  for (const json& entry : in.at("outlines")) observed.outlines.push_back(OutlineFromJson(entry));
   return observed;
 }
 

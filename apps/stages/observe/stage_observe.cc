@@ -67,13 +67,12 @@ void RecordAmbient(const Session& session, const LinearizedPhotos& photos, RunCo
        "photograph these views with all luminaires off too"});
 }
 
-std::vector<SeenPlace> SeenPlaces(const Room& room, const RegisteredSession& registered,
-                                  const std::vector<std::optional<PhotoBlobs>>& blobs) {
+std::vector<PhotoBlobs> ListBlobs(std::vector<std::optional<PhotoBlobs>> blobs) {
   std::vector<PhotoBlobs> photos;
-  for (const std::optional<PhotoBlobs>& photo : blobs) {
-    if (photo) photos.push_back(*photo);
+  for (std::optional<PhotoBlobs>& photo : blobs) {
+    if (photo) photos.push_back(std::move(*photo));
   }
-  return FindSeenLuminaires(room, registered.cameras, registered.registration.views, photos);
+  return photos;
 }
 
 nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& places) {
@@ -140,7 +139,10 @@ SessionObservations ObserveSession(const Session& session, const LinearizedPhoto
   }
   observations = WithSelfCalibration(session, photos, registered, room.patches, std::move(observations),
                                      context, artifact);
-  SessionObservations observed{std::move(observations), SeenPlaces(room, registered, blobs)};
+  const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs));
+  SessionObservations observed{std::move(observations),
+                               FindSeenLuminaires(room, registered.cameras, views, seen),
+                               FindSeenOutlines(registered.cameras, views, seen)};
   artifact["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", artifact);
   return observed;

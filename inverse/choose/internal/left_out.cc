@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "inverse/model/internal/outline_block.h"
 #include "inverse/select/internal/spatial_blocks.h"
 
 namespace luxfit {
@@ -68,6 +69,18 @@ void AddReadings(const LightData& data, const std::vector<bool>& state_used, Sub
   CutIntoFolds(places, problem);
 }
 
+// Adds an outline. A fold leaves whole views out.
+void AddOutline(const SeenOutline& outline, int luminaire, SubProblem& problem) {
+  constexpr int kFirstGroup = 1 << 28;  // apart from those of facets
+  problem.data.outlines.push_back({luminaire, outline});
+  for (size_t i = 0; i < outline.rays.size(); ++i) {
+    problem.group_of_row.push_back(kFirstGroup + outline.view);
+    problem.fold_of_row.push_back(outline.view % kFolds);
+    problem.value.push_back(0);
+    problem.variance.push_back(kOutlineSigmaPx * kOutlineSigmaPx);
+  }
+}
+
 }  // namespace
 
 bool SubProblem::CanJudge() const {
@@ -95,6 +108,10 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   problem.data.indirect_is_held = data.indirect_is_held;
   if (photos) {
     AddObservations(room, data, state_used, max_elements, problem);
+    for (const LuminaireOutline& outline : data.outlines) {
+      if (outline.luminaire == luminaire && state_used[static_cast<size_t>(outline.seen.state)])
+        AddOutline(outline.seen, problem.luminaire, problem);
+    }
   } else {
     AddReadings(data, state_used, problem);
   }
@@ -117,6 +134,8 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
     AddReadings(data, every_state, problem);
   } else {
     AddObservations(room, data, every_state, max_elements, problem);
+    for (const LuminaireOutline& outline : data.outlines)
+      AddOutline(outline.seen, outline.luminaire, problem);
   }
   return problem;
 }

@@ -32,7 +32,7 @@ struct SubProblem {
   LightState state;
   int luminaire = 0;  // its index in `state`
   LightData data;
-  std::vector<int> group_of_row;  // facet, or place of a reading
+  std::vector<int> group_of_row;  // facet, place of a reading, or view of an outline
   std::vector<int> fold_of_row;
   std::vector<double> value;     // measured
   std::vector<double> variance;  // without model error

@@ -195,7 +195,9 @@ Eigen::MatrixXf OverPairsOfPatches(const Room& room, const Eigen::MatrixXf& valu
 // light is taken at its centre, so it errs by the square of its size.
 Eigen::VectorXd LeftOutByLargerElements(const Room& room, const LightData& data, const LightState& state,
                                         const std::vector<size_t>& rows) {
-  LightData part{data.dimming, {}, {}, true};
+  LightData part;
+  part.dimming = data.dimming;
+  part.indirect_is_held = true;
   part.observations.reserve(rows.size());
   for (const size_t row : rows) part.observations.push_back(data.observations[row]);
   return -3 * DiscretisationBias(room, part, state, 2 * kMaxDetailElements);

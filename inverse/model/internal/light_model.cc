@@ -94,9 +94,9 @@ LightModel::LightModel(const Room& room, const LightData& data)
       if (receiver.state < 0 || receiver.state >= static_cast<int>(data.dimming.size()))
         throw std::invalid_argument("LightModel: expected a state index below " +
                                     std::to_string(data.dimming.size()));
-      if (receiver.sensor == nullptr) elements.push_back(receiver.element);
+      if (receiver.sensor == nullptr && receiver.element >= 0) elements.push_back(receiver.element);
       receivers.push_back(receiver);
-      rows_.push_back({static_cast<int>(b), place, 0, receiver.state});
+      rows_.push_back({static_cast<int>(b), place, -1, receiver.state});
     }
   }
   std::sort(elements.begin(), elements.end());
@@ -104,6 +104,7 @@ LightModel::LightModel(const Room& room, const LightData& data)
   std::vector<Sensor> sensors;
   for (size_t i = 0; i < rows_.size(); ++i) {
     const RowReceiver& receiver = receivers[i];
+    if (receiver.sensor == nullptr && receiver.element < 0) continue;
     rows_[i].receiver =
         receiver.sensor != nullptr
             ? static_cast<int>(elements.size()) + IndexOf(*receiver.sensor, sensors)
@@ -132,6 +133,7 @@ void LightModel::FreezeBodies(const LightState& state) {
   hidden_.setZero(row_count()), reflected_.setZero(row_count());
   for (Eigen::Index i = 0; i < row_count(); ++i) {
     const Row& row = rows_[static_cast<size_t>(i)];
+    if (row.receiver < 0) continue;
     const Eigen::VectorXd& dimming = data_.dimming[static_cast<size_t>(row.state)];
     const Eigen::VectorXd lumens = dimming.cwiseProduct(flux);
     const double illuminance_lx = total.row(row.receiver).cast<double>() * lumens;
@@ -182,14 +184,21 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
 
   Prediction prediction;
   prediction.value.resize(row_count());
-  prediction.direct.resize(row_count());
-  prediction.d_body.resize(hidden_.size());
+  prediction.direct.setZero(row_count());
+  prediction.d_body.setZero(hidden_.size());
   if (with_jacobian) prediction.jacobian.setZero(row_count(), static_cast<Eigen::Index>(parameters.size()));
   tbb::parallel_for(0, row_count(), [&](int i) {
     const Row& row = rows_[static_cast<size_t>(i)];
     const RowBlock& block = *blocks_[static_cast<size_t>(row.block)];
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
     const RowResponse response = block.ResponseOf(state, row.place);
+    if (row.receiver < 0) {
+      prediction.value[i] = response.offset;
+      for (size_t p = 0; with_jacobian && p < parameters.size(); ++p)
+        prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
+            block.OwnDerivative(state, parameters[p], 0, row.place);
+      return;
+    }
     const double unhidden_lx = light.total.row(row.receiver).cast<double>() * lumens;
     const double left = hidden_.size() > 0 ? 1 - hidden_[i] + kBodyAlbedo * reflected_[i] : 1;
     const double illuminance_lx = left * unhidden_lx;

@@ -64,7 +64,7 @@ class LightModel {
  private:
   struct Row {
     int block = 0, place = 0;
-    int receiver = 0, state = 0;
+    int receiver = -1, state = 0;  // -1: the row receives no light
   };
   // Computes what the bodies of `state` hide of each row's light.
   void FreezeBodies(const LightState& state);

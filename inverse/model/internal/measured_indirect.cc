@@ -62,7 +62,9 @@ Eigen::MatrixXf ModelledIndirect(const Room& room, const LightData& data, const 
 }
 
 LightData WithIndirect(const LightData& data, const Eigen::MatrixXf& at_elements) {
-  LightData with{data.dimming, data.observations, {}, true};
+  LightData with = data;
+  with.readings.clear();
+  with.indirect_is_held = true;
   for (Observation& o : with.observations)
     o.relative_indirect = static_cast<double>(at_elements(o.element, o.state));
   return with;

@@ -22,6 +22,7 @@ class PhotoBlock : public RowBlock {
   double ValueOf(int row) const override { return Of(row).relative_luminance; }
   double VarianceOf(int row) const override { return Of(row).variance; }
   bool IsUsed(int /*row*/) const override { return true; }
+  bool IsRobust() const override { return true; }
   bool IsSpoiltByPenumbra() const override { return true; }
   RowResponse ResponseOf(const LightState& state, int row) const override;
   double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,

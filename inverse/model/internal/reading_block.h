@@ -21,6 +21,7 @@ class ReadingBlock : public RowBlock {
   double ValueOf(int row) const override { return Of(row).illuminance_lx; }
   double VarianceOf(int row) const override { return Of(row).sigma_lx * Of(row).sigma_lx; }
   bool IsUsed(int row) const override { return Of(row).used; }
+  bool IsRobust() const override { return false; }
   bool IsSpoiltByPenumbra() const override { return false; }
   RowResponse ResponseOf(const LightState& state, int row) const override;
   double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,

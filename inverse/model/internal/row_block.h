@@ -23,7 +23,7 @@
 
 namespace luxfit {
 
-// Says where a row receives light: at an element of the room, or at a sensor.
+// Says where a row receives light: at an element of the room, at a sensor, or nowhere (an outline).
 struct RowReceiver {
   int element = -1;
   const Sensor* sensor = nullptr;
@@ -45,6 +45,8 @@ class RowBlock {
   virtual double ValueOf(int row) const = 0;
   virtual double VarianceOf(int row) const = 0;
   virtual bool IsUsed(int row) const = 0;
+  // Whether a row far from the model counts less. Rows that are few, each meant, are not down-weighted.
+  virtual bool IsRobust() const = 0;
   // Whether a shadow edge across the receiver spoils the row: its dependence on positions is then not smooth.
   virtual bool IsSpoiltByPenumbra() const = 0;
 
@@ -57,10 +59,14 @@ class RowBlock {
   virtual std::optional<std::pair<int, int>> ClusterOf(int row) const = 0;
   // Returns what the model's discretisation leaves out of each row, in its unit.
   virtual Eigen::VectorXd BiasOf(const LightState& state) const = 0;
+  // Returns an error that all rows share, at 1 sigma of its amplitude (inverse/model/internal/fit_covariance.h).
+  virtual Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const {
+    return Eigen::VectorXd::Zero(row_count());
+  }
 };
 
 // Makes one block for each kind of observation. The first block that has rows carries the model's relative
-// error: its rows are weighted robustly, and their scatter estimates that error.
+// error, which its rows' scatter estimates.
 std::vector<std::unique_ptr<RowBlock>> RowBlocksOf(const Room& room, const LightData& data);
 
 // Returns the first row of the luxmeter's readings.

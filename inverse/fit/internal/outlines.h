@@ -1,0 +1,31 @@
+// Takes into a fit the outlines of luminaires that photos show.
+//
+// An outline tells place, shape, size and heading where the light hardly does: it belongs to a luminaire whose
+// shape is open or has a size. A luminaire given as a point (or by a file of a point) has no outline to
+// compare, and a held one needs none.
+//
+// The seen outline of a luminaire is that of its bright opening only where the model explains it. Halos, lit
+// housings and tubes behind a diffuser look otherwise: where half of a luminaire's points lie more than 3
+// sigma from the fitted outline, none of them counts.
+#ifndef LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
+#define LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
+
+#include <vector>
+
+#include "inverse/fit/fit_room.h"
+#include "inverse/fit/room_observations.h"
+#include "inverse/model/fit_luminaires.h"
+
+namespace luxfit {
+
+// Returns the outlines of luminaires that were found. `state`: their places, to about 5 cm.
+std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const std::vector<bool>& found,
+                                         const LightState& state);
+
+// Returns those of `data.outlines` that the fit to `data` explains. Records both in `choices`.
+std::vector<LuminaireOutline> ExplainedOutlines(const RoomObservations& given, const LightData& data,
+                                                const LuminaireFit& fit, Findings& findings);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
