@@ -8,6 +8,7 @@ luxfit_test(apps/text former_keys_test LINK luxfit_apps nlohmann_json::nlohmann_
 luxfit_test(apps/charts xy_chart_svg_test LINK luxfit_apps)
 luxfit_test(apps/text name_pattern_test LINK luxfit_apps)
 luxfit_test(apps/stages linearize_test LINK luxfit_apps nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
+luxfit_test(apps/session photo_corrections_test LINK luxfit_apps)
 luxfit_test(apps/session photo_names_test LINK luxfit_apps)
 luxfit_test(apps/text process_test LINK luxfit_apps)
 luxfit_test(apps/report display_cells_test LINK luxfit_apps)

@@ -1,8 +1,9 @@
 // Reads by how much an earlier run found the photos and cameras to be off, for callers that read the photos
-// again: exposure by photo, vignetting and response by camera (inverse/choose/self_calibration.h).
+// again: exposure by photo, gain, vignetting and response by camera (inverse/choose/self_calibration.h).
 //
-// The corrections (calib/luminance/luminance.h) come from OUT/stages/observe.json. Nothing is corrected where
-// the run chose "as recorded". Exposures of photos that were not in that run are taken as stated.
+// The corrections (calib/luminance/luminance.h) come from OUT/stages/observe.json. Where the run chose "as
+// recorded", only the gains of its cameras are corrected. Exposures of photos that were not in that run are
+// taken as stated.
 #ifndef LUXFIT_APPS_SESSION_PHOTO_CORRECTIONS_H_
 #define LUXFIT_APPS_SESSION_PHOTO_CORRECTIONS_H_
 
@@ -13,8 +14,8 @@
 
 namespace luxfit {
 
-// Holds the correction of each photo that the run read, by file, and of each camera, by id. Other photos take
-// that of their camera, with their exposure as stated.
+// Holds the correction of each camera, by id, and of each photo that the run read beyond it, by file. Other
+// photos take that of their camera, with their exposure as stated.
 struct PhotoCorrections {
   std::map<std::string, double> log_gain;
   std::map<std::string, PhotoCorrection> of_camera;

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/simulate/given_luminaire.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/fit/fit_room.h"
@@ -72,11 +73,11 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
   return known;
 }
 
-// Returns the given scale of the camera. A relative luminance of 1 is full scale at 1 s.
+// Returns the given scale of the camera in whose unit luminances are.
 std::optional<double> CameraScale(const LinearizedPhotos& photos) {
-  if (photos.cameras.empty() || !(photos.cameras[0].given.cdm2_per_count_s > 0)) return std::nullopt;
-  const LinearizedCamera& camera = photos.cameras[0];
-  return 1 / (camera.given.cdm2_per_count_s * (camera.full_scale_counts - camera.given.black_level_counts));
+  if (photos.cameras.empty()) return std::nullopt;
+  const auto per_unit = LuminancePerUnit(photos.cameras[static_cast<size_t>(UnitCamera(photos))]);
+  return per_unit ? std::optional(1 / *per_unit) : std::nullopt;
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 //
 //   observations -> photos -> samples -> SelfCalibrate -> corrected observations, findings
 //
-//   Y' = f Y,   var(Y') = f^2 var(Y) + var(g_p) Y'^2,   ln f as in PhotoCorrection (calib/luminance/luminance.h)
+//   Y' = f Y,   var(Y') = f^2 var(Y) + var(h_c + g_p) Y'^2,   ln f as in PhotoCorrection
+//                                                             (calib/luminance/luminance.h)
 //
-// Y: relative luminance of an element in a photo, g_p: logarithm of that photo's gain. A photo is a view in a
-// state of the luminaires. An element is seen at the pixel of its centre.
+// Y: relative luminance of an element in a photo. h_c, g_p: logarithms of the gains of its camera and of the
+// photo itself. Their sigmas enter the fit through this variance, as if errors were independent from element
+// to element. The part that all elements of a camera share is in no sigma of a luminaire: it is the sigma of
+// h_c, some tenths of a percent where cameras share a hundred elements. A photo is a view in a state of the
+// luminaires. An element is seen at the pixel of its centre.
 // Source: inverse/choose/self_calibration.h.
 #ifndef LUXFIT_INVERSE_CHOOSE_CALIBRATED_OBSERVATIONS_H_
 #define LUXFIT_INVERSE_CHOOSE_CALIBRATED_OBSERVATIONS_H_
@@ -51,7 +55,7 @@ struct CameraFindings {
 
 struct RadiometryFindings {
   std::vector<CameraFindings> cameras;
-  std::vector<int> wrong_photos;  // their exposure is off by more than 8 %
+  std::vector<int> wrong_photos;  // their exposure is off by more than 8 %, beyond their camera's gain
   // States whose photos' exposures nothing ties to those of the others, and the largest sigma of their common
   // factor. It is in no sigma of a luminaire.
   std::vector<int> loose_states;

@@ -1,39 +1,25 @@
 #include "inverse/choose/self_calibration.h"
 
-#include <tbb/parallel_for.h>
-
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "inverse/choose/internal/left_out.h"
+#include "inverse/choose/internal/camera_ties.h"
 #include "inverse/choose/internal/photo_equations.h"
-#include "inverse/select/one_standard_error.h"
+#include "inverse/choose/internal/radiometry_fit.h"
 
 namespace luxfit {
 namespace {
 
-constexpr int kCalibrationRounds = 12;
-constexpr double kConverged = 1e-4;  // largest step of any unknown; views differ by ten times as much
-constexpr double kTail = 2;          // Cauchy scale of the gains' prior, in its sigmas
-constexpr double kUnseen = 1e-6;     // curvature of a direction that no data determine
-// Limits of q: light to the power 2 to that of 1/3, steeper than any display's curve.
-constexpr double kLeastExponent = -0.5, kMostExponent = 2;
 constexpr int kMinElements = 20;
-// Share of the best score. All elements of a view share its pose's error, and furniture that the mesh lacks
-// is at another place in each view. Gains absorb some of it, and then predict the data left out better, too.
-constexpr double kWorthHaving = 0.25;
-// Smallest spread between views of a surface. Below it they differ for reasons that no camera model contains.
-constexpr double kLeastRatioSigma = 1e-3;
-
-using Sums = PhotoEquations::Sums;
+constexpr double kContradiction = 3;  // in sigmas
 
 void ExpectInRange(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
                    const std::vector<PhotoSample>& samples, const OpenRadiometry& open) {
   const size_t cameras = open.vignetting.size();
-  if (open.response.size() != cameras || dimming.empty())
+  const size_t stated = open.gain_is_stated.size();
+  if (open.response.size() != cameras || (stated != 0 && stated != cameras) || dimming.empty())
     throw std::invalid_argument("SelfCalibrate: expected a state, and what is open of every camera");
   for (const PhotoSample& s : samples) {
     const bool known = s.element >= 0 && s.element < static_cast<int>(patches.elements.size()) &&
@@ -45,204 +31,131 @@ void ExpectInRange(const Patches& patches, const std::vector<Eigen::VectorXd>& d
   }
 }
 
-// Fits one combination of free parameters to all samples, and without each fold.
-class Candidate {
- public:
-  Candidate(const PhotoEquations& equations, RadiometryCandidate& what, const OpenRadiometry& open,
-            int photos, double gain_sigma)
-      : equations_(equations), photos_(what.gains ? photos : 0), gain_sigma_(gain_sigma) {
-    for (size_t c = 0; c < open.vignetting.size(); ++c) {
-      const bool darkens = open.vignetting[c] && what.order > 0, bends = open.response[c] && what.exponent;
-      unknowns_.vignetting.push_back(darkens ? unknowns_.count : -1);
-      unknowns_.count += darkens ? what.order : 0;
-      unknowns_.exponent.push_back(bends ? unknowns_.count : -1);
-      unknowns_.count += bends ? 1 : 0;
-    }
-    unknowns_.order = what.order;
-    if (what.gains) unknowns_.first_gain = unknowns_.count;
-    // One gain is not counted: the light absorbs it.
-    what.parameters = unknowns_.count + std::max(0, photos_ - 1);
-    unknowns_.count += photos_;
-  }
-
-  void Solve() {
-    fit_ = equations_.Start(unknowns_);
-    for (int round = 0; round < kCalibrationRounds; ++round) {
-      by_fold_ = equations_.Linearize(unknowns_, fit_);
-      const Eigen::VectorXd step = StepWithout(-1);
-      fit_.x = Bounded(fit_.x + step);
-      equations_.Reweigh(unknowns_, fit_);
-      if (round > 1 && (step.size() == 0 || step.cwiseAbs().maxCoeff() < kConverged)) break;
-    }
-    by_fold_ = equations_.Linearize(unknowns_, fit_);
-    curvature_ = Total(-1).normal + PriorCurvature();
-  }
-
-  GroupScores Score() const {
-    std::vector<GroupScores> of_fold(PhotoEquations::kFolds);
-    tbb::parallel_for(0, PhotoEquations::kFolds, [&](int fold) {
-      of_fold[static_cast<size_t>(fold)] =
-          equations_.Score(unknowns_, fit_, Bounded(fit_.x + StepWithout(fold)), fold);
-    });
-    GroupScores all;
-    for (const auto& scores : of_fold) {
-      for (const auto& [group, score] : scores) {
-        all[group].sum += score.sum;
-        all[group].count += score.count;
-      }
-    }
-    return all;
-  }
-
-  double sigma() const { return fit_.sigma; }
-
-  // Residuals of one facet are not independent: their gradients are summed before they are squared.
-  Eigen::MatrixXd Covariance() const {
-    Eigen::MatrixXd scatter = PriorCurvature();
-    const auto gradients = equations_.GradientByGroup(unknowns_, fit_);
-    const double groups = static_cast<double>(gradients.size());
-    for (const auto& [group, g] : gradients)
-      scatter += groups / std::max(1.0, groups - 1) * g * g.transpose();
-    const Eigen::LDLT<Eigen::MatrixXd> curvature(curvature_);
-    return curvature.solve(curvature.solve(scatter).transpose());
-  }
-
-  // Returns the curvature alone: it tells whether the samples determine a parameter at all.
-  Eigen::MatrixXd Information() const {
-    return curvature_.ldlt().solve(Eigen::MatrixXd::Identity(unknowns_.count, unknowns_.count));
-  }
-  // Returns the largest sigma of any camera, from a covariance of the unknowns.
-  double CornerSigma(const Eigen::MatrixXd& covariance) const {
-    double largest = 0;
-    for (const int first : unknowns_.vignetting) {
-      if (first >= 0)
-        largest = std::max(largest, covariance.block(first, first, unknowns_.order, unknowns_.order).sum());
-    }
-    return std::sqrt(largest);
-  }
-  double ExponentSigma(const Eigen::MatrixXd& covariance) const {
-    double largest = 0;
-    for (const int at : unknowns_.exponent) {
-      if (at >= 0) largest = std::max(largest, covariance(at, at));
-    }
-    return std::sqrt(largest);
-  }
-  bool IsAtBound() const { return !Bounded(fit_.x * (1 + 1e-9)).isApprox(fit_.x * (1 + 1e-9)); }
-
-  const RadiometryUnknowns& unknowns() const { return unknowns_; }
-  const Eigen::VectorXd& x() const { return fit_.x; }
-
- private:
-  Sums Total(int without) const {
-    Sums total{Eigen::MatrixXd::Zero(unknowns_.count, unknowns_.count),
-               Eigen::VectorXd::Zero(unknowns_.count)};
-    for (int fold = 0; fold < PhotoEquations::kFolds; ++fold) {
-      if (fold == without) continue;
-      total.normal += by_fold_[static_cast<size_t>(fold)].normal;
-      total.right += by_fold_[static_cast<size_t>(fold)].right;
-    }
-    return total;
-  }
-
-  Eigen::VectorXd Bounded(Eigen::VectorXd x) const {
-    for (const int at : unknowns_.exponent) {
-      if (at >= 0) x[at] = std::clamp(x[at], kLeastExponent, kMostExponent);
-    }
-    return x;
-  }
-
-  Eigen::MatrixXd PriorCurvature() const {
-    Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(unknowns_.count, kUnseen);
-    for (int p = 0; p < photos_; ++p) {
-      const double z = fit_.x[unknowns_.first_gain + p] / gain_sigma_;
-      diagonal[unknowns_.first_gain + p] = 1 / (gain_sigma_ * gain_sigma_ * (1 + z * z / (kTail * kTail)));
-    }
-    return diagonal.asDiagonal();
-  }
-
-  Eigen::VectorXd StepWithout(int fold) const {
-    const Sums total = Total(fold);
-    const Eigen::MatrixXd prior = PriorCurvature();
-    if (unknowns_.count == 0) return {};
-    return (total.normal + prior).ldlt().solve(total.right - prior * fit_.x);
-  }
-
-  const PhotoEquations& equations_;
-  int photos_;
-  double gain_sigma_;
-  RadiometryUnknowns unknowns_;
-  PhotoEquations::Fit fit_;
-  std::vector<Sums> by_fold_;
-  Eigen::MatrixXd curvature_;
-};
-
-std::string NameOf(const RadiometryCandidate& c) {
-  std::string name = c.gains ? "gains" : "";
-  const auto add = [&](const std::string& part) { name += (name.empty() ? "" : " + ") + part; };
-  if (c.order > 0) add("vignetting of order " + std::to_string(c.order));
-  if (c.exponent) add("response exponent");
-  return name.empty() ? "as recorded" : name;
+bool IsStated(const OpenRadiometry& open, size_t camera) {
+  return !open.gain_is_stated.empty() && open.gain_is_stated[camera];
 }
 
-std::vector<RadiometryCandidate> CandidatesOf(const OpenRadiometry& open, int max_order) {
-  const auto any = [](const std::vector<bool>& list) {
-    return std::count(list.begin(), list.end(), true) > 0;
-  };
-  std::vector<RadiometryCandidate> candidates;
-  for (int exponent = 0; exponent <= (any(open.response) ? 1 : 0); ++exponent) {
-    for (int gains = 0; gains <= (open.gains ? 1 : 0); ++gains) {
-      for (int order = 0; order <= (any(open.vignetting) ? max_order : 0); ++order) {
-        RadiometryCandidate candidate;
-        candidate.gains = gains == 1;
-        candidate.order = order;
-        candidate.exponent = exponent == 1;
-        candidate.name = NameOf(candidate);
-        candidates.push_back(std::move(candidate));
-      }
-    }
-  }
-  return candidates;
+bool IsAnyFree(const FreeRadiometry& free) {
+  return std::find(free.camera_gain.begin(), free.camera_gain.end(), true) != free.camera_gain.end();
 }
 
-// Chooses among the candidates that the samples determine.
-int Choose(std::vector<RadiometryCandidate>& candidates, const std::vector<GroupScores>& scores) {
-  std::vector<SelectionCandidate> selectable;
-  for (size_t c = 0; c < candidates.size(); ++c)
-    selectable.push_back(
-        {scores[c], static_cast<double>(candidates[c].parameters), candidates[c].is_determined});
-  SelectionOptions options;
-  options.worth_having = kWorthHaving;
-  const Selection selection = SimplestWithinOneStandardError(selectable, options);
-  for (size_t c = 0; c < candidates.size(); ++c) {
-    candidates[c].score = selection.score[c];
-    candidates[c].standard_error = selection.standard_error[c];
+// Frees the gain of every camera that shares surfaces with a reference, and records the ties. Returns the
+// samples that can be compared.
+std::vector<PhotoSample> FreeTiedCameras(const Patches& patches, const std::vector<PhotoSample>& samples,
+                                         FreeRadiometry& free, SelfCalibration& result) {
+  const size_t cameras = free.open.vignetting.size();
+  std::vector<bool> stated(cameras);
+  for (size_t c = 0; c < cameras; ++c) stated[c] = IsStated(free.open, c);
+  const CameraTies ties = TieCameras(patches, samples, stated);
+  free.camera_gain.resize(cameras);
+  result.camera_gains.resize(cameras);
+  for (size_t c = 0; c < cameras; ++c) {
+    free.camera_gain[c] = ties.reference[c] != static_cast<int>(c);
+    result.camera_gains[c].reference = ties.reference[c];
+    result.camera_gains[c].is_tied = ties.is_tied[c];
   }
-  return static_cast<int>(selection.chosen);
+  return SamplesWithinGroups(samples, ties.reference);
 }
 
-// Reports the chosen combination in the caller's terms.
-void Report(const Candidate& chosen, const std::vector<PhotoSample>& samples, int states, double gain_sigma,
-            SelfCalibration& result) {
-  const RadiometryUnknowns& unknowns = chosen.unknowns();
-  const Eigen::VectorXd& x = chosen.x();
-  const Eigen::MatrixXd covariance = chosen.Covariance();
-  if (result.Chosen().order > 0) result.corner_sigma = chosen.CornerSigma(covariance);
-  if (result.Chosen().exponent) result.exponent_sigma = chosen.ExponentSigma(covariance);
+// Holds all cameras' gains and says that those of `undetermined` are not tied.
+void HoldCameras(const std::vector<bool>& undetermined, FreeRadiometry& free, SelfCalibration& result) {
+  for (size_t c = 0; c < free.camera_gain.size(); ++c) {
+    if (undetermined[c] && !IsStated(free.open, c)) result.camera_gains[c].is_tied = false;
+    result.camera_gains[c].reference = static_cast<int>(c);
+    free.camera_gain[c] = false;
+  }
+}
+
+// Returns the cameras whose gains a fit leaves less certain than `max_sigma`.
+std::vector<bool> UncertainCameras(const RadiometryFit& fit, double max_sigma) {
+  const Eigen::MatrixXd information = fit.Information();
+  const std::vector<int>& unknown = fit.unknowns().camera;
+  std::vector<bool> uncertain(unknown.size());
+  for (size_t c = 0; c < unknown.size(); ++c)
+    uncertain[c] = unknown[c] >= 0 && !(std::sqrt(information(unknown[c], unknown[c])) <= max_sigma);
+  return uncertain;
+}
+
+// Judges stated gains by a fit with the exposures' own errors free, and holds those that it does not
+// contradict. A contradicted one stays free, so that no photo is blamed for it.
+void JudgeStatedGains(const PhotoEquations& shared, RadiometryCandidate chosen, FreeRadiometry& free,
+                      SelfCalibration& result) {
+  const std::vector<bool>& stated = free.open.gain_is_stated;
+  if (std::find(stated.begin(), stated.end(), true) == stated.end()) return;
+  chosen.gains = free.open.gains;
+  RadiometryFit fit(shared, chosen, free);
+  fit.Solve();
+  const Eigen::MatrixXd covariance = fit.Covariance();
+  for (size_t c = 0; c < free.camera_gain.size(); ++c) {
+    if (!free.camera_gain[c] || !IsStated(free.open, c)) continue;
+    const int at = fit.unknowns().camera[c];
+    const double log_ratio = fit.x()[at], sigma = std::sqrt(covariance(at, at));
+    free.camera_gain[c] = std::abs(log_ratio) > kContradiction * sigma;
+    int& reference = result.camera_gains[c].reference;
+    if (free.camera_gain[c])
+      result.contradictions.push_back({static_cast<int>(c), reference, log_ratio, sigma});
+    reference = static_cast<int>(c);
+  }
+}
+
+// Decides whether cameras have gains of their own. `free` then says which ones.
+void DecideCameraGains(PhotoEquations& shared, const SelfCalibrationOptions& options, FreeRadiometry& free,
+                       SelfCalibration& result) {
+  OpenRadiometry held = free.open;
+  held.gains = false;
+  std::vector<RadiometryCandidate> candidates = RadiometryCandidates(held, false, options.max_order);
+  const size_t first_with = candidates.size();
+  const std::vector<RadiometryCandidate> with = RadiometryCandidates(held, true, options.max_order);
+  candidates.insert(candidates.end(), with.begin(), with.end());
+  // The scatter of exposures is noise here. A photo that is off must not speak for a gain only because a fit
+  // with one has more rounds to leave it out.
+  FreeRadiometry settled = free;
+  settled.least_rounds = kRadiometryRounds;
+  const RadiometryComparison compared = CompareRadiometry(
+      shared, settled, candidates, FullestRadiometry(held, true, options.max_order), options);
+  const RadiometryCandidate& chosen = candidates[static_cast<size_t>(compared.chosen)];
+  result.score_of_equal_cameras = result.score_of_camera_gains = std::numeric_limits<double>::infinity();
+  for (const RadiometryCandidate& candidate : candidates) {
+    double& best = candidate.camera_gains ? result.score_of_camera_gains : result.score_of_equal_cameras;
+    if (candidate.is_determined) best = std::min(best, candidate.score);
+  }
+  if (chosen.camera_gains) {
+    JudgeStatedGains(shared, chosen, free, result);
+  } else {
+    HoldCameras(UncertainCameras(compared.fits[first_with], options.max_camera_sigma), free, result);
+  }
+}
+
+// Returns d (h + g) / dx, photos x unknowns. A stated gain is not corrected, whatever the fit says of it.
+Eigen::MatrixXd GainsOfUnknowns(const RadiometryUnknowns& unknowns, const std::vector<PhotoSample>& samples,
+                                const OpenRadiometry& open, Eigen::Index photos) {
+  Eigen::MatrixXd gains = Eigen::MatrixXd::Zero(photos, unknowns.count);
+  for (Eigen::Index p = 0; p < photos && unknowns.first_gain >= 0; ++p) gains(p, unknowns.first_gain + p) = 1;
+  for (const PhotoSample& sample : samples) {
+    const size_t camera = static_cast<size_t>(sample.camera);
+    if (unknowns.camera[camera] >= 0 && !IsStated(open, camera))
+      gains(sample.photo, unknowns.camera[camera]) = 1;
+  }
+  return gains;
+}
+
+void ReportCameras(const RadiometryUnknowns& unknowns, const Eigen::VectorXd& x,
+                   const Eigen::MatrixXd& covariance, const OpenRadiometry& open, SelfCalibration& result) {
   for (size_t c = 0; c < unknowns.vignetting.size(); ++c) {
     const Eigen::Index camera = static_cast<Eigen::Index>(c);
     if (unknowns.vignetting[c] >= 0)
       result.vignetting.col(camera).head(unknowns.order) = x.segment(unknowns.vignetting[c], unknowns.order);
     if (unknowns.exponent[c] >= 0) result.exponent[camera] = x[unknowns.exponent[c]];
+    const int at = unknowns.camera[c];
+    if (at < 0 || IsStated(open, c)) continue;
+    result.camera_gains[c].log_gain = x[at];
+    result.camera_gains[c].sigma = std::sqrt(covariance(at, at));
   }
-  if (unknowns.first_gain < 0) return;
-  const Eigen::Index photos = result.log_gain.size();
-  result.log_gain = x.segment(unknowns.first_gain, photos);
-  // A factor common to all photos belongs to the camera's scale and is not an error of any photo.
-  const Eigen::MatrixXd relative = Eigen::MatrixXd::Identity(photos, photos) -
-                                   Eigen::MatrixXd::Constant(photos, photos, 1 / static_cast<double>(photos));
-  result.covariance = relative * covariance.block(unknowns.first_gain, unknowns.first_gain, photos, photos) *
-                      relative.transpose();
-  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(photos, states);
+}
+
+void ReportStates(const std::vector<PhotoSample>& samples, int states, double gain_sigma,
+                  SelfCalibration& result) {
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(result.log_gain.size(), states);
   for (const PhotoSample& sample : samples) mean(sample.photo, sample.state) = 1;
   const Eigen::VectorXd all = mean.rowwise().sum().cwiseMin(1.0);
   for (int s = 0; s < states; ++s) {
@@ -253,11 +166,32 @@ void Report(const Candidate& chosen, const std::vector<PhotoSample>& samples, in
   }
 }
 
+// Reports the chosen combination in the caller's terms.
+void Report(const RadiometryFit& chosen, const std::vector<PhotoSample>& samples, int states,
+            const FreeRadiometry& free, SelfCalibration& result) {
+  const RadiometryUnknowns& unknowns = chosen.unknowns();
+  const Eigen::MatrixXd covariance = chosen.Covariance();
+  if (result.Chosen().order > 0) result.corner_sigma = chosen.CornerSigma(covariance);
+  if (result.Chosen().exponent) result.exponent_sigma = chosen.ExponentSigma(covariance);
+  ReportCameras(unknowns, chosen.x(), covariance, free.open, result);
+  const Eigen::Index photos = result.log_gain.size();
+  const Eigen::MatrixXd gains = GainsOfUnknowns(unknowns, samples, free.open, photos);
+  // A factor common to all photos belongs to the camera's scale and is not an error of any photo.
+  const Eigen::MatrixXd relative = Eigen::MatrixXd::Identity(photos, photos) -
+                                   Eigen::MatrixXd::Constant(photos, photos, 1 / static_cast<double>(photos));
+  result.covariance = relative * (gains * covariance * gains.transpose()) * relative.transpose();
+  if (unknowns.first_gain < 0) return;
+  result.log_gain = chosen.x().segment(unknowns.first_gain, photos);
+  ReportStates(samples, states, free.gain_sigma, result);
+}
+
 }  // namespace
 
 PhotoCorrection SelfCalibration::CorrectionOf(int photo, int camera) const {
   const auto coefficients = vignetting.col(camera);
-  return {log_gain[photo], {coefficients.begin(), coefficients.end()}, exponent[camera]};
+  return {camera_gains[static_cast<size_t>(camera)].log_gain + log_gain[photo],
+          {coefficients.begin(), coefficients.end()},
+          exponent[camera]};
 }
 
 double SelfCalibration::CornerShare(int camera) const { return std::exp(vignetting.col(camera).sum()); }
@@ -268,58 +202,44 @@ SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::V
                               const std::vector<PhotoSample>& samples, const OpenRadiometry& open,
                               const SelfCalibrationOptions& options) {
   ExpectInRange(patches, dimming, samples, open);
-  int photos = 0;
-  for (const PhotoSample& sample : samples) photos = std::max(photos, sample.photo + 1);
+  FreeRadiometry free;
+  free.open = open;
+  free.gain_sigma = options.gain_sigma;
+  for (const PhotoSample& sample : samples) free.photos = std::max(free.photos, sample.photo + 1);
   const Eigen::Index cameras = static_cast<Eigen::Index>(open.vignetting.size());
   const int states = static_cast<int>(dimming.size());
   SelfCalibration result;
-  result.log_gain = Eigen::VectorXd::Zero(photos);
+  result.log_gain = Eigen::VectorXd::Zero(free.photos);
   result.vignetting = Eigen::MatrixXd::Zero(options.max_order, cameras);
   result.exponent = Eigen::VectorXd::Zero(cameras);
-  result.covariance = Eigen::MatrixXd::Zero(photos, photos);
+  result.covariance = Eigen::MatrixXd::Zero(free.photos, free.photos);
   result.state_sigma = result.state_prior_sigma = Eigen::VectorXd::Zero(states);
-  result.candidates = CandidatesOf(open, options.max_order);
-  PhotoEquations equations(patches, dimming, samples, options.max_elements);
+  const std::vector<PhotoSample> comparable = FreeTiedCameras(patches, samples, free, result);
+  PhotoEquations equations(patches, dimming, comparable, options.max_elements);
   if (equations.elements() < kMinElements) {
     result.message = "fewer than " + std::to_string(kMinElements) + " surfaces are seen in several photos";
+    HoldCameras(std::vector<bool>(free.camera_gain), free, result);
+    result.candidates = RadiometryCandidates(open, false, options.max_order);
     return result;
   }
-  std::vector<Candidate> fitted;
-  fitted.reserve(result.candidates.size());
-  for (RadiometryCandidate& candidate : result.candidates)
-    fitted.emplace_back(equations, candidate, open, photos, options.gain_sigma);
-  // All are scored with the noise that the fullest model leaves, with or without an exponent, whichever is
-  // smaller: an exponent that nothing determines misleads.
-  double sigma = std::numeric_limits<double>::infinity();
-  for (size_t c = 0; c < fitted.size(); ++c) {
-    const bool is_fullest =
-        c + 1 == fitted.size() || (result.candidates[c + 1].exponent && !result.candidates[c].exponent);
-    if (!is_fullest) continue;
-    fitted[c].Solve();
-    sigma = std::min(sigma, fitted[c].sigma());
+  if (IsAnyFree(free)) {
+    PhotoEquations shared(patches, dimming, SamplesSeenBySeveral(comparable), options.max_elements);
+    DecideCameraGains(shared, options, free, result);
   }
-  equations.set_common_sigma(std::max(kLeastRatioSigma, sigma));
-  result.residual_sigma = sigma;
-  std::vector<GroupScores> scores;
-  scores.resize(fitted.size());
-  tbb::parallel_for(size_t{0}, fitted.size(), [&](size_t c) {
-    fitted[c].Solve();
-    scores[c] = fitted[c].Score();
-  });
-  for (size_t c = 0; c < fitted.size(); ++c) {
-    const Eigen::MatrixXd information = fitted[c].Information();
-    const double corner = fitted[c].CornerSigma(information), exponent = fitted[c].ExponentSigma(information);
-    result.candidates[c].is_determined = corner <= options.max_corner_sigma &&
-                                         exponent <= options.max_exponent_sigma && !fitted[c].IsAtBound();
-    if (result.candidates[c].order == 1 && !result.candidates[c].exponent && !result.candidates[c].gains)
-      result.corner_sigma = corner;
-    if (result.candidates[c].order == 0 && result.candidates[c].exponent && !result.candidates[c].gains)
-      result.exponent_sigma = exponent;
+  const bool camera_gains = IsAnyFree(free);
+  result.candidates = RadiometryCandidates(open, camera_gains, options.max_order);
+  const RadiometryComparison compared = CompareRadiometry(
+      equations, free, result.candidates, FullestRadiometry(open, camera_gains, options.max_order), options);
+  for (size_t c = 0; c < compared.fits.size(); ++c) {
+    const RadiometryCandidate& candidate = result.candidates[c];
+    if (candidate.gains) continue;
+    if (candidate.order == 1 && !candidate.exponent) result.corner_sigma = compared.corner_sigma[c];
+    if (candidate.order == 0 && candidate.exponent) result.exponent_sigma = compared.exponent_sigma[c];
   }
-  result.chosen = Choose(result.candidates, scores);
+  result.residual_sigma = compared.noise;
+  result.chosen = compared.chosen;
   result.is_possible = true;
-  const Candidate& chosen = fitted[static_cast<size_t>(result.chosen)];
-  Report(chosen, samples, states, options.gain_sigma, result);
+  Report(compared.fits[static_cast<size_t>(result.chosen)], samples, states, free, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #     unfurnished       desks and cabinet missing from the mesh
 #     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
 #     exposures_apart   the same, and only the states that show one luminaire each: nothing ties their exposures
+#     two_cameras       every other view is of a second camera, whose exposures are stated as 0.64 of the true ones; photos unchanged
 #     wrong_photometry  the panels given as narrow downlights (cosine power 8), the downlights as Lambertian
 # Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and compare_with_truth RESULT/result.json OFFICE/truth.json.
 set -eu
@@ -40,6 +41,12 @@ case $variant in
       rewrite luxmeter.csv awk -F, '$8 != "all" && $8 != "evening"'
       rewrite session.toml sed -e '/^all =/d' -e '/^evening =/d' -e 's/L3@all/L3@A/'
     fi ;;
+  two_cameras)
+    rewrite photos.csv awk -F, -v OFS=, '
+      NR == 1 { print; next }
+      !($3 in camera) { camera[$3] = n++ % 2 }
+      camera[$3] { $2 = "cam1"; $5 = sprintf("%.6g", 0.64 * $5) } { print }'
+    printf '\n[[camera]]\nid = "cam1"\nintrinsics = "cam0.yaml"\nresponse = "linear"\nblack_level = 0\nvignetting = "none"\n' >> session.toml ;;
   wrong_photometry)
     for id in A B; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "cosine_power"\ncosine_exponent = 8\nshape = "point"\n' $id
@@ -47,5 +54,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart, two_cameras or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/session_light.h"
 #include "apps/text/formats/former_keys.h"
@@ -22,6 +23,8 @@ struct StatedRadiometry {
   std::vector<const LinearizedPhoto*> files;  // one for each of `photos`
   OpenRadiometry open;
   std::vector<StatedVignetting> vignetting;  // one for each camera
+  std::vector<double> gains;                 // one for each camera; 1 where nothing is stated
+  int unit_camera = 0;
 };
 
 const LinearizedPhoto* PhotoOf(const Session& session, const LinearizedPhotos& photos,
@@ -50,9 +53,23 @@ StatedRadiometry StatedBy(const Session& session, const LinearizedPhotos& photos
   for (const LinearizedCamera& camera : photos.cameras) {
     stated.open.vignetting.push_back(!camera.vignetting);
     stated.open.response.push_back(!camera.response);
+    stated.open.gain_is_stated.push_back(LuminancePerUnit(camera).has_value());
     stated.vignetting.push_back(VignettingOf(camera.given));
   }
+  stated.gains = StatedGains(photos);
+  stated.unit_camera = UnitCamera(photos);
   return stated;
+}
+
+// Returns the samples of observations in one unit. Counts are shares of full scale by each camera's own unit.
+std::vector<PhotoSample> SamplesInOneUnit(const std::vector<Observation>& observations,
+                                          const StatedRadiometry& stated, const Patches& patches,
+                                          const RegisteredSession& registered) {
+  std::vector<PhotoSample> samples =
+      SamplesOf(observations, stated.photos, patches, registered.cameras, registered.registration.views);
+  for (PhotoSample& sample : samples)
+    sample.log_share += std::log(stated.gains[static_cast<size_t>(sample.camera)]);
+  return samples;
 }
 
 std::vector<Eigen::VectorXd> DimmingOrOne(const Session& session) {
@@ -90,6 +107,94 @@ void RecordChoice(const LinearizedPhotos& photos, const SelfCalibration& found, 
   }
   choice.because += HeldBy(photos);
   context.choices.push_back(choice);
+}
+
+// Holds a camera's gain against the camera that it is relative to, as it was divided out.
+struct AppliedGain {
+  size_t camera = 0, reference = 0;
+  double gain = 1, relative_sigma = 0;
+  bool is_stated = false;
+};
+
+// Lists the cameras whose counts were divided by a gain.
+std::vector<AppliedGain> AppliedGains(const StatedRadiometry& stated, const SelfCalibration& found) {
+  std::vector<AppliedGain> applied;
+  applied.reserve(found.camera_gains.size());
+  for (size_t c = 0; c < found.camera_gains.size(); ++c) {
+    const CameraGain& estimated = found.camera_gains[c];
+    const size_t unit = static_cast<size_t>(stated.unit_camera);
+    const size_t held = static_cast<size_t>(estimated.reference);
+    if (stated.gains[c] != 1) {
+      applied.push_back({c, unit, stated.gains[c], 0, true});
+    } else if (estimated.sigma > 0) {
+      // A camera of stated gain counts in the unit already.
+      const size_t reference = stated.open.gain_is_stated[held] ? unit : held;
+      applied.push_back({c, reference, std::exp(estimated.log_gain), estimated.sigma, false});
+    }
+  }
+  return applied;
+}
+
+std::string GainText(const Session& session, const AppliedGain& applied) {
+  const std::string& reference = session.cameras[applied.reference].id;
+  if (applied.is_stated) return fmt::format("{:.4g} of {}'s", applied.gain, reference);
+  return fmt::format("{:.3f} +- {:.3f} of {}'s", applied.gain, applied.gain * applied.relative_sigma,
+                     reference);
+}
+
+void RecordCameraGains(const Session& session, const SelfCalibration& found,
+                       const std::vector<AppliedGain>& gains, RunContext& context) {
+  for (const AppliedGain& applied : gains) {
+    const std::string because =
+        applied.is_stated
+            ? std::string("cdm2_per_count_s is given of both")
+            : fmt::format(
+                  "surfaces left out that several cameras see ask for it (mean squared normalised "
+                  "error: cameras alike {:.3f}, each with its gain {:.3f})",
+                  found.score_of_equal_cameras, found.score_of_camera_gains);
+    context.choices.push_back(
+        {"gain of " + session.cameras[applied.camera].id, GainText(session, applied), {}, because});
+  }
+}
+
+nlohmann::json CameraGainsJson(const Session& session, const std::vector<AppliedGain>& gains) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const AppliedGain& applied : gains)
+    list.push_back({{"camera", session.cameras[applied.camera].id},
+                    {"gain", applied.gain},
+                    {"relative_sigma", applied.relative_sigma},
+                    {"relative_to", session.cameras[applied.reference].id},
+                    {"source", applied.is_stated ? "session" : "photos"}});
+  return list;
+}
+
+void WarnOfUntiedCameras(const Session& session, const StatedRadiometry& stated, const SelfCalibration& found,
+                         RunContext& context) {
+  std::vector<std::string> untied;
+  for (size_t c = 0; c < found.camera_gains.size(); ++c) {
+    if (!found.camera_gains[c].is_tied) untied.push_back(session.cameras[c].id);
+  }
+  if (untied.empty()) return;
+  context.warnings.push_back(
+      {"camera_gain_undetermined",
+       fmt::format("nothing tells the sensitivity of camera {} against that of camera {}: they share too few "
+                   "surfaces in one state, and their counts were taken to mean the same light",
+                   fmt::join(untied, ", "), session.cameras[static_cast<size_t>(stated.unit_camera)].id),
+       "photograph the same surfaces with both cameras in the same state, or give cdm2_per_count_s of both"});
+}
+
+void WarnOfContradictions(const Session& session, const SelfCalibration& found, RunContext& context) {
+  for (const GainContradiction& c : found.contradictions)
+    context.warnings.push_back(
+        {"camera_scales_contradict",
+         fmt::format(
+             "surfaces are {:.3f} +- {:.3f} times as bright in photos of camera \"{}\" as in those of "
+             "\"{}\", by the cdm2_per_count_s of both; they were not adjusted to each other",
+             std::exp(c.log_ratio), c.sigma * std::exp(c.log_ratio),
+             session.cameras[static_cast<size_t>(c.camera)].id,
+             session.cameras[static_cast<size_t>(c.reference)].id),
+         "check cdm2_per_count_s of both, for the ISO and aperture of each camera's first photo; or give one "
+         "only, and the other camera's gain is estimated"});
 }
 
 void WarnOfGains(const Session& session, const StatedRadiometry& stated, const SelfCalibration& found,
@@ -202,11 +307,15 @@ std::vector<Observation> WithSelfCalibration(const Session& session, const Linea
                                              nlohmann::json& artifact) {
   if (observations.empty()) return observations;
   const StatedRadiometry stated = StatedBy(session, photos, registered, observations);
-  const std::vector<PhotoSample> samples =
-      SamplesOf(observations, stated.photos, patches, registered.cameras, registered.registration.views);
+  const std::vector<PhotoSample> samples = SamplesInOneUnit(observations, stated, patches, registered);
   const StageTimer timer(context, "self_calibration", "");
   const SelfCalibration found = SelfCalibrate(patches, DimmingOrOne(session), samples, stated.open);
   const RadiometryFindings findings = FindingsOf(found, stated.open, stated.vignetting);
+  const std::vector<AppliedGain> gains = AppliedGains(stated, found);
+  if (!gains.empty()) artifact["camera_gains"] = CameraGainsJson(session, gains);
+  RecordCameraGains(session, found, gains, context);
+  WarnOfUntiedCameras(session, stated, found, context);
+  WarnOfContradictions(session, found, context);
   WarnOfCameras(session, found, findings, context);
   if (!found.is_possible) return observations;
   artifact["self_calibration"] = JsonOf(session, stated, found);

@@ -13,16 +13,20 @@
 
 namespace luxfit {
 
-// Divides observations by the errors found in the photos' exposures, vignetting and response, and adds the
-// variance of their photo's gain. A correction applies where calib did not fix it (no flat field, no response
-// curve) and where the criterion selects it. inverse/choose/calibrated_observations.h judges what is worth a
-// warning:
+// Divides observations by the errors found in the photos' exposures, vignetting and response and by the
+// gains of cameras, and adds the variance of their gains. A correction applies where calib did not fix it (no
+// flat field, no response curve) and where the criterion selects it. Cameras' gains are decided before single
+// photos are judged. Each is a choice ("gain of cam1") and an entry of `camera_gains`. `observations` are in
+// one unit (apps/stages/linearize/camera_scale.h). inverse/choose/calibrated_observations.h judges what is
+// worth a warning:
 //
 //   exposure_metadata              a photo whose exposure is off
 //   vignetting_found               vignetting that the session denies
 //   response_not_linear            a response that the session denies
 //   vignetting_undetermined        vignetting that is asked for and not determined
 //   state_exposures_undetermined   states whose exposures nothing ties to the others'
+//   camera_gain_undetermined       a camera that shares too few surfaces with the others
+//   camera_scales_contradict       two cameras whose given factors the photos contradict
 std::vector<Observation> WithSelfCalibration(const Session& session, const LinearizedPhotos& photos,
                                              const RegisteredSession& registered, const Patches& patches,
                                              std::vector<Observation> observations, RunContext& context,

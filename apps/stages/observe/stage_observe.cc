@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/observe/observed_light.h"
 #include "apps/stages/stages.h"
@@ -137,8 +138,8 @@ SessionObservations ObserveSession(const Session& session, const LinearizedPhoto
     artifact["photos"].push_back(
         {{"file", photos.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
-  observations = WithSelfCalibration(session, photos, registered, room.patches, std::move(observations),
-                                     context, artifact);
+  observations = WithSelfCalibration(session, photos, registered, room.patches,
+                                     InOneUnit(std::move(observations), photos, views), context, artifact);
   const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs));
   SessionObservations observed{std::move(observations),
                                FindSeenLuminaires(room, registered.cameras, views, seen),

@@ -61,48 +61,71 @@ void FitLight(const Eigen::MatrixXd& base, const Eigen::VectorXd& y, const Eigen
   }
 }
 
+int FacetOf(const Patches& patches, int element) {
+  const int patch = patches.elements[static_cast<size_t>(element)].patch;
+  return patches.patches[static_cast<size_t>(patch)].facet;
+}
+
+std::set<int> CamerasOf(const std::vector<PhotoSample>& samples) {
+  std::set<int> cameras;
+  for (const PhotoSample& sample : samples) cameras.insert(sample.camera);
+  return cameras;
+}
+
+// Returns the samples of the elements that have more of them than unknowns of their own light.
+std::map<int, std::vector<PhotoSample>> InformativeElements(const std::vector<PhotoSample>& samples,
+                                                            const Eigen::MatrixXd& base) {
+  std::map<int, std::vector<PhotoSample>> by_element;
+  for (const PhotoSample& sample : samples) {
+    // Light that remains with everything off does not add up with the luminaires'.
+    if (base.row(sample.state).squaredNorm() > 0) by_element[sample.element].push_back(sample);
+  }
+  for (auto at = by_element.begin(); at != by_element.end();) {
+    std::set<int> states;
+    for (const PhotoSample& sample : at->second) states.insert(sample.state);
+    const size_t own = std::min(states.size(), static_cast<size_t>(base.cols()));
+    at = at->second.size() > own ? std::next(at) : by_element.erase(at);
+  }
+  return by_element;
+}
+
 }  // namespace
 
 PhotoEquations::PhotoEquations(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
                                const std::vector<PhotoSample>& samples, int max_elements)
     : base_(BaseOfStates(dimming)) {
-  std::map<int, std::vector<PhotoSample>> by_element;
-  for (const PhotoSample& sample : samples) {
-    // Light that remains with everything off does not add up with the luminaires'.
-    if (base_.row(sample.state).squaredNorm() > 0) by_element[sample.element].push_back(sample);
-  }
-  for (auto at = by_element.begin(); at != by_element.end();) {
-    std::set<int> states;
-    for (const PhotoSample& sample : at->second) states.insert(sample.state);
-    const size_t own = std::min(states.size(), static_cast<size_t>(base_.cols()));
-    at = at->second.size() > own ? std::next(at) : by_element.erase(at);
-  }
-  const int most = std::max(1, max_elements);
-  const int stride = std::max(1, (static_cast<int>(by_element.size()) + most - 1) / most);
+  const std::map<int, std::vector<PhotoSample>> by_element = InformativeElements(samples, base_);
+  std::map<std::set<int>, std::vector<int>> by_cameras;
   std::set<int> facets;
-  for (const Patch& patch : patches.patches) facets.insert(patch.facet);
-  int counter = 0;
   for (const auto& [index, of_element] : by_element) {
-    if (counter++ % stride != 0) continue;
-    const int patch = patches.elements[static_cast<size_t>(index)].patch;
-    const int facet = patches.patches[static_cast<size_t>(patch)].facet;
-    ElementRows element{rows(),
-                        static_cast<int>(of_element.size()),
-                        patch % kFolds,
-                        facets.size() < kFewFacets ? patch : facet,
-                        {},
-                        {}};
-    element.base.resize(element.count, base_.cols());
-    std::set<int> cameras;
-    for (int i = 0; i < element.count; ++i) {
-      const PhotoSample& sample = of_element[static_cast<size_t>(i)];
-      element.base.row(i) = base_.row(sample.state);
-      cameras.insert(sample.camera);
-    }
-    element.cameras.assign(cameras.begin(), cameras.end());
-    rows_.insert(rows_.end(), of_element.begin(), of_element.end());
-    elements_.push_back(std::move(element));
+    by_cameras[CamerasOf(of_element)].push_back(index);
+    facets.insert(FacetOf(patches, index));
   }
+  const int sets = static_cast<int>(by_cameras.size());
+  for (const auto& [cameras, elements] : by_cameras) {
+    const size_t most = static_cast<size_t>(std::max(1, (max_elements + sets - 1) / sets));
+    const size_t stride = (elements.size() + most - 1) / most;
+    for (size_t i = 0; i < elements.size(); i += stride) {
+      const int patch = patches.elements[static_cast<size_t>(elements[i])].patch;
+      const int group = facets.size() < kFewFacets ? patch : FacetOf(patches, elements[i]);
+      AddRows(by_element.at(elements[i]), cameras, patch % kFolds, group);
+    }
+  }
+}
+
+void PhotoEquations::AddRows(const std::vector<PhotoSample>& of_element, const std::set<int>& cameras,
+                             int fold, int group) {
+  ElementRows element;
+  element.first = rows();
+  element.count = static_cast<int>(of_element.size());
+  element.fold = fold;
+  element.group = group;
+  element.base.resize(element.count, base_.cols());
+  for (int i = 0; i < element.count; ++i)
+    element.base.row(i) = base_.row(of_element[static_cast<size_t>(i)].state);
+  element.cameras.assign(cameras.begin(), cameras.end());
+  rows_.insert(rows_.end(), of_element.begin(), of_element.end());
+  elements_.push_back(std::move(element));
 }
 
 const PhotoSample& PhotoEquations::RowOf(const ElementRows& element, int i) const {
@@ -117,6 +140,7 @@ Eigen::VectorXd PhotoEquations::Corrected(const RadiometryUnknowns& unknowns, co
     const size_t camera = static_cast<size_t>(sample.camera);
     y[i] = sample.log_value;
     if (unknowns.exponent[camera] >= 0) y[i] += x[unknowns.exponent[camera]] * sample.log_share;
+    if (unknowns.camera[camera] >= 0) y[i] -= x[unknowns.camera[camera]];
     if (unknowns.first_gain >= 0) y[i] -= x[unknowns.first_gain + sample.photo];
     double power = 1;
     for (int k = 0; unknowns.vignetting[camera] >= 0 && k < unknowns.order; ++k)
@@ -170,12 +194,13 @@ PhotoEquations::Fit PhotoEquations::Start(const RadiometryUnknowns& unknowns) co
 std::vector<int> PhotoEquations::UnknownsOf(const RadiometryUnknowns& unknowns,
                                             const ElementRows& element) const {
   std::vector<int> unknown;
-  unknown.reserve(static_cast<size_t>(element.count) + 4 * element.cameras.size());
+  unknown.reserve(static_cast<size_t>(element.count) + 5 * element.cameras.size());
   for (const int camera : element.cameras) {
     const size_t c = static_cast<size_t>(camera);
     for (int k = 0; unknowns.vignetting[c] >= 0 && k < unknowns.order; ++k)
       unknown.push_back(unknowns.vignetting[c] + k);
     if (unknowns.exponent[c] >= 0) unknown.push_back(unknowns.exponent[c]);
+    if (unknowns.camera[c] >= 0) unknown.push_back(unknowns.camera[c]);
   }
   for (int i = 0; unknowns.first_gain >= 0 && i < element.count; ++i)
     unknown.push_back(unknowns.first_gain + RowOf(element, i).photo);
@@ -197,6 +222,7 @@ Eigen::MatrixXd PhotoEquations::Derivatives(const RadiometryUnknowns& unknowns, 
       if (unknowns.vignetting[camera] >= 0 && k >= 0 && k < unknowns.order)
         derivative = -std::pow(sample.radius2, k + 1);
       if (unknown[a] == unknowns.exponent[camera]) derivative = sample.log_share - scaled_residual[i];
+      if (unknown[a] == unknowns.camera[camera]) derivative = -1;
     }
     if (gains > 0) jacobian(i, static_cast<Eigen::Index>(of_cameras) + i) = -1;
   }

@@ -1,6 +1,6 @@
 // Builds the Gauss-Newton equations of radiometric self-calibration, each element's own light eliminated.
 //
-//   z_i = (y_i(x) - ln (U_s B_e)) / (1 + q),   y = ln Y + q ln(Y t) - g - sum_k a_k r^2k
+//   z_i = (y_i(x) - ln (U_s B_e)) / (1 + q),   y = ln Y + q ln(Y t) - h - g - sum_k a_k r^2k
 //   J = dz/dx,   A = - dz/dB
 //   N = J'WJ - J'WA (A'WA)^-1 A'WJ
 //
@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "inverse/choose/internal/left_out.h"
@@ -27,6 +28,7 @@ namespace luxfit {
 struct RadiometryUnknowns {
   std::vector<int> vignetting;  // index of the first coefficient, one for each camera
   std::vector<int> exponent;    // one for each camera
+  std::vector<int> camera;      // gain of the camera, one for each
   int first_gain = -1;
   int order = 0, count = 0;
 };
@@ -35,7 +37,8 @@ class PhotoEquations {
  public:
   static constexpr int kFolds = 5;
 
-  // Keeps the elements that have more samples than unknowns of their own light, at most `max_elements`.
+  // Keeps the elements that have more samples than unknowns of their own light: about `max_elements`, evenly
+  // over the sets of cameras that see them, so that a small overlap of two cameras is not thinned away.
   PhotoEquations(const Patches& patches, const std::vector<Eigen::VectorXd>& dimming,
                  const std::vector<PhotoSample>& samples, int max_elements);
 
@@ -69,7 +72,7 @@ class PhotoEquations {
   GroupScores Score(const RadiometryUnknowns& unknowns, const Fit& fit, const Eigen::VectorXd& x,
                     int fold) const;
 
-  // Returns - gradient by facet (by patch, in rooms of few facets), for the covariance.
+  // Returns - gradient by facet (by patch, where the elements lie on few facets), for the covariance.
   std::map<int, Eigen::VectorXd> GradientByGroup(const RadiometryUnknowns& unknowns, const Fit& fit) const;
 
  private:
@@ -79,6 +82,7 @@ class PhotoEquations {
     Eigen::MatrixXd base;      // rows of U for its samples
     std::vector<int> cameras;  // cameras that see it
   };
+  void AddRows(const std::vector<PhotoSample>& of_element, const std::set<int>& cameras, int fold, int group);
   const PhotoSample& RowOf(const ElementRows& element, int i) const;
   // Returns y for the rows of one element.
   Eigen::VectorXd Corrected(const RadiometryUnknowns& unknowns, const Eigen::VectorXd& x,

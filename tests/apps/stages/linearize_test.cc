@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
+#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/observe/observed_light.h"
 #include "tests/support/calib/camera_model.h"
 #include "tests/support/calib/test_dng.h"
@@ -329,6 +330,96 @@ TEST_F(ObservedLightTest, OnlyThePhotoThatLiesIsNamed) {
   EXPECT_THAT(context_.warnings[0].message, AnyOf(HasSubstr("1.99"), HasSubstr("2.00")));
   // It is as bright as the others then.
   for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
+}
+
+// The wall's photos by two cameras in turn, the second of 0.64 of the first's sensitivity.
+class ObservedRigTest : public ObservedLightTest {
+ protected:
+  void GiveFactors(double first, double second) {
+    photos_.cameras.at(0).given.cdm2_per_count_s = first;
+    photos_.cameras.at(1).given.cdm2_per_count_s = second;
+  }
+
+  ObservedRigTest() {
+    std::string rows;
+    for (size_t v = 0; v < wall_.views.size(); ++v) {
+      RegisteredView& view = wall_.views[v];
+      view.camera = static_cast<int>(v % 2);
+      rows += view.view + ".png,cam" + (v % 2 == 0 ? "0," : "1,") + view.view + ",on,0.25,,\n";
+    }
+    WriteSession("", rows, "on = { A = 1 }", "[[camera]]\nid = \"cam1\"\nintrinsics = \"cam0.yaml\"\n");
+    session_ = ReadSession(folder_.Path("session.toml"));
+    RunContext quiet = context_;
+    photos_ = MakeBrackets(session_, session_.photos, quiet);
+    registered_.cameras = {wall_.camera, wall_.camera};
+    registered_.registration.views = wall_.views;
+    for (size_t v = 1; v < factors_.size(); v += 2) factors_[v] = 0.64;
+  }
+
+  std::vector<Observation> Observed() { return wall_.Observe(false, factors_, rng_); }
+
+  std::vector<Observation> Calibrated(std::vector<Observation> observations) {
+    return WithSelfCalibration(session_, photos_, registered_, wall_.patches,
+                               InOneUnit(std::move(observations), photos_, wall_.views), context_, artifact_);
+  }
+
+  std::vector<double> factors_ = std::vector<double>(8, 1.0);
+  nlohmann::json artifact_;
+};
+
+TEST_F(ObservedRigTest, TheGainIsAChoiceAndOnlyThePhotoThatLiesIsNamed) {
+  factors_[3] *= 2;
+  const std::vector<Observation> corrected = Calibrated(Observed());
+  ASSERT_THAT(WarningCodes(), ElementsAre("exposure_metadata"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("(v3.png)"));
+  ASSERT_THAT(context_.choices, SizeIs(2));
+  EXPECT_EQ(context_.choices[0].what, "gain of cam1");
+  EXPECT_THAT(context_.choices[0].chosen, HasSubstr("of cam0's"));
+  const nlohmann::json& gain = artifact_.at("camera_gains").at(0);
+  EXPECT_EQ(gain["camera"], "cam1");
+  EXPECT_EQ(gain["relative_to"], "cam0");
+  EXPECT_EQ(gain["source"], "photos");
+  EXPECT_NEAR(gain["gain"].get<double>(), 0.64, 0.64 * 3 * gain["relative_sigma"].get<double>());
+  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
+}
+
+TEST_F(ObservedRigTest, EqualCamerasLeaveNoTrace) {
+  factors_.assign(8, 1.0);
+  Calibrated(Observed());
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  ASSERT_THAT(context_.choices, SizeIs(1));
+  EXPECT_EQ(context_.choices[0].chosen, "as recorded");
+  EXPECT_FALSE(artifact_.contains("camera_gains"));
+}
+
+// The first camera sees the left of the wall, the second its right.
+TEST_F(ObservedRigTest, CamerasWithoutCommonSurfacesAreNamed) {
+  std::vector<Observation> apart;
+  for (const Observation& o : Observed()) {
+    if ((o.element % 40 < 20) == (o.view % 2 == 0)) apart.push_back(o);
+  }
+  Calibrated(apart);
+  ASSERT_THAT(WarningCodes(), ElementsAre("camera_gain_undetermined"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("camera cam1 against that of camera cam0"));
+  EXPECT_FALSE(artifact_.contains("camera_gains"));
+}
+
+TEST_F(ObservedRigTest, GivenFactorsAreUsedAndNotAdjusted) {
+  GiveFactors(0.32, 0.5);
+  const std::vector<Observation> corrected = Calibrated(Observed());
+  EXPECT_THAT(context_.warnings, IsEmpty());
+  EXPECT_EQ(context_.choices.at(0).chosen, "0.64 of cam0's");
+  EXPECT_EQ(artifact_.at("camera_gains").at(0).at("source"), "session");
+  for (const Observation& o : corrected) EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
+}
+
+TEST_F(ObservedRigTest, GivenFactorsThatPhotosContradictAreNamed) {
+  GiveFactors(0.5, 0.5);
+  const std::vector<Observation> observed = Observed(), kept = Calibrated(observed);
+  ASSERT_THAT(WarningCodes(), ElementsAre("camera_scales_contradict"));
+  EXPECT_THAT(context_.warnings[0].message, HasSubstr("photos of camera \"cam1\""));
+  for (size_t i = 0; i < kept.size(); ++i)
+    EXPECT_EQ(kept[i].relative_luminance, observed[i].relative_luminance);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 // `luxfit run` on the photos of fixtures/office, as a user runs it, against the truth.
 //
-// The photos come from an independent renderer (fixtures/office/README.md). Limits are the targets set for
-// full resolution; the fixture has half of it and reaches about half of these (docs/accuracy.md).
+// The photos come from an independent renderer (fixtures/office/README.md). A limit is 1.5 times the larger of two
+// figures: what this session reaches (docs/accuracy.md), and what is asked for (3 mm, 0.004 of albedo, 0.8 % of a
+// reading).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -64,8 +65,8 @@ TruthComparison OfficeRun::comparison_;
 
 TEST_F(OfficeRun, FindsEveryLuminaire) {
   EXPECT_EQ(comparison_.luminaires_missing, 0);
-  EXPECT_LE(comparison_.worst_position_mm, 15);
-  EXPECT_LE(comparison_.worst_flux_percent, 2);
+  EXPECT_LE(comparison_.worst_position_mm, 7);
+  EXPECT_LE(comparison_.worst_flux_percent, 1.05);
 }
 
 // The photos show all four, and washed-out tags and walls; where a fit starts is said.
@@ -82,7 +83,7 @@ TEST_F(OfficeRun, StartsWhereThePhotosShowLuminaires) {
 
 TEST_F(OfficeRun, FindsReflectances) {
   EXPECT_EQ(comparison_.albedo_error.size(), 7u);
-  EXPECT_LE(comparison_.worst_albedo, 0.012);  // 0.010 at full resolution; the ceiling is the worst
+  EXPECT_LE(comparison_.worst_albedo, 0.011);
   for (const json& material : result_["materials"]) EXPECT_EQ(material["albedo_rgb"].size(), 3u);
 }
 
@@ -102,8 +103,8 @@ TEST_F(OfficeRun, RegistersTheViewsThatSeeTags) {
 
 TEST_F(OfficeRun, PredictsTheReadingsThatOnlyCheck) {
   EXPECT_EQ(result_["summary"]["readings_checked"], 47);
-  EXPECT_LE(result_["summary"]["mean_abs_error_percent"].get<double>(), 2);
-  EXPECT_LE(result_["summary"]["max_abs_error_percent"].get<double>(), 5);
+  EXPECT_LE(result_["summary"]["mean_abs_error_percent"].get<double>(), 1.35);
+  EXPECT_LE(result_["summary"]["max_abs_error_percent"].get<double>(), 4.5);
 }
 
 // One reading alone fixes the scale of the photos, so that nothing contradicts it.
@@ -230,10 +231,10 @@ TEST_F(AllOnRun, CountsTheLuminairesAndFindsThem) {
   ASSERT_EQ(result["luminaires"].size(), 4u);
   const TruthComparison comparison = CompareWithTruth(result, Read(office_ / "truth.json"));
   EXPECT_EQ(comparison.luminaires_missing, 0);
-  // A quarter of what the states one by one give to work with: limits are twice those of the whole session.
-  EXPECT_LT(comparison.worst_position_mm, 20);
-  EXPECT_LT(comparison.worst_flux_percent, 2.4);
-  EXPECT_LT(comparison.worst_albedo, 0.02);
+  // 1.5 times what docs/accuracy.md states of this session: 7.1 mm, 1.50 %, 0.0088.
+  EXPECT_LT(comparison.worst_position_mm, 11);
+  EXPECT_LT(comparison.worst_flux_percent, 2.3);
+  EXPECT_LT(comparison.worst_albedo, 0.0135);
 }
 
 // Named, they are the same four, in some order.

@@ -100,11 +100,21 @@ TEST(PatchAlbedo, HighlightsAreNotAveragedIn) {
   EXPECT_EQ(result.materials[kFloor].detail, AlbedoDetail::kMaterial) << Scores(result.materials[kFloor]);
 }
 
+// The error of fluxes and camera scale is independent of the data's own: variances add, each material's to its own.
 TEST(PatchAlbedo, CommonSigmaIsInEverySigma) {
   PatchAlbedoOptions options;
-  options.common_sigma = Eigen::VectorXd::Constant(3, 0.02);
-  const PatchAlbedo with = EstimatePatchAlbedo(TheRoom(), TheData(), support::PosterRoomLight(), options);
-  for (const AlbedoUnit& unit : with.units) EXPECT_GE(unit.sigma, 0.02 * unit.albedo);
+  options.common_sigma = Eigen::Vector3d(0.02, 0, 0.05);
+  const PatchAlbedo with = EstimatePatchAlbedo(TheRoom(), TheData(), support::PosterRoomLight(), options),
+                    without = EstimatePatchAlbedo(TheRoom(), TheData(), support::PosterRoomLight());
+  ASSERT_EQ(with.units.size(), without.units.size());
+  ASSERT_FALSE(with.units.empty());
+  for (size_t i = 0; i < with.units.size(); ++i) {
+    const AlbedoUnit &unit = with.units[i], &alone = without.units[i];
+    const double added = unit.sigma * unit.sigma - alone.sigma * alone.sigma;
+    const double relative = options.common_sigma[unit.material];
+    EXPECT_EQ(unit.albedo, alone.albedo) << i;
+    EXPECT_NEAR(added, std::pow(relative * unit.albedo, 2), 1e-12) << i;  // rounding
+  }
   options.common_sigma = Eigen::VectorXd::Zero(2);
   EXPECT_THROW(EstimatePatchAlbedo(TheRoom(), TheData(), support::PosterRoomLight(), options),
                std::invalid_argument);

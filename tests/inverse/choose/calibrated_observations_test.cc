@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "tests/support/inverse/wall_photos.h"
@@ -71,6 +72,30 @@ TEST_F(CalibratedObservationsTest, OnlyThePhotoThatLiesIsFound) {
   EXPECT_THAT(calibrated.findings.wrong_photos, ElementsAre(3));
   // It is as bright as the others then.
   for (const Observation& o : calibrated.observations)
+    EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
+}
+
+// Views take turns between two cameras, the second of 0.64 of the first's sensitivity.
+TEST_F(CalibratedObservationsTest, OnlyThePhotoThatLiesIsFoundInARig) {
+  std::vector<double> factors(8, 1.0);
+  for (size_t view = 1; view < 8; view += 2) {
+    factors[view] = 0.64;
+    wall_.views[view].camera = 1;
+  }
+  factors[3] *= 2;
+  std::vector<Observation> observations = wall_.Observe(false, factors, rng_);
+  std::vector<StatedPhoto> photos = PhotosIn(observations);
+  for (StatedPhoto& photo : photos) photo.exposure_s = 0.25;
+  const std::vector<PhotoSample> samples =
+      SamplesOf(observations, photos, wall_.patches, {wall_.camera, wall_.camera}, wall_.views);
+  const OpenRadiometry open{true, {true, true}, {true, true}};
+  const SelfCalibration found = SelfCalibrate(wall_.patches, {Eigen::VectorXd::Ones(1)}, samples, open);
+  const std::vector<StatedVignetting> stated(2, StatedVignetting::kNone);
+  EXPECT_THAT(FindingsOf(found, open, stated).wrong_photos, ElementsAre(3));
+  const CameraGain& second = found.camera_gains.at(1);
+  EXPECT_NEAR(second.log_gain, std::log(0.64), 3 * second.sigma);
+  // All are as bright as the first camera's photos then.
+  for (const Observation& o : WithCorrections(std::move(observations), samples, found))
     EXPECT_NEAR(o.relative_luminance / wall_.Truth(o.element), 1, 0.04);
 }
 

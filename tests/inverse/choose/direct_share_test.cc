@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "tests/support/closed_forms.h"
+#include "tests/support/inverse/box_paths.h"
 #include "tests/support/inverse/plane_readings.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
@@ -13,48 +15,25 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFluxLm = 1000, kAlbedo = 0.6;
 const Eigen::Vector3d kSize(3, 3, 2.5), kLamp(1.5, 1.4, 2.4);
 
-// Of a Lambertian point that shines down.
 double DirectLx(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d to = kLamp - p;
-  const double down = to.z() / to.norm(), cosine = normal.dot(to) / to.norm();
-  return down > 0 && cosine > 0 ? kFluxLm / kPi * down * cosine / to.squaredNorm() : 0;
-}
-
-Eigen::Vector3d CosineWeighted(const Eigen::Vector3d& normal, std::mt19937_64& rng) {
-  std::uniform_real_distribution<double> unit;
-  const double r = std::sqrt(unit(rng)), phi = 2 * kPi * unit(rng);
-  const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  return r * std::cos(phi) * u + r * std::sin(phi) * v + std::sqrt(std::max(0.0, 1 - r * r)) * normal;
-}
-
-// Where a ray from inside the box ends, and the wall's normal there.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> HitBox(const Eigen::Vector3d& p,
-                                                   const Eigen::Vector3d& direction) {
-  double nearest = 1e9;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (direction[axis] == 0) continue;
-    const double t = ((direction[axis] > 0 ? kSize[axis] : 0) - p[axis]) / direction[axis];
-    if (t >= nearest) continue;
-    nearest = t;
-    normal = -Eigen::Vector3d::Unit(axis) * (direction[axis] > 0 ? 1 : -1);
-  }
-  return {p + nearest * direction, normal};
+  return support::PointLx(kFluxLm, support::LambertianCdPerLm, kLamp, p, normal);
 }
 
 // Interreflected light by paths: E = mean over paths of sum_k rho^k D(x_k).
 double IndirectLx(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, std::mt19937_64& rng) {
   constexpr int kPaths = 5000, kBounces = 14;
+  std::uniform_real_distribution<double> unit;
   double sum = 0;
   for (int path = 0; path < kPaths; ++path) {
     Eigen::Vector3d at = p, facing = normal;
     double weight = 1;
     for (int bounce = 0; bounce < kBounces; ++bounce) {
-      const auto [next, wall] = HitBox(at, CosineWeighted(facing, rng));
+      const double radial = unit(rng), azimuthal = unit(rng);
+      const auto [next, wall] =
+          support::HitBox(kSize, at, support::CosineWeighted(facing, radial, azimuthal));
       at = next;
       facing = wall;
       weight *= kAlbedo;

@@ -16,6 +16,8 @@ namespace luxfit {
 namespace {
 
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
 
 constexpr int kViews = 7;
 constexpr double kNoise = 0.003;
@@ -51,6 +53,7 @@ class SelfCalibrationTest : public testing::Test {
     std::function<double(double radius2)> log_vignetting = [](double) { return 0.0; };
     double power = 1;  // counts go with this power of light
     bool one_exposure = false;
+    int cameras = 1;  // views take turns
   };
 
   // Photo: view + kViews * state.
@@ -69,6 +72,7 @@ class SelfCalibrationTest : public testing::Test {
           sample.element = e;
           sample.state = state;
           sample.photo = view + kViews * state;
+          sample.camera = view % camera.cameras;
           sample.radius2 = radius * radius;
           const double stated_s = camera.one_exposure ? 1 : 1 + 0.5 * ((view + state) % 3);
           const double log_exposed = std::log(light * stated_s) + camera.log_gain(sample.photo) +
@@ -86,6 +90,34 @@ class SelfCalibrationTest : public testing::Test {
   SelfCalibration Calibrate(const std::vector<Eigen::VectorXd>& dimming,
                             const std::vector<PhotoSample>& samples) const {
     return SelfCalibrate(patches_, dimming, samples, {true, {true}, {true}});
+  }
+
+  // Two cameras, the second of `gain` times the first's sensitivity. `wrong`: a photo of twice the stated
+  // exposure.
+  std::vector<PhotoSample> PhotographWithTwo(double gain, int wrong = -1) {
+    Camera camera;
+    camera.cameras = 2;
+    camera.log_gain = [=](int photo) {
+      return (photo % kViews % 2 == 1 ? std::log(gain) : 0.0) + (photo == wrong ? std::log(2.0) : 0.0);
+    };
+    return Photograph(OneByOneAndTogether(), camera);
+  }
+
+  SelfCalibration CalibrateTwo(const std::vector<PhotoSample>& samples,
+                               const std::vector<bool>& gain_is_stated = {}) const {
+    const OpenRadiometry open{true, {true, true}, {true, true}, gain_is_stated};
+    return SelfCalibrate(patches_, OneByOneAndTogether(), samples, open);
+  }
+
+  // Leaves the first camera the patches before `end_of_first` and the second those from patch 80 on.
+  static std::vector<PhotoSample> Apart(const std::vector<PhotoSample>& samples, int end_of_first) {
+    std::vector<PhotoSample> apart;
+    apart.reserve(samples.size());
+    for (const PhotoSample& s : samples) {
+      const int patch = s.element / 3;
+      if (s.camera == 0 ? patch < end_of_first : patch >= 80) apart.push_back(s);
+    }
+    return apart;
   }
 
   static std::vector<Eigen::VectorXd> OneByOneAndTogether() {
@@ -236,19 +268,94 @@ TEST_F(SelfCalibrationTest, SigmasOfGainsAreTheirScatter) {
   EXPECT_LT(z, 1.4);
 }
 
+TEST_F(SelfCalibrationTest, GainOfACameraIsToldFromAPhotoThatIsOff) {
+  const SelfCalibration found = CalibrateTwo(PhotographWithTwo(0.64, 4));
+  EXPECT_TRUE(found.Chosen().gains);
+  const CameraGain& second = found.camera_gains.at(1);
+  EXPECT_EQ(second.reference, 0);
+  EXPECT_TRUE(second.is_tied);
+  EXPECT_GT(second.sigma, 0);
+  EXPECT_NEAR(second.log_gain, std::log(0.64), 3 * second.sigma);
+  // The photo that is off pulls the mean of its camera's exposures by 0.0013.
+  EXPECT_NEAR(second.log_gain, std::log(0.64), 0.005);
+  EXPECT_EQ(found.camera_gains[0].log_gain, 0);
+  for (int p = 0; p < 3 * kViews; ++p) EXPECT_NEAR(found.log_gain[p], p == 4 ? std::log(2.0) : 0, 0.008) << p;
+  EXPECT_GT(found.score_of_equal_cameras, 2 * found.score_of_camera_gains);
+}
+
+// With exposures as stated, the gain is as certain as the photos' own noise lets it be.
+TEST_F(SelfCalibrationTest, GainOfACameraAloneLeavesPhotosAsRecorded) {
+  const SelfCalibration found = CalibrateTwo(PhotographWithTwo(0.64));
+  EXPECT_EQ(found.Chosen().name, "as recorded");
+  EXPECT_EQ(found.log_gain.cwiseAbs().maxCoeff(), 0);
+  const CameraGain& second = found.camera_gains.at(1);
+  EXPECT_NEAR(second.log_gain, std::log(0.64), 3 * second.sigma);
+  EXPECT_LT(second.sigma, 0.001);
+  // A factor common to all photos is no error: each camera bears its share of the gain's sigma.
+  EXPECT_NEAR(std::sqrt(found.covariance(0, 0)) + std::sqrt(found.covariance(1, 1)), second.sigma, 1e-9);
+  EXPECT_NEAR(found.CorrectionOf(1, 1).LogFactor(0, 0), -second.log_gain, 1e-12);
+}
+
+TEST_F(SelfCalibrationTest, EqualCamerasHaveNoGains) {
+  const SelfCalibration found = CalibrateTwo(PhotographWithTwo(1));
+  EXPECT_EQ(found.Chosen().name, "as recorded");
+  for (const CameraGain& camera : found.camera_gains) {
+    EXPECT_EQ(camera.log_gain, 0);
+    EXPECT_EQ(camera.sigma, 0);
+    EXPECT_TRUE(camera.is_tied);
+  }
+  EXPECT_EQ(found.covariance.cwiseAbs().maxCoeff(), 0);
+}
+
+TEST_F(SelfCalibrationTest, CamerasWithoutCommonSurfacesAreNotTied) {
+  const std::vector<PhotoSample> samples = PhotographWithTwo(0.64);
+  // None in common, or four patches.
+  for (const int end_of_first : {80, 84}) {
+    const SelfCalibration found = CalibrateTwo(Apart(samples, end_of_first));
+    EXPECT_EQ(found.Chosen().name, "as recorded") << end_of_first;
+    EXPECT_TRUE(found.camera_gains.at(0).is_tied);
+    EXPECT_FALSE(found.camera_gains.at(1).is_tied) << end_of_first;
+    EXPECT_EQ(found.camera_gains[1].log_gain, 0);
+  }
+  // Ten patches of one facet are enough.
+  const SelfCalibration tied = CalibrateTwo(Apart(samples, 90));
+  EXPECT_TRUE(tied.camera_gains.at(1).is_tied);
+  EXPECT_NEAR(tied.camera_gains[1].log_gain, std::log(0.64), 0.003);
+}
+
+// One stated gain is the reference, and two are not adjusted to each other.
+TEST_F(SelfCalibrationTest, StatedGainsAreHeld) {
+  const std::vector<PhotoSample> samples = PhotographWithTwo(0.64);
+  const SelfCalibration second = CalibrateTwo(samples, {false, true});
+  EXPECT_THAT(second.contradictions, IsEmpty());
+  EXPECT_EQ(second.camera_gains.at(0).reference, 1);
+  EXPECT_EQ(second.camera_gains[1].log_gain, 0);
+  EXPECT_NEAR(second.camera_gains[0].log_gain, -std::log(0.64), 0.003);
+  const SelfCalibration both = CalibrateTwo(samples, {true, true});
+  ASSERT_THAT(both.contradictions, SizeIs(1));
+  EXPECT_EQ(both.contradictions[0].camera, 1);
+  EXPECT_EQ(both.contradictions[0].reference, 0);
+  EXPECT_NEAR(both.contradictions[0].log_ratio, std::log(0.64), 0.005);
+  EXPECT_EQ(both.Chosen().name, "as recorded");
+  for (const CameraGain& camera : both.camera_gains) EXPECT_EQ(camera.log_gain, 0);
+  EXPECT_THAT(CalibrateTwo(PhotographWithTwo(1), {true, true}).contradictions, IsEmpty());
+}
+
 // The gradient of the cost over x alone, each element's light at its optimum, against central differences.
 TEST_F(SelfCalibrationTest, GradientIsThatOfTheEliminatedCost) {
   Camera camera;
   camera.log_gain = TrueGain;
   camera.power = 0.9;
+  camera.cameras = 2;
   const std::vector<PhotoSample> samples = Photograph(OneByOneAndTogether(), camera);
   const PhotoEquations equations(patches_, OneByOneAndTogether(), samples, 60);
   RadiometryUnknowns unknowns;
-  unknowns.vignetting = {0};
+  unknowns.vignetting = {0, 3};
   unknowns.order = 3;
-  unknowns.exponent = {3};
-  unknowns.first_gain = 4;
-  unknowns.count = 4 + 3 * kViews;
+  unknowns.exponent = {6, 7};
+  unknowns.camera = {-1, 8};
+  unknowns.first_gain = 9;
+  unknowns.count = 9 + 3 * kViews;
   PhotoEquations::Fit fit = equations.Start(unknowns);
   for (Eigen::Index i = 0; i < fit.x.size(); ++i) fit.x[i] = 0.02 * std::sin(1.7 * static_cast<double>(i));
   const auto sums = [&](const Eigen::VectorXd& x) {

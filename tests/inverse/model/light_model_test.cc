@@ -8,8 +8,10 @@
 #include <set>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "forward/luminaire/luminaire_parts.h"
+#include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
@@ -116,29 +118,65 @@ TEST_F(SmallRoom, StatesAreSumsOfTheirLuminaires) {
   EXPECT_NEAR(value[5], 0.3 * value[3] + value[4], 1e-6 * value[5]);
 }
 
-TEST_F(SmallRoom, LuminanceIsAlbedoOverPiTimesIlluminance) {
-  // A reading on the centre of a floor element, facing as it does, and that element's luminance: Y = c rho E
-  // / pi.
-  const RayHit below = room_.rays.Trace({2.6, 0.63, 1}, {0, 0, -1});
-  const int e = room_.patches.ElementAt(below.facet, below.u, below.v);
-  ASSERT_GE(e, 0);
-  const Element& element = room_.patches.elements[static_cast<size_t>(e)];
-  state_.albedo = Eigen::Vector3d(0.1, 0.15, 0.1);
+// A floor in a black room, where all light is direct: under a point and a panel, each at its own level.
+// kRho / kPi is the luminance that 1 lx gives a diffuse surface.
+TEST(LightModelClosedForm, AFloorInABlackRoomIsLitByTheInverseSquareAndCosineLaw) {
+  constexpr double kRho = 0.3, kCameraScale = 0.02;
+  const Room room =
+      MakeRoom(support::ClosedRoom({3, 2, 2.4}, {"wall", "wall", "wall", "wall", "floor", "wall"}),
+               {{0.5, 0.25}, {16}});
+  const Eigen::Vector3d p_point(0.9, 1.1, 1.6), p_panel(2.2, 0.8, 1.4);
+  LightState state;
+  state.luminaires.resize(2);
+  state.luminaires[0].position = p_point;
+  state.luminaires[0].distribution = Distribution::kIsotropic;
+  state.luminaires[0].flux_lm = 700;
+  state.luminaires[1].position = p_panel;
+  state.luminaires[1].distribution = Distribution::kLambertian;
+  state.luminaires[1].shape = LuminaireShape::kRectangle;
+  state.luminaires[1].size_m = {0.6, 0.3};
+  state.luminaires[1].flux_lm = 400;
+  state.free.resize(2);
+  state.albedo = Eigen::Vector2d(0, kRho);
+  state.albedo_free = {false, false};
+  state.camera_scale = kCameraScale;
+  ASSERT_EQ(room.scene.materials.at(1), "floor");
   LightData data;
-  data.dimming = {Eigen::Vector2d(0, 1)};  // B, all of which the element sees
-  Observation o;
-  o.element = e;
-  data.observations = {o};
-  data.readings = {{{element.center, element.normal}, 0, 100, 1, true}};
-  LightModel model(room_, data);
-  model.FreezeVisibility(state_);
-  const Prediction prediction = model.Predict(state_, {}, false);
-  // Both have the same direct light. The element's indirect light comes from 64 rays: a relative sigma of at
-  // most sqrt(0.25 / 64), were half of them dark; three of those.
-  const double direct_lx = prediction.direct[1], indirect_lx = prediction.value[1] - direct_lx;
-  const double seen_lx = prediction.value[0] * 3.14159265358979323846 / (0.15 * state_.camera_scale);
-  EXPECT_NEAR(seen_lx, prediction.value[1], 3 * indirect_lx * std::sqrt(0.25 / 64));
-  EXPECT_GT(direct_lx, 5 * indirect_lx);  // so that the tolerance is a few percent
+  data.dimming = {Eigen::Vector2d(1, 0), Eigen::Vector2d(0.3, 0.8)};
+  const auto lux = [&](const Eigen::Vector3d& p, int s) {
+    const double of_point = support::PointLx(700, support::IsotropicCdPerLm, p_point, p),
+                 of_panel = support::LambertianRectangleLx(400, p_panel, 0.6, 0.3, p);
+    return s == 0 ? of_point : 0.3 * of_point + 0.8 * of_panel;
+  };
+  std::vector<double> expected;
+  for (int e = 0; e < static_cast<int>(room.patches.elements.size()); ++e) {
+    if (room.patches.PatchOf(e).material != 1) continue;
+    for (int s = 0; s < 2; ++s) {
+      Observation o;
+      o.element = e;
+      o.state = s;
+      data.observations.push_back(o);
+      const double lx = lux(room.patches.elements[static_cast<size_t>(e)].center, s);
+      expected.push_back(kCameraScale * kRho / support::kPi * lx);
+    }
+  }
+  ASSERT_EQ(expected.size(), 2u * 12 * 8);
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0.4, 0.5, 0.3), {1.5, 1.2, 0.75}, {2.6, 0.6, 0.75}}) {
+    for (int s = 0; s < 2; ++s) {
+      data.readings.push_back({{p, {0, 0, 1}}, s, 100, 1, true});
+      expected.push_back(lux(p, s));
+    }
+  }
+  LightModel model(room, data);
+  model.FreezeVisibility(state);
+  const Prediction prediction = model.Predict(state, {}, false);
+  ASSERT_EQ(prediction.value.size(), static_cast<Eigen::Index>(expected.size()));
+  for (size_t i = 0; i < expected.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    // The quadrature of luminous surfaces, as in forward's direct_light_test.
+    EXPECT_NEAR(prediction.value[row] / expected[i], 1, 1e-3) << i;
+    EXPECT_NEAR(prediction.direct[row] / prediction.value[row], 1, 1e-6) << i;  // floats
+  }
 }
 
 bool IsTilt(const Parameter& p) {

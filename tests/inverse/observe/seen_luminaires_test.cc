@@ -2,12 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <cstdio>
+#include <random>
 #include <stdexcept>
 
 #include "tests/inverse/observe/lamp_photos.h"
 #include "tests/support/calib/look_at.h"
 #include "tests/support/scenes.h"
+#include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
@@ -57,6 +61,22 @@ class SeenLuminaires : public testing::Test {
     for (int v = 0; v < static_cast<int>(views_.size()); ++v) photos.push_back(Seen(scene, v, state));
     return photos;
   }
+  // A square blob about the place's image in each view, its centre off by that noise along each axis.
+  std::vector<PhotoBlobs> NoisyBlobs(const Eigen::Vector3d& place, double width_px, double sigma_px,
+                                     std::mt19937_64& rng) const {
+    std::normal_distribution<double> noise(0, sigma_px);
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(width_px / 2);
+    std::vector<PhotoBlobs> photos;
+    for (int v = 0; v < static_cast<int>(views_.size()); ++v) {
+      const Eigen::Vector3d in_cam = views_[static_cast<size_t>(v)].cam_from_world * place;
+      BrightBlob blob;
+      blob.center_px = Project(cameras_[0], in_cam) + Eigen::Vector2d(noise(rng), noise(rng));
+      blob.extent_px = {blob.center_px - half, blob.center_px + half};
+      blob.area_px2 = width_px * width_px;
+      photos.push_back({v, 0, {blob}});
+    }
+    return photos;
+  }
   std::vector<SeenPlace> Find(const std::vector<PhotoBlobs>& photos) const {
     return FindSeenLuminaires(*room_, cameras_, views_, photos);
   }
@@ -86,6 +106,33 @@ TEST_F(SeenLuminaires, AShortExposureDoesAsWell) {
   const auto places = Find(photos);
   ASSERT_EQ(places.size(), 1u);
   EXPECT_LT((places[0].position - panel.center).norm(), 0.03);
+}
+
+// A centre is known to a pixel and a twentieth of the blob's width: one cause rules a small blob, the other a large
+// one. A pixel is a smaller angle off the axis than on it (cos^2 of 10 degrees: 0.97), so that sigma is cautious by
+// some percent. The scatter of 400 draws is itself known to 4 %.
+TEST_F(SeenLuminaires, SigmaIsTheScatterOfManyDraws) {
+  const Eigen::Vector3d place(2.7, 2.3, 2.2);
+  std::mt19937_64 rng = support::TestRng();
+  constexpr int kDraws = 400;
+  for (const double width_px : {5.0, 60.0}) {
+    const double sigma_px = std::hypot(1, 0.05 * width_px);
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    double stated_m2 = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      const std::vector<SeenPlace> places = Find(NoisyBlobs(place, width_px, sigma_px, rng));
+      ASSERT_FALSE(places.empty()) << draw;
+      const Eigen::Vector3d error = places[0].position - place;
+      scatter += error * error.transpose() / kDraws;
+      stated_m2 += places[0].sigma_m * places[0].sigma_m / kDraws;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter, Eigen::EigenvaluesOnly);
+    const double ratio = std::sqrt(axes.eigenvalues()[2] / stated_m2);
+    std::printf("blobs of %.0f px: scatter %.1f mm, %.2f of sigma\n", width_px,
+                1e3 * std::sqrt(axes.eigenvalues()[2]), ratio);
+    EXPECT_GT(ratio, 0.85);
+    EXPECT_LT(ratio, 1.15);
+  }
 }
 
 TEST_F(SeenLuminaires, SeveralLampsAreTheirOwnPlaces) {

@@ -55,15 +55,27 @@ TEST(Degrade, NoiseIsThatOfTheMeanOfPixels) {
 
 TEST(Degrade, AnExposureIsOfAWholePhoto) {
   std::mt19937_64 rng = support::TestRng();
-  std::map<std::pair<int, int>, std::set<double>> values;
-  for (const Observation& o : WithExposureErrors(Observations(), 0.1, rng))
-    values[{o.view, o.state}].insert(o.relative_luminance);
-  std::set<double> gains;
-  for (const auto& [photo, of_photo] : values) {
-    EXPECT_EQ(of_photo.size(), 1u);
-    gains.insert(*of_photo.begin());
+  constexpr double kLogSigma = 0.1;
+  constexpr int kDraws = 50, kPhotos = 12;
+  double sum = 0, squares = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::map<std::pair<int, int>, std::set<double>> values;
+    for (const Observation& o : WithExposureErrors(Observations(), kLogSigma, rng)) {
+      values[{o.view, o.state}].insert(o.relative_luminance);
+      EXPECT_DOUBLE_EQ(o.relative_rgb[1], o.relative_luminance);
+    }
+    ASSERT_EQ(values.size(), static_cast<size_t>(kPhotos));
+    for (const auto& [photo, of_photo] : values) {
+      ASSERT_EQ(of_photo.size(), 1u);
+      const double log_gain = std::log(*of_photo.begin() / 2);
+      sum += log_gain;
+      squares += log_gain * log_gain;
+    }
   }
-  EXPECT_EQ(gains.size(), 12u);
+  // Four standard errors of the mean and of the standard deviation.
+  constexpr double kGains = kDraws * kPhotos;
+  EXPECT_NEAR(sum / kGains, 0, 4 * kLogSigma / std::sqrt(kGains));
+  EXPECT_NEAR(std::sqrt(squares / kGains), kLogSigma, 4 * kLogSigma / std::sqrt(2 * kGains));
 }
 
 TEST(Degrade, WhatIsDroppedIsGoneAndNothingElse) {

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
+
+#include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
@@ -47,6 +50,34 @@ TEST(StabilityScore, SlightlyOutOfItsIntervalIsNoWrongResult) {
   EXPECT_TRUE(score.is_success);
   EXPECT_FALSE(score.is_confident_wrong);
   EXPECT_EQ(score.intervals_held, 3);
+}
+
+// Estimates whose errors have the sigmas that they state: nineteen of twenty intervals hold the truth. The
+// binomial sigma of 4000 draws is 0.34 %; the tolerance is three of them.
+TEST(StabilityScore, IntervalsHoldNineteenOfTwentyHonestErrors) {
+  std::mt19937_64 rng = support::TestRng();
+  std::normal_distribution<double> normal;
+  constexpr int kDraws = 4000;
+  const double three_sigmas = 3 * std::sqrt(0.95 * 0.05 / kDraws);
+  const Eigen::Vector3d sigma_m(0.01, 0.02, 0.005);
+  int places_held = 0, fluxes_held = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    EstimatedLuminaire placed = kTruth[0], powered = kTruth[0];
+    placed.position += sigma_m.cwiseProduct(Eigen::Vector3d(normal(rng), normal(rng), normal(rng)));
+    placed.position_sigma_m = sigma_m;
+    placed.flux_sigma = 0;  // given: no interval
+    powered.flux += 30 * normal(rng);
+    powered.flux_sigma = 30;
+    powered.position_sigma_m.setZero();
+    const FitScore of_place = ScoreFit({placed}, {kTruth[0]}, false),
+                   of_flux = ScoreFit({powered}, {kTruth[0]}, false);
+    ASSERT_EQ(of_place.intervals, 1);
+    ASSERT_EQ(of_flux.intervals, 1);
+    places_held += of_place.intervals_held;
+    fluxes_held += of_flux.intervals_held;
+  }
+  EXPECT_NEAR(static_cast<double>(places_held) / kDraws, 0.95, three_sigmas);
+  EXPECT_NEAR(static_cast<double>(fluxes_held) / kDraws, 0.95, three_sigmas);
 }
 
 TEST(StabilityScore, WhatIsMissingOrUndeterminedIsNoSuccess) {
