@@ -33,25 +33,23 @@ class OuterLoop {
       fit_.message = "no observation and no reading to fit to";
       return fit_;
     }
-    bool settled = false;
-    for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
-      fit_.outer_iterations = outer + 1;
-      const LightState before = fit_.state;
-      fit_.parameters = Recentred(fit_.parameters, before);
-      Refresh(true);
-      const FrozenProblem problem{model_,           before,  fit_.parameters, values_,
-                                  fit_.root_weight, priors_, smoothness_,     at_state_};
-      Eigen::VectorXd x = PackParameters(before, fit_.parameters);
-      const bool is_near = options_.start_is_near || outer >= 2;
-      SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
-      fit_.state = WithParameters(before, fit_.parameters, x);
-      settled = is_near &&
-                LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
-                (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
-                 fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
+    fit_.photo_design_effect = std::max(1.0, options_.photo_design_effect);
+    bool settled = Settle(options_.start_is_near);
+    double design_effect = fit_.photo_design_effect;
+    if (options_.covariance && options_.photo_design_effect == 0 && !data_.observations.empty()) {
+      design_effect = PhotoDesignEffect();
+      if (HasOtherKnowledge()) {
+        fit_.photo_design_effect = design_effect;
+        settled = Settle(true);
+      }
     }
     fit_.parameters = Recentred(fit_.parameters, fit_.state);
     Refresh(options_.covariance);
+    if (options_.covariance && options_.subtracts_discretisation && !fit_.parameters.empty())
+      SubtractDiscretisation();
+    const bool is_known = options_.covariance || options_.photo_design_effect > 0;
+    fit_.shared_relative_sigma =
+        fit_.relative_sigma * (is_known ? std::sqrt(IntraClassCorrelation(design_effect)) : 1);
     fit_.status = settled ? FitStatus::kConverged : FitStatus::kNotConverged;
     fit_.message = settled ? "converged" : "luminaires still moved after the last outer iteration";
     Conclude();
@@ -59,11 +57,64 @@ class OuterLoop {
   }
 
  private:
+  // Takes outer iterations until nothing moves. Returns whether that was reached.
+  bool Settle(bool start_is_near) {
+    bool settled = false;
+    for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
+      ++fit_.outer_iterations;
+      const LightState before = fit_.state;
+      fit_.parameters = Recentred(fit_.parameters, before);
+      Refresh(true);
+      const FrozenProblem problem{model_,           before,  fit_.parameters, values_,
+                                  fit_.root_weight, priors_, smoothness_,     at_state_};
+      Eigen::VectorXd x = PackParameters(before, fit_.parameters);
+      const bool is_near = start_is_near || outer >= 2;
+      SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      fit_.state = WithParameters(before, fit_.parameters, x);
+      settled = is_near &&
+                LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
+                (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
+                 fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
+    }
+    return settled;
+  }
+
+  // Returns whether rows other than photos', or priors, share a parameter with the photos: only then their
+  // weights against one another matter.
+  bool HasOtherKnowledge() const {
+    const auto photos = static_cast<std::ptrdiff_t>(data_.observations.size());
+    return photos > 0 &&
+           (!priors_.empty() || std::find(is_used_.begin() + photos, is_used_.end(), true) != is_used_.end());
+  }
+
+  // Residuals of photos resemble one another: facets whose rows all err alike know less than they seem to.
+  double PhotoDesignEffect() {
+    fit_.parameters = Recentred(fit_.parameters, fit_.state);
+    Refresh(true);
+    WeightedRows rows = RowsAtState();
+    for (size_t i = data_.observations.size(); i < rows.cluster.size(); ++i) rows.cluster[i] = -1;
+    return DesignEffect(rows);
+  }
+
+  // Inverts Kish's design effect 1 + (n - 1) rho, n: mean size of a row's cluster. 1 without photos.
+  double IntraClassCorrelation(double design_effect) const {
+    std::map<std::pair<int, int>, double> size;
+    for (Eigen::Index i = 0; i < FirstReadingRow(data_); ++i) {
+      const int row = static_cast<int>(i);
+      const auto cluster = model_.BlockOf(row).ClusterOf(model_.PlaceInBlock(row));
+      if (cluster && is_usable_[static_cast<size_t>(i)]) ++size[*cluster];
+    }
+    double rows = 0, squares = 0;
+    for (const auto& [cluster, count] : size) rows += count, squares += count * count;
+    return squares > rows ? std::min(1.0, (design_effect - 1) / (squares / rows - 1)) : 1;
+  }
+
   // Reads from the blocks what no state changes.
   void ReadRows() {
     const int rows = model_.row_count();
     values_.resize(rows);
     variance_.resize(rows);
+    bias_.setZero(rows);
     is_used_.resize(static_cast<size_t>(rows));
     is_robust_.resize(static_cast<size_t>(rows));
     carries_model_error_.resize(static_cast<size_t>(rows));
@@ -73,8 +124,8 @@ class OuterLoop {
       values_[i] = block.ValueOf(place);
       variance_[i] = block.VarianceOf(place);
       is_used_[static_cast<size_t>(i)] = block.IsUsed(place);
-      is_robust_[static_cast<size_t>(i)] = block.IsRobust();
       carries_model_error_[static_cast<size_t>(i)] = model_.block_index(i) == model_.block_index(0);
+      is_robust_[static_cast<size_t>(i)] = block.IsRobust() || carries_model_error_[static_cast<size_t>(i)];
     }
   }
 
@@ -103,6 +154,7 @@ class OuterLoop {
       const double z = residual[i] / (options_.robust_sigmas * sigma);
       fit_.weight[i] = is_robust_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
       fit_.root_weight[i] = std::sqrt(fit_.weight[i]) / sigma;
+      if (i < FirstReadingRow(data_)) fit_.root_weight[i] /= std::sqrt(fit_.photo_design_effect);
     }
   }
 
@@ -136,6 +188,23 @@ class OuterLoop {
       move = std::max(move, (a[k].position - b[k].position).norm() + turn + growth);
     }
     return move;
+  }
+
+  // Moves to the minimum of the same problem with its discretisation's bias added to the model: one
+  // Gauss-Newton step, for the bias is small. Weights stay.
+  void SubtractDiscretisation() {
+    bias_ = BlockBias();
+    const Eigen::MatrixXd jacobian = fit_.root_weight.asDiagonal() * at_state_.jacobian;
+    const Eigen::VectorXd step = -InverseOf(jacobian.transpose() * jacobian + PriorInformation()) *
+                                 (jacobian.transpose() * bias_.cwiseProduct(fit_.root_weight));
+    Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters) + step;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const Parameter& p = fit_.parameters[static_cast<size_t>(i)];
+      x[i] = std::clamp(x[i], p.lower, p.upper);
+    }
+    fit_.state = WithParameters(fit_.state, fit_.parameters, x);
+    fit_.parameters = Recentred(fit_.parameters, fit_.state);
+    at_state_ = model_.Predict(fit_.state, fit_.parameters, true);
   }
 
   // Computes the covariance, the undetermined directions and the predictions of the readings.
@@ -177,35 +246,58 @@ class OuterLoop {
   WeightedRows RowsAtState() const {
     WeightedRows rows;
     rows.jacobian = fit_.root_weight.asDiagonal() * at_state_.jacobian;
-    rows.residual = (at_state_.value - values_).cwiseProduct(fit_.root_weight);
+    rows.residual = (at_state_.value + bias_ - values_).cwiseProduct(fit_.root_weight);
     rows.biases = fit_.root_weight.asDiagonal() * Biases();
     std::map<std::tuple<int, int, int>, int> clusters;
+    std::map<std::pair<int, int>, int> coarse;  // all states of a facet
     for (int i = 0; i < model_.row_count(); ++i) {
       const auto cluster = model_.BlockOf(i).ClusterOf(model_.PlaceInBlock(i));
       const int next = static_cast<int>(clusters.size());
       const int block = model_.block_index(i);
       rows.cluster.push_back(
           cluster ? clusters.try_emplace({block, cluster->first, cluster->second}, next).first->second : -1);
+      const int next_coarse = static_cast<int>(coarse.size());
+      rows.coarse_cluster.push_back(
+          cluster ? coarse.try_emplace({block, cluster->first}, next_coarse).first->second : -1);
     }
     rows.alone_scatter = AloneScatter(rows);
-    const Eigen::Index n = at_state_.jacobian.cols();
-    rows.prior_information = Eigen::MatrixXd::Zero(n, n);
-    for (const auto& [parameter, prior] : priors_)
-      rows.prior_information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
-    AddSmoothness(smoothness_, rows.prior_information);
+    rows.prior_information = PriorInformation();
     return rows;
   }
 
-  // Returns what the model's discretisation leaves out of each row, errors that the rows of a block share, and
-  // an error of the bodies' reflectance.
+  Eigen::MatrixXd PriorInformation() const {
+    const auto n = static_cast<Eigen::Index>(fit_.parameters.size());
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+    for (const auto& [parameter, prior] : priors_)
+      information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
+    AddSmoothness(smoothness_, information);
+    return information;
+  }
+
+  // Returns what the model's discretisation leaves out of each row.
+  Eigen::VectorXd BlockBias() const {
+    Eigen::VectorXd bias(values_.size());
+    Eigen::Index first = 0;
+    for (const auto& block : model_.blocks()) {
+      const Eigen::Index count = block->row_count();
+      if (count > 0) bias.segment(first, count) = block->BiasOf(fit_.state);
+      first += count;
+    }
+    return bias;
+  }
+
+  // Returns what remains of the discretisation's bias, errors that the rows of a block share, and an error of the
+  // bodies' reflectance.
   Eigen::MatrixXd Biases() const {
+    // The bias is extrapolated from two sizes; a third of it may be left.
+    constexpr double kBiasLeft = 1.0 / 3;
     Eigen::MatrixXd biases(values_.size(), at_state_.d_body.size() > 0 ? 3 : 2);
+    biases.col(0) = kBiasLeft * bias_;
     if (biases.cols() > 2) biases.col(2) = kBodyAlbedoSigma * at_state_.d_body;
     Eigen::Index first = 0;
     for (const auto& block : model_.blocks()) {
       const Eigen::Index count = block->row_count();
       if (count == 0) continue;
-      biases.col(0).segment(first, count) = block->BiasOf(fit_.state);
       biases.col(1).segment(first, count) = block->SharedErrorOf(fit_.state);
       first += count;
     }
@@ -235,6 +327,7 @@ class OuterLoop {
   std::vector<Luminaire> frozen_;  // luminaires at which the visibility was computed
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd values_, variance_;
+  Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
   std::vector<bool> is_used_, is_usable_;  // fitted to; fitted to and not spoilt at the present state
   std::vector<bool> is_robust_;
   std::vector<bool> carries_model_error_;  // rows of the first block that has any

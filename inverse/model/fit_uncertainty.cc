@@ -49,7 +49,7 @@ FitUncertainty UncertaintyOf(const LuminaireFit& fit) {
   }
   uncertainty.values = PackParameters(fit.state, fit.parameters);
   uncertainty.covariance = fit.covariance;
-  uncertainty.relative_model_sigma = fit.relative_sigma;
+  uncertainty.relative_model_sigma = fit.shared_relative_sigma;
   return uncertainty;
 }
 

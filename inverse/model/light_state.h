@@ -35,6 +35,7 @@ struct LightData {
   std::vector<Observation> observations;
   std::vector<Reading> readings;
   std::vector<LuminaireOutline> outlines;  // where the photos show luminaires themselves
+  Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};  // of red, green and blue; they sum to 1
   // true: the observations carry their indirect light (inverse/model/internal/measured_indirect.h). No
   // radiosity is solved, and there are no readings.
   bool indirect_is_held = false;
@@ -79,6 +80,9 @@ struct LightState {
   Eigen::VectorXd sensor_gain;     // by Reading::sensor; empty: 1
   bool sensor_gains_free = false;  // need priors likewise
   BodyPresence bodies = BodyPresence::kNone;
+  // Albedo in red, green and blue over the albedo, by material; empty: the light between grey surfaces. Their
+  // mean by LightData::luminance_weights is 1.
+  Eigen::Matrix3Xd tint;
 };
 
 // Returns the luminaires' fluxes by state: luminaires x states, lm.

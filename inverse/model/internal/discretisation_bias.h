@@ -13,6 +13,9 @@
 // stand for the others (0 there): up to max_elements for D, an eighth of them for G. G - I is 0 where
 // indirect light was measured, and in sparse rooms.
 //
+// FitLuminaires subtracts what the bias moves its parameters by. A third of it stays in the covariance, for it is
+// extrapolated from two sizes.
+//
 // Source: midpoint rule's error term, e.g. Davis and Rabinowitz (1984), "Methods of numerical integration",
 // ch. 5; Reichert (1992) (final gather).
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_DISCRETISATION_BIAS_H_

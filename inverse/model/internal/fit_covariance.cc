@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -40,15 +43,14 @@ struct ClusterSums {
   Eigen::MatrixXd information;  // J_c^T J_c
 };
 
-std::vector<ClusterSums> SumClusters(const WeightedRows& rows) {
+std::vector<ClusterSums> SumClusters(const WeightedRows& rows, const std::vector<int>& cluster) {
   const Eigen::Index n = rows.jacobian.cols();
-  const int count =
-      rows.cluster.empty() ? 0 : *std::max_element(rows.cluster.begin(), rows.cluster.end()) + 1;
+  const int count = cluster.empty() ? 0 : *std::max_element(cluster.begin(), cluster.end()) + 1;
   std::vector<ClusterSums> sums(static_cast<size_t>(count),
                                 {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)});
-  for (size_t i = 0; i < rows.cluster.size(); ++i) {
-    if (rows.cluster[i] < 0) continue;
-    ClusterSums& c = sums[static_cast<size_t>(rows.cluster[i])];
+  for (size_t i = 0; i < cluster.size(); ++i) {
+    if (cluster[i] < 0) continue;
+    ClusterSums& c = sums[static_cast<size_t>(cluster[i])];
     const Eigen::VectorXd row = rows.jacobian.row(static_cast<Eigen::Index>(i)).transpose();
     c.gradient += rows.residual[static_cast<Eigen::Index>(i)] * row;
     c.information.selfadjointView<Eigen::Lower>().rankUpdate(row);
@@ -64,7 +66,63 @@ Eigen::MatrixXd WithoutCluster(const Eigen::MatrixXd& information) {
   return leverage.eigenvectors() * left.cwiseInverse().asDiagonal() * leverage.eigenvectors().transpose();
 }
 
+// Holds, along the axes of H, the variance that clusters give: as their scatter estimates it, and as
+// independent rows would.
+struct ClusterVariance {
+  Eigen::MatrixXd estimated;
+  Eigen::VectorXd if_independent;
+  Eigen::VectorXd share, share_squares;  // sums of v_c and v_c^2
+};
+
+ClusterVariance VarianceOfClusters(const WeightedRows& rows, const std::vector<int>& cluster,
+                                   const Eigen::MatrixXd& root) {
+  const Eigen::Index n = root.cols();
+  ClusterVariance sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),
+                      Eigen::VectorXd::Zero(n)};
+  for (const ClusterSums& c : SumClusters(rows, cluster)) {
+    const Eigen::MatrixXd information = root.transpose() * c.information * root;
+    const Eigen::MatrixXd without = WithoutCluster(information);
+    const Eigen::VectorXd moved = without * (root.transpose() * c.gradient);
+    sum.estimated += moved * moved.transpose();
+    sum.if_independent += information.diagonal();
+    const Eigen::VectorXd share = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
+    sum.share += share;
+    sum.share_squares += share.cwiseAbs2();
+  }
+  return sum;
+}
+
+// Holds the variance along one axis, and its degrees of freedom; 0 where the clusters say nothing of it.
+struct AxisVariance {
+  double variance = 0, freedom = std::numeric_limits<double>::infinity();
+
+  double Enlarged() const { return variance * std::pow(StudentFactor(freedom), 2); }
+};
+
+AxisVariance AlongAxis(const ClusterVariance& clusters, Eigen::Index axis, double known) {
+  const double variance = clusters.estimated(axis, axis), squares = clusters.share_squares[axis];
+  if (!(variance > 0) || !(squares > 0)) return {};
+  const double of_clusters = clusters.share[axis] * clusters.share[axis] / squares;
+  return {variance, of_clusters * std::pow(1 + known / variance, 2)};
+}
+
+Eigen::MatrixXd HessianOf(const WeightedRows& rows) {
+  return rows.jacobian.transpose() * rows.jacobian + rows.prior_information;
+}
+
 }  // namespace
+
+double DesignEffect(const WeightedRows& rows) {
+  const ClusterVariance clusters = VarianceOfClusters(rows, rows.cluster, RootOf(HessianOf(rows)).root);
+  // Where other knowledge gives nearly all, the ratio says nothing.
+  constexpr double kLeastShare = 0.1;
+  std::vector<double> ratio;
+  for (Eigen::Index d = 0; d < clusters.if_independent.size(); ++d) {
+    if (clusters.if_independent[d] > kLeastShare)
+      ratio.push_back(clusters.estimated(d, d) / clusters.if_independent[d]);
+  }
+  return ratio.empty() ? 1 : std::max(1.0, Median(std::move(ratio)));
+}
 
 double StudentFactor(double degrees_of_freedom) {
   const double nu = std::max(degrees_of_freedom, kLeastFreedom), z = kNormal, z3 = z * z * z, z5 = z3 * z * z,
@@ -76,10 +134,14 @@ double StudentFactor(double degrees_of_freedom) {
   return t / z;
 }
 
+Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& hessian) {
+  const Eigen::MatrixXd root = RootOf(hessian).root;
+  return root * root.transpose();
+}
+
 FitCovariance CovarianceOf(const WeightedRows& rows) {
   const Eigen::Index n = rows.jacobian.cols();
-  const Eigen::MatrixXd hessian = rows.jacobian.transpose() * rows.jacobian + rows.prior_information;
-  InverseRoot inverse_root = RootOf(hessian);
+  InverseRoot inverse_root = RootOf(HessianOf(rows));
   const Eigen::MatrixXd& root = inverse_root.root;
 
   // In whitened directions the plain covariance is 1, so combinations that cancel stay cancelled.
@@ -90,29 +152,23 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
         root.transpose() * rows.jacobian.row(static_cast<Eigen::Index>(i)).transpose();
     known += rows.alone_scatter * row * row.transpose();
   }
-  Eigen::MatrixXd estimated = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n), squares = sum;
-  for (const ClusterSums& c : SumClusters(rows)) {
-    const Eigen::MatrixXd information = root.transpose() * c.information * root;
-    const Eigen::MatrixXd without = WithoutCluster(information);
-    const Eigen::VectorXd moved = without * (root.transpose() * c.gradient);
-    estimated += moved * moved.transpose();
-    const Eigen::VectorXd share = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
-    sum += share;
-    squares += share.cwiseAbs2();
-  }
+  const ClusterVariance fine = VarianceOfClusters(rows, rows.cluster, root);
+  const ClusterVariance coarse = VarianceOfClusters(rows, rows.coarse_cluster, root);
 
   FitCovariance result;
   result.null_directions = std::move(inverse_root.null_directions);
   result.degrees_of_freedom = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-  Eigen::VectorXd student = Eigen::VectorXd::Ones(n), floor = student;
+  Eigen::VectorXd larger = Eigen::VectorXd::Ones(n), floor = larger;
   for (Eigen::Index d = 0; d < n; ++d) {
-    if (!(estimated(d, d) > 0) || !(squares[d] > 0)) continue;
-    const double of_clusters = sum[d] * sum[d] / squares[d];
-    result.degrees_of_freedom[d] = of_clusters * std::pow(1 + known(d, d) / estimated(d, d), 2);
-    student[d] = StudentFactor(result.degrees_of_freedom[d]);
+    const AxisVariance of_fine = AlongAxis(fine, d, known(d, d)),
+                       of_coarse = AlongAxis(coarse, d, known(d, d));
+    if (!(of_fine.variance > 0)) continue;
+    result.degrees_of_freedom[d] = of_fine.freedom;
+    const double enlarged = std::max(of_fine.Enlarged(), of_coarse.Enlarged());
+    larger[d] = std::sqrt(enlarged / of_fine.variance);
   }
-  Eigen::MatrixXd whitened = known + Eigen::MatrixXd(student.asDiagonal() * estimated * student.asDiagonal());
+  Eigen::MatrixXd whitened =
+      known + Eigen::MatrixXd(larger.asDiagonal() * fine.estimated * larger.asDiagonal());
   for (Eigen::Index d = 0; d < n; ++d) {
     if (whitened(d, d) > 0) floor[d] = std::max(1.0, 1 / std::sqrt(whitened(d, d)));
   }

@@ -3,7 +3,9 @@
 //   H = J^T J + P,   C = H^-1 (T sum_c g_c' g_c'^T T + sum_readings + P) H^-1 + sum_b b_theta b_theta^T
 //
 // J: weighted Jacobian, P: information of priors and smoothness. g_c = J_c^T r_c is the gradient of one
-// cluster, the rows of one facet in one state, which share their model error.
+// cluster, the rows of one facet in one state, which share their model error. A facet's error may be the same in
+// all states (its pose, its reflectance), so the sum is taken over coarser clusters too. Along each axis the
+// larger of the two variances counts.
 //
 // Where clusters are few, each has leverage: the fit follows it, so its residual is smaller than its error.
 // g_c' = H (H - J_c^T J_c)^-1 g_c is the gradient of a fit without the cluster (CR3, the jackknife). It is
@@ -20,10 +22,11 @@
 // Along these axes the covariance is never below the plain H^-1.
 //
 // b_theta = H^-1 J^T b is the effect of an error b of the model that all rows share on the parameters. Each has
-// a known form and an amplitude of 1 sigma: what the discretisation leaves out
-// (inverse/model/internal/discretisation_bias.h), or a quantity that is held although it is not exactly known
-// (a "consider parameter", Schmidt 1966). Directions of eigenvalue below 1e-10 of the largest (after
-// scaling) have no covariance and are returned.
+// a known form and an amplitude of 1 sigma: what remains of the discretisation's bias
+// (inverse/model/internal/discretisation_bias.h), an error that the rows of a block share, or a quantity that is
+// held although it is not exactly known (a "consider parameter", Schmidt 1966).
+//
+// Directions of eigenvalue below 1e-10 of the largest (after scaling) have no covariance and are returned.
 //
 // Sources: Liang and Zeger (1986); Bell and McCaffrey (2002), "Bias reduction in standard errors for linear
 // regression with multi-stage samples"; Cameron and Miller (2015), sec. VI (few clusters).
@@ -41,6 +44,8 @@ struct WeightedRows {
   Eigen::VectorXd residual;
   Eigen::MatrixXd biases;             // one in each column, weighted likewise
   std::vector<int> cluster;           // one for each row, from 0; -1: stands alone
+  // A coarser choice of clusters, of the same rows; empty: none. Of the two variances the larger counts.
+  std::vector<int> coarse_cluster;
   double alone_scatter = 1;           // expected mean square of the residuals of rows that stand alone
   Eigen::MatrixXd prior_information;  // P, for priors and smoothness: parameters x parameters
 };
@@ -50,6 +55,14 @@ struct FitCovariance {
   std::vector<Eigen::VectorXd> null_directions;  // unit, in parameters scaled to unit curvature
   Eigen::VectorXd degrees_of_freedom;  // nu of the axes; infinite where readings and priors give all
 };
+
+// Returns H^-1 over the directions that the data determine, 0 over the others.
+Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& hessian);
+
+// Returns how many times larger the variance is that clustered rows give than the one they would give if they
+// were independent: the median over the axes of H, at least 1. Rows that stand alone do not count.
+// Source: Kish (1965), "Survey sampling" (design effect).
+double DesignEffect(const WeightedRows& rows);
 
 FitCovariance CovarianceOf(const WeightedRows& rows);
 

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -119,6 +120,37 @@ void LightModel::FreezeVisibility(const LightState& state, int order) {
   visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
       room_, receivers_, state.luminaires, order);
   FreezeBodies(state);
+  FreezeColour(state);
+}
+
+void LightModel::FreezeColour(const LightState& state) {
+  colour_.resize(0);
+  if (state.tint.size() == 0 || data_.indirect_is_held || room_.sparse) return;
+  const Eigen::MatrixXf grey = Light(state, {}).total;
+  std::array<Eigen::MatrixXf, 3> channel;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    constexpr double kMostAlbedo = 0.99;
+    const Eigen::VectorXd albedo =
+        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo);
+    channel[static_cast<size_t>(c)] = ComputeIlluminance(room_, receivers_, visibility_, state.luminaires,
+                                                         Transport(room_.transport, albedo), {})
+                                          .total;
+  }
+  const Eigen::VectorXd flux = FluxesLm(state.luminaires);
+  colour_.setOnes(row_count());
+  for (Eigen::Index i = 0; i < row_count(); ++i) {
+    const Row& row = rows_[static_cast<size_t>(i)];
+    if (row.receiver < 0) continue;
+    const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
+    const Eigen::Vector3d weights =
+        blocks_[static_cast<size_t>(row.block)]->ChannelWeightsOf(state, row.place);
+    const double grey_lx = grey.row(row.receiver).cast<double>() * lumens;
+    double sum_lx = 0;
+    for (size_t c = 0; c < 3; ++c)
+      sum_lx +=
+          weights[static_cast<Eigen::Index>(c)] * channel[c].row(row.receiver).cast<double>().dot(lumens);
+    if (grey_lx > 0) colour_[i] = sum_lx / grey_lx;
+  }
 }
 
 void LightModel::FreezeBodies(const LightState& state) {
@@ -200,9 +232,10 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
       return;
     }
     const double unhidden_lx = light.total.row(row.receiver).cast<double>() * lumens;
-    const double left = hidden_.size() > 0 ? 1 - hidden_[i] + kBodyAlbedo * reflected_[i] : 1;
+    const double colour = colour_.size() > 0 ? colour_[i] : 1;
+    const double left = colour * (hidden_.size() > 0 ? 1 - hidden_[i] + kBodyAlbedo * reflected_[i] : 1);
     const double illuminance_lx = left * unhidden_lx;
-    if (hidden_.size() > 0) prediction.d_body[i] = response.gain * unhidden_lx * reflected_[i];
+    if (hidden_.size() > 0) prediction.d_body[i] = response.gain * colour * unhidden_lx * reflected_[i];
     prediction.value[i] = response.gain * illuminance_lx + response.offset;
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
     for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {

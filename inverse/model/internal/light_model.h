@@ -5,9 +5,12 @@
 // Row i of a block of rows (inverse/model/internal/row_block.h) receives the illuminance E_i in state s.
 // d: dimming, Phi: flux, E_ik: illuminance per lumen (forward/light/illuminance.h). The block states gain
 // and offset. The gain of a photo's element is c rho / pi; that of a reading belongs to its meter and
-// sensor. h = 1 - a + rho_body b is what the luminaires' bodies leave of the light
-// (forward/light/covered_surfaces.h); a and b are frozen with the visibility. Photos hardly tell rho_body from
-// the fluxes: it is held at kBodyAlbedo, and its sigma is a part of every covariance.
+// sensor. h = (1 - a + rho_body b) k, all frozen with the visibility. 1 - a + rho_body b is what the
+// luminaires' bodies leave of the light (forward/light/covered_surfaces.h). k is the luminance of light
+// exchanged in three channels between coloured surfaces, over that of light between grey ones:
+//   k = sum_c v_c E_c / E        v: the channel's weight in the row, E_c: illuminance by rho_c = tint_c rho
+// Photos hardly tell rho_body from the fluxes: it is held at kBodyAlbedo, and its sigma is a part of every
+// covariance.
 //
 // Rows come block by block, in the order of RowBlocksOf. The Jacobian is rows x parameters and exact for
 // frozen visibility. Where the indirect light was measured (LightData::indirect_is_held), E is the direct
@@ -68,6 +71,8 @@ class LightModel {
   };
   // Computes what the bodies of `state` hide of each row's light.
   void FreezeBodies(const LightState& state);
+  // Computes what coloured surfaces add to each row's light.
+  void FreezeColour(const LightState& state);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
   // Returns illuminance per lumen at the receivers.
@@ -80,6 +85,7 @@ class LightModel {
   Receivers receivers_;
   LuminaireVisibility visibility_;
   Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
+  Eigen::VectorXd colour_;              // k; empty: the surfaces are grey
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.
   mutable std::optional<Transport> transport_;
 };

@@ -38,7 +38,10 @@ T AngleFromSphere(const Eigen::Matrix<T, 3, 1>& to_centre, const T& radius, cons
   const Eigen::Matrix<T, 3, 1> beside = to_centre.cross(ray.cast<T>());
   const T far = to_centre.dot(ray.cast<T>());
   // A tiny offset keeps the root's derivative finite where the ray meets the centre.
-  return atan2(T(sqrt(beside.squaredNorm() + 1e-18)), far) - atan2(radius, T(to_centre.norm()));
+  const T tangent2 = to_centre.squaredNorm() - radius * radius;
+  // Inside the sphere, it fills half the view.
+  const T half_angle = tangent2 > T(0) ? T(atan2(radius, T(sqrt(tangent2)))) : T(M_PI / 2);
+  return atan2(T(sqrt(beside.squaredNorm() + 1e-18)), far) - half_angle;
 }
 
 }  // namespace outline_internal

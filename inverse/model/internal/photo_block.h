@@ -24,6 +24,9 @@ class PhotoBlock : public RowBlock {
   bool IsUsed(int /*row*/) const override { return true; }
   bool IsRobust() const override { return true; }
   bool IsSpoiltByPenumbra() const override { return true; }
+  Eigen::Vector3d ChannelWeightsOf(const LightState& state, int row) const override {
+    return data_.luminance_weights.cwiseProduct(state.tint.col(material_[static_cast<size_t>(row)]));
+  }
   RowResponse ResponseOf(const LightState& state, int row) const override;
   double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
                        int row) const override;

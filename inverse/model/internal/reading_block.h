@@ -23,6 +23,9 @@ class ReadingBlock : public RowBlock {
   bool IsUsed(int row) const override { return Of(row).used; }
   bool IsRobust() const override { return false; }
   bool IsSpoiltByPenumbra() const override { return false; }
+  Eigen::Vector3d ChannelWeightsOf(const LightState& /*state*/, int /*row*/) const override {
+    return data_.luminance_weights;
+  }
   RowResponse ResponseOf(const LightState& state, int row) const override;
   double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
                        int row) const override;

@@ -50,6 +50,11 @@ class RowBlock {
   // Whether a shadow edge across the receiver spoils the row: its dependence on positions is then not smooth.
   virtual bool IsSpoiltByPenumbra() const = 0;
 
+  // Returns the channels' weights in the row's value, for a state with tints. They are those of the luminance
+  // where the row is illuminance.
+  virtual Eigen::Vector3d ChannelWeightsOf(const LightState& /*state*/, int /*row*/) const {
+    return Eigen::Vector3d::Zero();
+  }
   virtual RowResponse ResponseOf(const LightState& state, int row) const = 0;
   // Returns the derivative by way of gain and offset, with the illuminance held.
   virtual double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,

@@ -162,5 +162,94 @@ TEST(FitCovarianceTest, StudentFactorIsThatOfTheTables) {
   EXPECT_EQ(StudentFactor(1), StudentFactor(3));
 }
 
+// Residuals of unit variance in clusters of `each` rows with one Jacobian row; `rho` is their intra-class correlation.
+WeightedRows CorrelatedRows(int clusters, int each, double rho, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  Line line;
+  line.jacobian.resize(clusters * each, 2);
+  Eigen::VectorXd error(line.jacobian.rows());
+  for (int c = 0; c < clusters; ++c) {
+    const double common = normal(rng);
+    for (int i = c * each; i < (c + 1) * each; ++i) {
+      line.jacobian.row(i) << 1, c;
+      line.cluster.push_back(c);
+      error[i] = std::sqrt(rho) * common + std::sqrt(1 - rho) * normal(rng);
+    }
+  }
+  return RowsOf(line, error);
+}
+
+double MeanDesignEffect(double rho, std::mt19937_64& rng) {
+  constexpr int kClusters = 200, kEach = 20, kDraws = 50;
+  double sum = 0;
+  for (int draw = 0; draw < kDraws; ++draw) sum += DesignEffect(CorrelatedRows(kClusters, kEach, rho, rng));
+  return sum / kDraws;
+}
+
+// The estimate of one draw scatters by 10 %. Values below 1 count as 1, so the mean is 1.06.
+TEST(DesignEffectTest, IndependentResidualsHaveNone) {
+  std::mt19937_64 rng = support::TestRng();
+  const double mean = MeanDesignEffect(0, rng);
+  std::printf("mean design effect of independent rows %.3f\n", mean);
+  EXPECT_GE(mean, 1);
+  EXPECT_LT(mean, 1.1);
+}
+
+// Kish: 1 + (n - 1) rho for clusters of n rows. The mean of 50 draws has a sigma of 1.6 %, and the jackknife over
+// 200 clusters is 1 % too large.
+TEST(DesignEffectTest, ACommonErrorCountsAsKishsFormulaSays) {
+  std::mt19937_64 rng = support::TestRng();
+  for (const double rho : {0.1, 0.3}) {
+    const double mean = MeanDesignEffect(rho, rng), kish = 1 + 19 * rho;
+    std::printf("rho %.1f: mean design effect %.3f, by Kish %.3f\n", rho, mean, kish);
+    EXPECT_NEAR(mean / kish, 1, 0.05);
+  }
+}
+
+// A row alone with a wild residual takes a tenth of the information: the clusters' ratio stays. Where it gives
+// nearly all, nothing is known of the clusters.
+TEST(DesignEffectTest, RowsThatStandAloneDoNotCount) {
+  std::mt19937_64 rng = support::TestRng();
+  WeightedRows rows = CorrelatedRows(200, 20, 0.3, rng);
+  rows.jacobian = Eigen::MatrixXd(rows.jacobian.leftCols(1));
+  rows.prior_information = Eigen::MatrixXd::Zero(1, 1);
+  const double of_clusters = DesignEffect(rows);
+  EXPECT_GT(of_clusters, 4);
+  const Eigen::Index last = rows.jacobian.rows();
+  rows.jacobian.conservativeResize(last + 1, 1);
+  rows.residual.conservativeResize(last + 1);
+  rows.residual[last] = 1e3;
+  rows.cluster.push_back(-1);
+  rows.jacobian(last, 0) = std::sqrt(0.1 * static_cast<double>(last));
+  EXPECT_NEAR(DesignEffect(rows) / of_clusters, 1, 0.01);  // the leverage of one cluster in 200 is 0.5 %
+  rows.jacobian(last, 0) = std::sqrt(100 * static_cast<double>(last));
+  EXPECT_EQ(DesignEffect(rows), 1);
+}
+
+Eigen::MatrixXd RandomRows(int count, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal;
+  return Eigen::MatrixXd::NullaryExpr(count, 3, [&] { return normal(rng); });
+}
+
+// Tolerances are rounding, 1e-16 times a condition number of some tens. Units of parameters may differ by much more
+// than determined and undetermined directions do.
+TEST(InverseOfTest, IsTheInverseInAnyUnits) {
+  std::mt19937_64 rng = support::TestRng();
+  const Eigen::MatrixXd rows = RandomRows(12, rng), hessian = rows.transpose() * rows;
+  EXPECT_LT((hessian * InverseOf(hessian) - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  const Eigen::MatrixXd unit = Eigen::Vector3d(1e6, 1, 1e-6).asDiagonal();
+  const Eigen::MatrixXd found = unit * InverseOf(unit * hessian * unit) * unit;
+  EXPECT_LT((hessian * found - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+}
+
+TEST(InverseOfTest, IsZeroAlongNullDirections) {
+  std::mt19937_64 rng = support::TestRng();
+  Eigen::MatrixXd rows = RandomRows(12, rng);
+  rows.col(2) = rows.col(0);  // only the sum of these parameters is seen
+  const Eigen::MatrixXd hessian = rows.transpose() * rows, inverse = InverseOf(hessian);
+  EXPECT_LT((inverse * Eigen::Vector3d(1, 0, -1)).norm(), 1e-12 * inverse.norm());
+  EXPECT_LT((hessian * inverse * hessian - hessian).norm(), 1e-12 * hessian.norm());
+}
+
 }  // namespace
 }  // namespace luxfit

@@ -281,10 +281,13 @@ TEST_F(PhotosAlone, ManyReadingsShareTheMetersCalibration) {
     }
     return 0.0;
   };
-  const double alone = flux_sigma(FitLuminaires(room_, data_, start_));
+  const LuminaireFit by_itself = FitLuminaires(room_, data_, start_);
+  const double alone = flux_sigma(by_itself);
   start_.meter_scale_free = true;
+  FitLuminairesOptions same_weights;
+  same_weights.photo_design_effect = by_itself.photo_design_effect;
   const LuminaireFit fit =
-      FitLuminaires(room_, data_, start_, {{ParameterKind::kLogMeterScale, 0, {}, 0, 0.05}});
+      FitLuminaires(room_, data_, start_, {{ParameterKind::kLogMeterScale, 0, {}, 0, 0.05}}, same_weights);
   EXPECT_TRUE(fit.IsUsable()) << fit.message;
   // The readings' own 1 %, and what reflectances and flux share: these photos miss up to a tenth of the light
   // (see above), by facet, and six facets tell little of it.

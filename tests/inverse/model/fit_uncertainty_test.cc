@@ -71,7 +71,7 @@ TEST(FitUncertainty, IsThatOfTheFit) {
   fit.parameters = {x, flux};
   fit.covariance = Eigen::Vector2d(0.01, 0.04).asDiagonal();
   fit.undetermined = {flux.id()};
-  fit.relative_sigma = 0.007;
+  fit.shared_relative_sigma = 0.007;
   const FitUncertainty known = UncertaintyOf(fit);
   EXPECT_THAT(known.parameters, ElementsAre(kX, kFluxOfA));
   EXPECT_DOUBLE_EQ(known.values[0], 1.5);
