@@ -104,6 +104,8 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.observations = observed.observations;
   given.seen = observed.seen;
   given.outlines = observed.outlines;
+  const Eigen::Vector3d weights = LuminanceWeights(session);
+  given.luminance_weights = weights / weights.sum();
   given.meter = MeterOf(session, linearized.readings);
   given.albedo = KnownAlbedo(session, room);
   given.camera_scale = CameraScale(linearized.photos);

@@ -69,7 +69,7 @@ std::vector<PredictedReading> PredictedReadings(const RoomFit& fit) {
     reading.direct_lx = fit.fit.reading_direct_lx[row];
     reading.parameter_sigma_lx = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
     reading.sigma_lx =
-        std::hypot(reading.parameter_sigma_lx, fit.fit.relative_sigma * reading.illuminance_lx);
+        std::hypot(reading.parameter_sigma_lx, fit.fit.shared_relative_sigma * reading.illuminance_lx);
     readings.push_back(reading);
   }
   return readings;

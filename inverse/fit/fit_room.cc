@@ -10,9 +10,11 @@
 #include "forward/luminaire/photometry.h"
 #include "inverse/albedo/internal/albedo_rgb.h"
 #include "inverse/choose/internal/choose_bodies.h"
+#include "inverse/choose/internal/choose_colour.h"
 #include "inverse/choose/internal/choose_model.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/needless_parameters.h"
 #include "inverse/choose/internal/profile_direct_share.h"
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
@@ -102,6 +104,7 @@ class RoomFitter {
     for (size_t k = 0; k < state.luminaires.size(); ++k) {
       const KnownLuminaire& known = given_.luminaires[k];
       const bool found = result_.luminaire_found[k];
+      held_.push_back({state.luminaires[k].aim, state.luminaires[k].heading});
       open_.push_back({found && known.photometry == KnownPhotometry::kNothing,
                        found && !known.shape_is_known && known.photometry != KnownPhotometry::kFile,
                        found && !known.aim.has_value(),
@@ -153,22 +156,52 @@ class RoomFitter {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
-    FitLuminairesOptions options;
-    options.covariance = false;
-    LuminaireFit near = FitLuminaires(room_, part, start, start_.priors, options);
+    const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
+    LuminaireFit near = FitLuminaires(room_, part, sized, start_.priors, OfPart());
     if (near.status == FitStatus::kNoData) return near;
-    result_.data.outlines = ExplainedOutlines(given_, part, near, result_.findings);
-    if (result_.data.outlines.size() < part.outlines.size()) {
-      part.outlines = result_.data.outlines;
-      near = FitLuminaires(room_, part, near.state, start_.priors, options);
-    }
-    near.state = WithoutVanishedSizes(near.state);
-    const BodyChoice bodies = ChooseBodies(room_, part, near, start_.priors);
+    near = WithoutUnexplained(part, std::move(near));
+    near = WithoutNeedless(part, std::move(near));
+    const ColourChoice colour =
+        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), start_.priors);
+    RecordTransportColour(colour, result_.findings);
+    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, start_.priors);
     RecordBodies(bodies, result_.findings);
-    options.covariance = true;
+    FitLuminairesOptions options;
     options.start_is_near = true;
     options.initial_relative_sigma = bodies.relative_sigma;
+    // Errors of neighbours are alike: more rows of a facet do not tell more.
+    const double thinning = static_cast<double>(result_.data.observations.size()) /
+                            std::max(1.0, static_cast<double>(part.observations.size()));
+    options.photo_design_effect = 1 + (colour.fit.photo_design_effect - 1) * thinning;
     return FitLuminaires(room_, result_.data, bodies.state, start_.priors, options);
+  }
+
+  // Takes outlines that the fit does not explain out of the data, and fits again without them.
+  LuminaireFit WithoutUnexplained(LightData& part, LuminaireFit fit) {
+    result_.data.outlines = ExplainedOutlines(given_, part, fit, result_.findings);
+    if (result_.data.outlines.size() == part.outlines.size()) return fit;
+    part.outlines = result_.data.outlines;
+    return FitLuminaires(room_, part, fit.state, start_.priors, OfPart(&fit));
+  }
+
+  // `near`: a fit to the same part, from which the fit starts.
+  static FitLuminairesOptions OfPart(const LuminaireFit* near = nullptr) {
+    FitLuminairesOptions options;
+    options.subtracts_discretisation = false;
+    if (near == nullptr) return options;
+    options.start_is_near = true;
+    options.initial_relative_sigma = near->relative_sigma;
+    options.photo_design_effect = near->photo_design_effect;
+    return options;
+  }
+
+  LuminaireFit WithoutNeedless(const LightData& part, LuminaireFit fit) {
+    SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
+    RecordNeedless(given_, simplified.needless, result_.findings);
+    if (!simplified.needless.empty())
+      fit = FitLuminaires(room_, part, simplified.state, start_.priors, OfPart(&fit));
+    fit.state = WithoutVanishedSizes(fit.state);
+    return fit;
   }
 
   // Returns which refinements of the luminaire's simple model are open.
@@ -241,6 +274,7 @@ class RoomFitter {
   RoomFit result_;
   FitStart start_;
   std::vector<OpenChoice> open_;
+  std::vector<HeldDirections> held_;  // by luminaire, before aims and headings were chosen
 };
 
 void ExpectWhole(const Room& room, const RoomObservations& given) {

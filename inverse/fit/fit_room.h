@@ -92,7 +92,7 @@ bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
 // Returns the luminaires that were found. Their flux is relative where the fit is not absolute.
 std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);
 
-// Holds a prediction. Its sigma is hypot(sigma by the parameters, relative model error * prediction).
+// Holds a prediction. Its sigma is hypot(sigma by the parameters, shared model error * prediction).
 struct PredictedReading {
   bool is_known = false;  // false: there is no scale, or a luminaire that is on was not found
   double illuminance_lx = 0;

@@ -70,6 +70,8 @@ struct RoomObservations {
   Meter meter;
   std::vector<std::optional<double>> albedo;  // by material, where known; may be empty
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known
+  // Of red, green and blue in the relative luminance; they sum to 1.
+  Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
 };
 
 // Records what was taken from a photometric file. Warns ("photometry_flux") where its intensities contradict

@@ -47,7 +47,7 @@ void WholeFit(benchmark::State& state) {
     own.is_quiet = true;
     own.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
     benchmark::DoNotOptimize(FitSession(prepared.session, prepared.linearized, prepared.room,
-                                        {prepared.observations, prepared.seen}, own));
+                                        {prepared.observations, prepared.seen, prepared.outlines}, own));
     context = own;
   }
   state.counters["observations"] = static_cast<double>(prepared.observations.size());
@@ -68,7 +68,7 @@ const Start& Moved() {
     context.is_quiet = true;
     context.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
     const RoomFit fitted = FitSession(prepared.session, prepared.linearized, prepared.room,
-                                      {prepared.observations, prepared.seen}, context);
+                                      {prepared.observations, prepared.seen, prepared.outlines}, context);
     Start moved{fitted.data, fitted.fit.state, {}};
     for (size_t k = 0; k < moved.state.luminaires.size(); ++k) {
       Luminaire& luminaire = moved.state.luminaires[k];

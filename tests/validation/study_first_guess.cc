@@ -46,7 +46,8 @@ Office PrepareOffice(const std::string& folder) {
   context.out = folder;
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
-  const SessionObservations observed{office.prepared.observations, office.prepared.seen};
+  const SessionObservations observed{office.prepared.observations, office.prepared.seen,
+                                     office.prepared.outlines};
   const LightData data = LightOf(RoomObservationsOf(office.prepared.session, office.prepared.linearized,
                                                     office.prepared.room, observed))
                              .data;

@@ -9,6 +9,9 @@
 namespace luxfit {
 namespace {
 
+// Bodies change the light of whole ceilings: a thousand elements tell.
+constexpr int kMaxElements = 1000;
+
 LuminaireFit FitWith(BodyPresence presence, const Room& room, const LightData& data, const LuminaireFit& fit,
                      const std::vector<ParameterPrior>& priors) {
   LightState state = fit.state;
@@ -27,7 +30,7 @@ LuminaireFit FitWith(BodyPresence presence, const Room& room, const LightData& d
 BodyChoice ChooseBodies(const Room& room, const LightData& data, const LuminaireFit& fit,
                         const std::vector<ParameterPrior>& priors) {
   BodyChoice choice{fit.state, fit.relative_sigma, {}};
-  const SubProblem problem = CutAll(room, data, static_cast<int>(data.observations.size()));
+  const SubProblem problem = CutAll(room, data, kMaxElements);
   if (!problem.CanJudge() || room.sparse || FindCoveredSurfaces(room, fit.state.luminaires).empty())
     return choice;
 

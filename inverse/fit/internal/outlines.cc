@@ -22,6 +22,26 @@ bool HasOutline(const KnownLuminaire& known) {
   return !known.is_held && (is_open || known.luminaire.shape != LuminaireShape::kPoint);
 }
 
+// Holds how large a luminaire looks: medians of pixels and of metres, from its place to its outline.
+struct SeenRadius {
+  double px = 0, m = 0;
+};
+
+SeenRadius RadiusOf(const Luminaire& luminaire, const std::vector<LuminaireOutline>& outlines, int index) {
+  std::vector<double> px, m;
+  for (const LuminaireOutline& outline : outlines) {
+    if (outline.luminaire != index) continue;
+    const Eigen::Vector3d to = luminaire.position - outline.seen.eye;
+    for (const OutlineRay& ray : outline.seen.rays) {
+      const double angle = std::atan2(to.cross(ray.direction).norm(), to.dot(ray.direction));
+      px.push_back(angle * ray.px_per_rad);
+      m.push_back(angle * to.norm());
+    }
+  }
+  if (px.empty()) return {};
+  return {Median(std::move(px)), Median(std::move(m))};
+}
+
 // Holds what the photos show of one luminaire: distances of its outline's points, and the views.
 struct Seen {
   std::vector<double> distance_px;
@@ -38,6 +58,30 @@ std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const st
     if (found[k] && HasOutline(given.luminaires[k])) outlines.push_back(std::move(outline));
   }
   return outlines;
+}
+
+LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<LuminaireOutline>& outlines,
+                         LightState state, Findings& findings) {
+  for (size_t k = 0; k < open.size(); ++k) {
+    Luminaire& luminaire = state.luminaires[k];
+    // An isotropic point has no aim, which a disc needs.
+    if (!open[k].shape || luminaire.shape != LuminaireShape::kPoint ||
+        luminaire.distribution == Distribution::kIsotropic)
+      continue;
+    const SeenRadius radius = RadiusOf(luminaire, outlines, static_cast<int>(k));
+    if (radius.px <= kExplainedSigmas * kOutlineSigmaPx) continue;
+    luminaire.shape = LuminaireShape::kDisc;
+    luminaire.size_m.setConstant(2 * radius.m);
+    state.free[k].size = true;
+    findings.choices.push_back(
+        {"shape of " + luminaire.id,
+         "disc",
+         {"point", "disc"},
+         fmt::format("its light tells no size, but photos show a radius of {:.0f} px; a "
+                     "point's is up to {:g} px",
+                     radius.px, kExplainedSigmas * kOutlineSigmaPx)});
+  }
+  return state;
 }
 
 std::vector<LuminaireOutline> ExplainedOutlines(const RoomObservations& given, const LightData& data,

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "inverse/choose/internal/choose_model.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
@@ -21,6 +22,11 @@ namespace luxfit {
 // Returns the outlines of luminaires that were found. `state`: their places, to about 5 cm.
 std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const std::vector<bool>& found,
                                          const LightState& state);
+
+// Turns points whose shape is open into discs of the size that photos show, where that is more than a point's blur.
+// Their light did not tell a size; their outlines do. Records it in `choices`.
+LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<LuminaireOutline>& outlines,
+                         LightState state, Findings& findings);
 
 // Returns those of `data.outlines` that the fit to `data` explains. Records both in `choices`.
 std::vector<LuminaireOutline> ExplainedOutlines(const RoomObservations& given, const LightData& data,

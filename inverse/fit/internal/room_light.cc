@@ -29,6 +29,7 @@ void AddSensorGains(double sigma, int sensors, RoomLight& light) {
 RoomLight LightOf(const RoomObservations& given) {
   RoomLight light;
   light.data.dimming = given.dimming;
+  light.data.luminance_weights = given.luminance_weights;
   light.data.observations = MergeViews(given.observations).observations;
   const Meter& meter = given.meter;
   const bool has_fitted =

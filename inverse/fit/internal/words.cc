@@ -175,6 +175,24 @@ void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eig
                    held, choice.score_held, choice.score_free, choice.standard_error)});
 }
 
+void RecordNeedless(const RoomObservations& given, const std::vector<NeedlessParameter>& needless,
+                    Findings& findings) {
+  constexpr double kDegrees = 180 / M_PI;
+  for (const NeedlessParameter& n : needless) {
+    const std::string id = given.luminaires[static_cast<size_t>(n.luminaire)].luminaire.id;
+    const bool is_exponent = n.kind == NeedlessKind::kExponent;
+    const std::string simplest = is_exponent ? "1 (lambertian)" : "none";
+    const std::string what = is_exponent                     ? "cosine exponent of "
+                             : n.kind == NeedlessKind::kTilt ? "tilt of "
+                                                             : "turn of ";
+    const std::string fitted =
+        is_exponent ? fmt::format("{:.3f} ± {:.3f}", n.fitted, n.sigma)
+                    : fmt::format("{:.2f} ± {:.2f} degrees", kDegrees * n.fitted, kDegrees * n.sigma);
+    findings.choices.push_back(
+        {what + id, simplest, {simplest, "estimated"}, fitted + " in the fit of all luminaires together"});
+  }
+}
+
 void RecordRefinement(const RoomObservations& given, const Refinement& step, Findings& findings) {
   const std::string& id = given.luminaires[static_cast<size_t>(step.luminaire)].luminaire.id;
   std::string scores;
@@ -275,6 +293,16 @@ void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findi
     findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
                                  "check the mesh around it, or give what is known of it"});
   }
+}
+
+void RecordTransportColour(const ColourChoice& choice, Findings& findings) {
+  if (!choice.is_compared) return;
+  const std::vector<std::string> among = {"luminance", "red, green, blue"};
+  findings.choices.push_back(
+      {"channels of reflected light", among[choice.is_used ? 1 : 0], among,
+       fmt::format("three channels move the {} by {:.2f} of its sigma, more than any other parameter; 0.1 is "
+                   "worth three solves",
+                   NameOf(choice.moved_most), choice.effect_sigmas)});
 }
 
 void RecordBodies(const BodyChoice& choice, Findings& findings) {

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "inverse/choose/internal/choose_bodies.h"
+#include "inverse/choose/internal/choose_colour.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/needless_parameters.h"
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/fit/fit_room.h"
@@ -28,9 +30,14 @@ void RecordChoice(const RoomObservations& given, const LuminaireChoice& choice, 
 // `start`: the aim that is held where it is not estimated.
 void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eigen::Vector3d& start,
                Findings& findings);
+// Records parameters that the whole fit does not tell from their simplest value.
+void RecordNeedless(const RoomObservations& given, const std::vector<NeedlessParameter>& needless,
+                    Findings& findings);
 void RecordRefinement(const RoomObservations& given, const Refinement& step, Findings& findings);
 void RecordDirectShare(const DirectShare& share, Findings& findings);
 void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findings& findings);
+// Records whether light is exchanged in three channels.
+void RecordTransportColour(const ColourChoice& choice, Findings& findings);
 // Records when the luminaires' bodies hide what is behind them.
 void RecordBodies(const BodyChoice& choice, Findings& findings);
 // Records reflections, patches and elements. Warns ("elements_too_coarse") where the elements' size causes

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
+
+#include "tests/support/calib/blur.h"
 
 namespace luxfit {
 namespace {
@@ -103,6 +107,159 @@ TEST(FindBrightBlobs, NothingThatIsNotANumberComesOut) {
   LuminanceImage uneven = ToRelativeLuminance(Floor(60, 40), 1);
   uneven.saturated.resize(3, 3);
   EXPECT_THROW(FindBrightBlobs(uneven), std::invalid_argument);
+}
+
+// Signed distance from an outline, px, positive outside.
+using Outline = std::function<double(const Eigen::Vector2d&)>;
+
+const Eigen::Vector2d kCenter(70.3, 50.8);
+constexpr double kRadiusPx = 12;
+const Eigen::Vector2d kHalfSizePx(20, 10);
+
+Outline DiscOf(const Eigen::Vector2d& center) {
+  return [center](const Eigen::Vector2d& p) { return (p - center).norm() - kRadiusPx; };
+}
+
+// Returns the distance beyond each pair of sides of a rectangle turned by 17 degrees about kCenter.
+Eigen::Vector2d BeyondSides(const Eigen::Vector2d& p) {
+  const double turn = 17 * kPi / 180;
+  const Eigen::Vector2d from = p - kCenter;
+  return Eigen::Vector2d(std::cos(turn) * from.x() + std::sin(turn) * from.y(),
+                         std::cos(turn) * from.y() - std::sin(turn) * from.x())
+             .cwiseAbs() -
+         kHalfSizePx;
+}
+
+double FromRectangle(const Eigen::Vector2d& p) {
+  const Eigen::Vector2d beyond = BeyondSides(p);
+  return beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0);
+}
+
+bool IsNearCorner(const Eigen::Vector2d& p) { return BeyondSides(p).minCoeff() > -3; }
+
+// Renders what lies inside on a floor of 2 % of full scale. Pixels show the mean of 8 x 8 samples, and clip.
+Photo Rendered(const Outline& outline, double luminaire_counts, double blur_px) {
+  constexpr int kSide = 8;
+  Photo photo = Floor(200, 120);
+  ImagePlane& plane = photo.rgb_counts[0];
+  plane.setConstant(0.02f * kFull);
+  for (Eigen::Index v = 0; v < plane.rows(); ++v) {
+    for (Eigen::Index u = 0; u < plane.cols(); ++u) {
+      const Eigen::Vector2d pixel(static_cast<double>(u), static_cast<double>(v));
+      if (std::abs(outline(pixel)) > 1 && outline(pixel) > 0) continue;
+      int inside = 0;
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const Eigen::Vector2d sample(i % kSide, static_cast<double>(i / kSide));
+        const Eigen::Vector2d p = pixel + (sample.array() + 0.5).matrix() / kSide - Eigen::Vector2d(0.5, 0.5);
+        inside += outline(p) < 0 ? 1 : 0;
+      }
+      plane(v, u) += static_cast<float>((luminaire_counts - 0.02 * kFull) * inside / (kSide * kSide));
+    }
+  }
+  plane = support::Blurred(plane, blur_px).min(kFull);
+  photo.rgb_counts[1] = photo.rgb_counts[2] = plane;
+  return photo;
+}
+
+// Returns the contour of the largest blob.
+std::vector<Eigen::Vector2d> ContourOf(const Photo& photo) {
+  const auto blobs = FindBrightBlobs(ToRelativeLuminance(photo, 0.1));
+  return blobs.empty() ? std::vector<Eigen::Vector2d>() : blobs[0].contour_px;
+}
+
+double MeanDistance(const std::vector<Eigen::Vector2d>& contour, const Outline& outline) {
+  double sum = 0;
+  for (const Eigen::Vector2d& p : contour) sum += outline(p);
+  return sum / static_cast<double>(contour.size());
+}
+
+// 0.8 and 1 of full scale: not saturated, and saturated without being overexposed. Half of either is the edge's own
+// mean to 1 % of the step. Blur of 1 px moves the edge of a disc of radius 12 inwards by 1 / 24 px.
+TEST(FindBrightBlobs, TheContourOfADiscIsItsOutline) {
+  for (const double share : {0.8, 1.0}) {
+    for (const double blur_px : {0.0, 1.0}) {
+      const auto contour = ContourOf(Rendered(DiscOf(kCenter), share * kFull, blur_px));
+      ASSERT_GE(contour.size(), 24u) << share << " " << blur_px;
+      for (const Eigen::Vector2d& p : contour)
+        EXPECT_LT(std::abs(DiscOf(kCenter)(p)), blur_px > 0 ? 0.35 : 0.2)
+            << share << ", " << blur_px << " px";
+      EXPECT_NEAR(MeanDistance(contour, DiscOf(kCenter)), 0, 0.06) << share << ", " << blur_px << " px";
+    }
+  }
+}
+
+// Pixels and blur round the corners: where two edges meet, half the luminance lies 0.55 sigma inside of both. A
+// pixel interpolated bilinearly blurs by half a pixel.
+TEST(FindBrightBlobs, TheContourOfATurnedRectangleIsItsOutline) {
+  for (const double share : {0.8, 1.0}) {
+    for (const double blur_px : {0.0, 1.0}) {
+      const auto contour = ContourOf(Rendered(FromRectangle, share * kFull, blur_px));
+      ASSERT_GE(contour.size(), 24u) << share << " " << blur_px;
+      std::vector<Eigen::Vector2d> of_sides;
+      for (const Eigen::Vector2d& p : contour) {
+        const double distance_px = std::abs(FromRectangle(p)), allowed_px = blur_px > 0 ? 0.35 : 0.2;
+        EXPECT_LT(distance_px, IsNearCorner(p) ? 2.5 * allowed_px : allowed_px)
+            << share << ", " << blur_px << " px";
+        if (!IsNearCorner(p)) of_sides.push_back(p);
+      }
+      ASSERT_GE(of_sides.size(), 16u);
+      EXPECT_NEAR(MeanDistance(of_sides, FromRectangle), 0, 0.06) << share << ", " << blur_px << " px";
+    }
+  }
+}
+
+// At twice full scale, the sensor's half is a quarter of the luminaire. A blur of 1 px shows that 0.7 px outside.
+TEST(FindBrightBlobs, BlurMovesAnOverexposedContourOutwardsByAFractionOfAPixel) {
+  const auto contour = ContourOf(Rendered(DiscOf(kCenter), 2 * kFull, 1));
+  ASSERT_GE(contour.size(), 24u);
+  EXPECT_NEAR(MeanDistance(contour, DiscOf(kCenter)), 0.7, 0.2);
+}
+
+TEST(FindBrightBlobs, ThePhotosEdgeIsNoContour) {
+  for (const Eigen::Vector2d& center : {Eigen::Vector2d(4.2, 60.3), Eigen::Vector2d(198.4, 50.7),
+                                        Eigen::Vector2d(100.2, 1.6), Eigen::Vector2d(60.1, 119.2)}) {
+    const auto contour = ContourOf(Rendered(DiscOf(center), kFull, 0));
+    ASSERT_GE(contour.size(), 8u) << center.transpose();
+    for (const Eigen::Vector2d& p : contour) {
+      const double from_edge_px =
+          std::min((p.array() + 0.5).minCoeff(), (Eigen::Array2d(199.5, 119.5) - p.array()).minCoeff());
+      EXPECT_GT(from_edge_px, 3) << center.transpose() << ": " << p.transpose();
+      EXPECT_LT(std::abs(DiscOf(center)(p)), 0.2);
+    }
+  }
+}
+
+TEST(FindBrightBlobs, FourPixelsHaveAContourToo) {
+  for (const Eigen::Vector2i& size : {Eigen::Vector2i(2, 2), Eigen::Vector2i(4, 1), Eigen::Vector2i(1, 5)}) {
+    Photo photo = Floor(60, 40);
+    for (ImagePlane& plane : photo.rgb_counts) plane.block(20, 30, size.y(), size.x()).setConstant(kFull);
+    const auto blobs = FindBrightBlobs(ToRelativeLuminance(photo, 0.1));
+    ASSERT_EQ(blobs.size(), 1u) << size.transpose();
+    EXPECT_EQ(blobs[0].area_px2, size.prod());
+    for (const Eigen::Vector2d& p : blobs[0].contour_px)
+      EXPECT_LT((p - blobs[0].center_px).cwiseAbs().maxCoeff(), 0.5 * size.maxCoeff() + 0.5)
+          << size.transpose();
+  }
+}
+
+// Pixels that the disc covers whole are not finite, those of its rim are.
+TEST(FindBrightBlobs, WhatIsNotANumberCountsAsBright) {
+  for (const float bright :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Photo photo = Rendered(DiscOf(kCenter), kFull, 0);
+    for (ImagePlane& plane : photo.rgb_counts) plane /= kFull;
+    photo.bits_per_channel = 32;
+    photo.full_scale_counts = photo.saturation_counts = 1;
+    for (ImagePlane& plane : photo.rgb_counts) {
+      for (Eigen::Index v = 45; v < 120; ++v) {
+        for (Eigen::Index u = 0; u < plane.cols(); ++u)
+          if (plane(v, u) > 0.999f) plane(v, u) = bright;
+      }
+    }
+    const auto contour = ContourOf(photo);
+    ASSERT_GE(contour.size(), 24u) << bright;
+    for (const Eigen::Vector2d& p : contour) EXPECT_LT(std::abs(DiscOf(kCenter)(p)), 0.2) << bright;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,54 @@
+#include "inverse/choose/internal/choose_colour.h"
+
+#include <cmath>
+
+namespace luxfit {
+namespace {
+
+constexpr double kWorthSigmas = 0.1;
+constexpr double kGreyTint = 0.01;  // a smaller one is the noise of its estimate
+
+// Returns no tints where all surfaces are grey.
+Eigen::Matrix3Xd TintOf(const Eigen::Vector3d& luminance_weights, const Eigen::Matrix3Xd& rgb) {
+  Eigen::Matrix3Xd tint = Eigen::Matrix3Xd::Ones(3, rgb.cols());
+  for (Eigen::Index m = 0; m < rgb.cols(); ++m) {
+    const double mean = luminance_weights.dot(rgb.col(m));
+    if (mean > 0) tint.col(m) = rgb.col(m).cwiseMax(0) / mean;
+  }
+  if ((tint.array() - 1).abs().maxCoeff() < kGreyTint) return {};
+  return tint;
+}
+
+}  // namespace
+
+ColourChoice ChooseColour(const Room& room, const LightData& data, const LuminaireFit& fit,
+                          const Eigen::Matrix3Xd& albedo_rgb, const std::vector<ParameterPrior>& priors) {
+  ColourChoice choice{fit};
+  if (data.observations.empty() || room.sparse || !fit.IsUsable() || fit.covariance.size() == 0)
+    return choice;
+  LightState state = fit.state;
+  state.tint = TintOf(data.luminance_weights, albedo_rgb);
+  if (state.tint.size() == 0) return choice;
+  FitLuminairesOptions options;
+  options.start_is_near = true;
+  options.subtracts_discretisation = false;
+  options.photo_design_effect = fit.photo_design_effect;
+  options.initial_relative_sigma = fit.relative_sigma;
+  LuminaireFit coloured = FitLuminaires(room, data, state, priors, options);
+  if (!coloured.IsUsable()) return choice;
+  choice.is_compared = true;
+  // Tilts and headings count from where the luminaires of `fit` point.
+  const Eigen::VectorXd moved =
+      PackParameters(coloured.state, fit.parameters) - PackParameters(fit.state, fit.parameters);
+  for (Eigen::Index i = 0; i < moved.size(); ++i) {
+    const double sigma = std::sqrt(fit.covariance(i, i));
+    if (!(sigma > 0) || std::abs(moved[i]) / sigma <= choice.effect_sigmas) continue;
+    choice.effect_sigmas = std::abs(moved[i]) / sigma;
+    choice.moved_most = fit.parameters[static_cast<size_t>(i)].id();
+  }
+  choice.is_used = choice.effect_sigmas > kWorthSigmas;
+  if (choice.is_used) choice.fit = std::move(coloured);
+  return choice;
+}
+
+}  // namespace luxfit

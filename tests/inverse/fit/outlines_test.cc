@@ -1,0 +1,109 @@
+#include "inverse/fit/internal/outlines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "inverse/model/internal/light_model.h"
+#include "tests/support/inverse/luminaire_outlines.h"
+
+namespace luxfit {
+namespace {
+
+// Two discs of 0.3 m in no room, both on, and a reading that only checks. Three views see them.
+class Outlines : public testing::Test {
+ protected:
+  Outlines() {
+    for (const double x : {0.0, 1.2}) {
+      KnownLuminaire known;
+      known.shape_is_known = true;
+      known.luminaire.id = x > 0 ? "B" : "A";
+      known.luminaire.position = {x, 0.1, 2.4};
+      known.luminaire.shape = LuminaireShape::kDisc;
+      known.luminaire.size_m = {0.3, 0.3};
+      known.luminaire.flux_lm = 500;
+      given_.luminaires.push_back(known);
+      state_.luminaires.push_back(known.luminaire);
+    }
+    given_.dimming = {Eigen::Vector2d(1, 1)};
+    state_.free.resize(2);
+  }
+
+  // Shows the luminaires in every view, larger by those factors.
+  void Show(double growth_a, double growth_b) {
+    given_.outlines.clear();
+    for (int view = 0; view < 3; ++view) {
+      for (size_t k = 0; k < 2; ++k) {
+        given_.outlines.push_back(support::OutlineFrom(eyes_[static_cast<size_t>(view)], state_.luminaires[k],
+                                                       {view, 0, k == 0 ? growth_a : growth_b}));
+      }
+    }
+  }
+
+  std::vector<LuminaireOutline> Taken(const std::vector<bool>& found = {true, true}) const {
+    return OutlinesOf(given_, found, state_);
+  }
+  static std::ptrdiff_t CountOf(const std::vector<LuminaireOutline>& outlines, int luminaire) {
+    return std::count_if(outlines.begin(), outlines.end(),
+                         [&](const LuminaireOutline& o) { return o.luminaire == luminaire; });
+  }
+
+  const std::vector<Eigen::Vector3d> eyes_{{1.9, 0.7, 0.9}, {-1.2, 1.3, 0.8}, {0.4, -1.9, 1}};
+  RoomObservations given_;
+  LightState state_;
+};
+
+TEST_F(Outlines, AHaloTwiceAsLargeIsDroppedAndRecorded) {
+  Show(1, 2);
+  LightData data;
+  data.dimming = given_.dimming;
+  data.readings.push_back({{{0, 0, 0}, {0, 0, 1}}, 0, 100, 1, false});
+  data.outlines = Taken();
+  ASSERT_EQ(data.outlines.size(), 6u);
+  const Room room = MakeRoom(Scene{});
+  LightModel model(room, data);
+  model.FreezeVisibility(state_);
+  LuminaireFit fit;
+  fit.state = state_;
+  fit.predicted = model.Predict(state_, {}, false).value;
+
+  Findings findings;
+  const std::vector<LuminaireOutline> kept = ExplainedOutlines(given_, data, fit, findings);
+  EXPECT_EQ(CountOf(kept, 0), 3);
+  EXPECT_EQ(CountOf(kept, 1), 0);
+  ASSERT_EQ(findings.choices.size(), 2u);
+  for (const Choice& choice : findings.choices) {
+    EXPECT_EQ(choice.chosen, choice.what == "outline of A" ? "used" : "not used") << choice.what;
+    EXPECT_NE(choice.because.find("3 views"), std::string::npos) << choice.because;
+  }
+  EXPECT_EQ(findings.choices[0].what, "outline of A");
+  EXPECT_EQ(findings.choices[1].what, "outline of B");
+}
+
+TEST_F(Outlines, APointHasNoOutline) {
+  Show(1, 1);
+  EXPECT_EQ(CountOf(Taken(), 1), 3);
+  KnownLuminaire& b = given_.luminaires[1];
+  b.luminaire.shape = LuminaireShape::kPoint;
+  EXPECT_EQ(CountOf(Taken(), 0), 3);
+  EXPECT_EQ(CountOf(Taken(), 1), 0);
+  // A point that nobody stated is the start of a search for the shape.
+  b.shape_is_known = false;
+  EXPECT_EQ(CountOf(Taken(), 1), 3);
+  b.photometry = KnownPhotometry::kFile;
+  EXPECT_EQ(CountOf(Taken(), 1), 0);
+}
+
+TEST_F(Outlines, LuminairesThatAreHeldOrNotFoundHaveNone) {
+  Show(1, 1);
+  EXPECT_EQ(CountOf(Taken({true, false}), 1), 0);
+  EXPECT_EQ(CountOf(Taken({true, false}), 0), 3);
+  given_.luminaires[0].is_held = true;
+  EXPECT_EQ(CountOf(Taken(), 0), 0);
+}
+
+}  // namespace
+}  // namespace luxfit
