@@ -6,13 +6,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/export/fitted_room.h"
 #include "tests/paths.h"
@@ -120,19 +125,95 @@ TEST_F(OfficeRun, MeetsTheReadingThatSetsTheScale) {
 }
 
 TEST_F(OfficeRun, ChoosesModelsWithReasons) {
-  // The truth: A and B Lambertian panels, C and D cos^3 downlights small enough to be points.
+  // The truth: A and B Lambertian panels of 0.6 m, C and D cos^3 downlights that photos show as small discs.
   for (const json& l : result_["luminaires"]) {
     const std::string id = l["id"];
     if (id == "A" || id == "B") {
-      EXPECT_THAT(l["shape"].get<std::string>(), testing::AnyOf("disc", "rectangle")) << id;
-      EXPECT_NEAR(l["size_m"][0].get<double>(), 0.65, 0.15)
-          << id;  // 0.6 m square, a disc of the same moments 0.69 m
+      EXPECT_EQ(l["photometry"], "lambertian") << id;
+      EXPECT_EQ(l["shape"], "rectangle") << id;
+      for (const json& side_m : l["size_m"]) EXPECT_NEAR(side_m.get<double>(), 0.6, 0.02) << id;
     } else {
       EXPECT_EQ(l["photometry"], "cosine_power") << id;
       EXPECT_NEAR(l["cosine_exponent"].get<double>(), 3, 0.1) << id;
     }
   }
   for (const json& choice : result_["choices"]) EXPECT_FALSE(choice["because"].get<std::string>().empty());
+}
+
+// Holds the errors of positions (m), log fluxes and reflectances, and their covariance as the fit states it.
+struct StatedErrors {
+  std::vector<std::string> kind;
+  Eigen::VectorXd error;
+  Eigen::MatrixXd covariance;
+
+  // Returns chi2 of the errors of one kind ("": of all), over their number.
+  double Chi2Each(const std::string& of) const {
+    std::vector<Eigen::Index> own;
+    for (size_t i = 0; i < kind.size(); ++i)
+      if (of.empty() || kind[i] == of) own.push_back(static_cast<Eigen::Index>(i));
+    const Eigen::VectorXd part = error(own);
+    return part.dot(Eigen::MatrixXd(covariance(own, own)).ldlt().solve(part)) /
+           static_cast<double>(own.size());
+  }
+};
+
+StatedErrors ErrorsOf(const json& fit, const json& truth) {
+  std::map<std::string, json> lamps;
+  for (const json& lamp : truth["lamps"]) lamps[lamp["id"]] = lamp;
+  const Eigen::Vector3d weights(0.265, 0.670, 0.065);
+  StatedErrors errors;
+  std::vector<Eigen::Index> own;
+  std::vector<double> error;
+  for (size_t i = 0; i < fit["parameters"].size(); ++i) {
+    const json& p = fit["parameters"][i];
+    const std::string kind = p["kind"], quantity = p.value("quantity", "");
+    double true_value = 0;
+    if (kind == "luminaire" && quantity.rfind("position_", 0) == 0) {
+      true_value = lamps[p["luminaire"]]["position"][static_cast<size_t>(quantity.back() - 'x')];
+    } else if (kind == "log_flux") {
+      true_value = std::log(lamps[p["luminaire"]]["flux_lm"].get<double>());
+    } else if (kind == "albedo") {
+      const json& rgb = truth["materials"][p["material"].get<std::string>()];
+      for (size_t c = 0; c < 3; ++c)
+        true_value += weights[static_cast<Eigen::Index>(c)] * rgb[c].get<double>();
+    } else {
+      continue;
+    }
+    own.push_back(static_cast<Eigen::Index>(i));
+    errors.kind.push_back(kind);
+    error.push_back(p["value"].get<double>() - true_value);
+  }
+  const size_t n = fit["covariance"].size();
+  Eigen::MatrixXd covariance(n, n);
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j < n; ++j)
+      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = fit["covariance"][i][j];
+  errors.error = Eigen::Map<Eigen::VectorXd>(error.data(), static_cast<Eigen::Index>(error.size()));
+  errors.covariance = covariance(own, own);
+  return errors;
+}
+
+// 23 parameters at once, correlations included: chi2 each of 3 is far out, for correct sigmas give 1 +- 0.3.
+TEST_F(OfficeRun, StatedErrorsHoldTogether) {
+  const StatedErrors errors =
+      ErrorsOf(Read(Out() + "/stages/fit.json"), Read(std::string(LUXFIT_FIXTURES) + "/office/truth.json"));
+  ASSERT_EQ(errors.kind.size(), 23u);
+  for (const char* kind : {"luminaire", "log_flux", "albedo", ""})
+    EXPECT_LT(errors.Chi2Each(kind), 3) << kind;
+  for (size_t a = 0; a < errors.kind.size(); ++a) {
+    for (size_t b = 0; b < a; ++b) {
+      if (errors.kind[a] != "log_flux" || errors.kind[b] != "log_flux") continue;
+      Eigen::VectorXd ratio = Eigen::VectorXd::Zero(errors.error.size());
+      ratio[static_cast<Eigen::Index>(a)] = 1, ratio[static_cast<Eigen::Index>(b)] = -1;
+      EXPECT_LT(std::abs(ratio.dot(errors.error)), 3 * std::sqrt(ratio.dot(errors.covariance * ratio)));
+    }
+  }
+  const auto positive = std::count_if(errors.kind.begin(), errors.kind.end(), [&](const std::string& kind) {
+    const auto i = static_cast<Eigen::Index>(&kind - errors.kind.data());
+    return kind == "luminaire" && errors.error[i] > 0;
+  });
+  EXPECT_GE(positive, 2);  // twelve coordinates do not err to one side
+  EXPECT_LE(positive, 10);
 }
 
 TEST_F(OfficeRun, WritesTheDocumentedKeys) {
