@@ -50,15 +50,15 @@ void AddRun(CLI::App& app, Invocation& invocation) {
       app, invocation, "run",
       "everything: register the photos, observe, fit, check against the luxmeter, report", RunCommand);
   AddLuminairesOption(run);
-  AddExample(
-      *run.command, "luxfit run office/session.toml -o out",
-      "session office: done\n"
-      "8 views registered, reprojection RMS 0.031 px\n"
-      "\n"
-      "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
-      "A           1.501  2.002  2.790  ± 1.0 1.7 8.2             3604 ± 73         lambertian disc 0.64 m\n"
-      "...\n"
-      "checked 47 readings: mean error 1.08 lx = 0.89 % of the mean reading, largest 3.02 %");
+  AddExample(*run.command, "luxfit run office/session.toml -o out",
+             "session office: done\n"
+             "8 views registered, reprojection RMS 0.031 px\n"
+             "\n"
+             "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
+             "A           1.500  2.000  2.791  ± 3.4 1.8 3.2             3613 ± 74         lambertian "
+             "rectangle 0.61 x 0.61 m\n"
+             "...\n"
+             "checked 47 readings: mean error 1.20 lx = 0.99 % of the mean reading, largest 3.13 %");
   const auto fit = AddSessionCommand(
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);

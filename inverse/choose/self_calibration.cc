@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "inverse/choose/internal/camera_ties.h"
-#include "inverse/choose/internal/photo_equations.h"
-#include "inverse/choose/internal/radiometry_fit.h"
+#include "inverse/choose/internal/radiometry/camera_ties.h"
+#include "inverse/choose/internal/radiometry/photo_equations.h"
+#include "inverse/choose/internal/radiometry/radiometry_fit.h"
 
 namespace luxfit {
 namespace {

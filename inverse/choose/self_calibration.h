@@ -12,7 +12,7 @@
 //
 //   min over q, h, g, a, B of sum ln(1 + (residual / (c s sigma))^2) + prior of g
 //
-// Gauss-Newton solves it with the B of each element eliminated (inverse/choose/internal/photo_equations.h).
+// Gauss-Newton solves it with the B of each element eliminated (inverse/choose/internal/radiometry/photo_equations.h).
 // s: the residuals' own scale. The prior of g has heavy tails: shutters err by `gain_sigma`, some photos by
 // far more. h has none: a camera's gain is the robust mean of its photos'.
 //

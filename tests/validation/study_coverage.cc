@@ -43,9 +43,9 @@
 #include "apps/charts/xy_chart_svg.h"
 #include "inverse/model/fit_luminaires.h"
 #include "tests/support/study_options.h"
-#include "tests/validation/coverage_photos.h"
-#include "tests/validation/coverage_room.h"
-#include "tests/validation/coverage_score.h"
+#include "tests/validation/coverage/coverage_photos.h"
+#include "tests/validation/coverage/coverage_room.h"
+#include "tests/validation/coverage/coverage_score.h"
 
 namespace luxfit::coverage {
 namespace {

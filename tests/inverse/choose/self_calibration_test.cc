@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "inverse/choose/internal/photo_equations.h"
+#include "inverse/choose/internal/radiometry/photo_equations.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -9,8 +9,8 @@
 // A real room's facets are drawn larger than the model's: their planes meet inside, so that no ray leaves
 // through a gap. Its materials are its facets. Units: m, rad; world frame.
 // Source: own.
-#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_ROOM_H_
-#define LUXFIT_TESTS_VALIDATION_COVERAGE_ROOM_H_
+#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_ROOM_H_
+#define LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_ROOM_H_
 
 #include <Eigen/Core>
 #include <random>
@@ -66,4 +66,4 @@ RealRoom DrawRealRoom(const Setup& setup, const ErrorSizes& sizes, std::mt19937_
 
 }  // namespace luxfit::coverage
 
-#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_ROOM_H_
+#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_ROOM_H_

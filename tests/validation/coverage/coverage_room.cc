@@ -1,4 +1,4 @@
-#include "tests/validation/coverage_room.h"
+#include "tests/validation/coverage/coverage_room.h"
 
 #include <fmt/format.h>
 

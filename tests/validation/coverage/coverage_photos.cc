@@ -1,4 +1,4 @@
-#include "tests/validation/coverage_photos.h"
+#include "tests/validation/coverage/coverage_photos.h"
 
 #include <cmath>
 

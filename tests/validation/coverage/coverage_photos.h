@@ -14,8 +14,8 @@
 //
 // Units: lx, relative luminance, m. Throws as TraceIlluminance does.
 // Source: forward/light/light_tracer.h for I; inverse-square cosine law for D.
-#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_PHOTOS_H_
-#define LUXFIT_TESTS_VALIDATION_COVERAGE_PHOTOS_H_
+#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_PHOTOS_H_
+#define LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_PHOTOS_H_
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 #include "inverse/model/light_state.h"
 #include "inverse/observe/observe.h"
-#include "tests/validation/coverage_room.h"
+#include "tests/validation/coverage/coverage_room.h"
 
 namespace luxfit::coverage {
 
@@ -45,4 +45,4 @@ LightData DataWithModelError(const Setup& setup, const RealRoom& real, const Rea
 
 }  // namespace luxfit::coverage
 
-#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_PHOTOS_H_
+#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_PHOTOS_H_

@@ -1,4 +1,4 @@
-#include "tests/validation/coverage_score.h"
+#include "tests/validation/coverage/coverage_score.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 // transitive.
 // In each group of tied cameras one is held: the first whose gain is stated, else the first. Stated gains tie
 // groups to each other.
-#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CAMERA_TIES_H_
-#define LUXFIT_INVERSE_CHOOSE_INTERNAL_CAMERA_TIES_H_
+#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
+#define LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
 
 #include <vector>
 
@@ -34,4 +34,4 @@ std::vector<PhotoSample> SamplesSeenBySeveral(const std::vector<PhotoSample>& sa
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_CAMERA_TIES_H_
+#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_

@@ -11,8 +11,8 @@
 //
 // Elements fall into folds by their patch. Sums are kept fold by fold, so that fits without one fold need no
 // further pass.
-#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_PHOTO_EQUATIONS_H_
-#define LUXFIT_INVERSE_CHOOSE_INTERNAL_PHOTO_EQUATIONS_H_
+#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
+#define LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
 
 #include <Eigen/Core>
 #include <map>
@@ -105,4 +105,4 @@ class PhotoEquations {
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_PHOTO_EQUATIONS_H_
+#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_

@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/photo_equations.h"
+#include "inverse/choose/internal/radiometry/photo_equations.h"
 
 #include <tbb/parallel_for.h>
 

@@ -11,8 +11,8 @@
 //
 // Assumes that state s has luminaire s on alone, as Setup does. Units: m, lx; shares 0..1.
 // Source: own.
-#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_SCORE_H_
-#define LUXFIT_TESTS_VALIDATION_COVERAGE_SCORE_H_
+#ifndef LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_SCORE_H_
+#define LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_SCORE_H_
 
 #include <Eigen/Core>
 #include <array>
@@ -55,4 +55,4 @@ void AddFit(const LuminaireFit& fit, const LightData& data, const Truth& truth, 
 
 }  // namespace luxfit::coverage
 
-#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_SCORE_H_
+#endif  // LUXFIT_TESTS_VALIDATION_COVERAGE_COVERAGE_SCORE_H_
