@@ -89,8 +89,9 @@ double OutlineBlock::OwnDerivative(const LightState& state, const Parameter& par
   if (place < 0) return 0;
   const Luminaire& luminaire = state.luminaires[static_cast<size_t>(parameter.index)];
   const OutlineRay& ray = RayOf(row);
+  const Eigen::Matrix<Jet, 3, 1> direction = ray.direction.cast<Jet>();
   const Jet distance =
-      OutlineDistanceRad(luminaire.shape, WithDerivatives(luminaire), Of(row).seen.eye, ray.direction);
+      OutlineDistanceRad(luminaire.shape, WithDerivatives(luminaire), Of(row).seen.eye, direction);
   return ray.px_per_rad * distance.v[place];
 }
 

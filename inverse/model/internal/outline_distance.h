@@ -33,10 +33,11 @@ namespace outline_internal {
 
 // Returns the angle from the sphere of that radius about the centre to the ray.
 template <typename T>
-T AngleFromSphere(const Eigen::Matrix<T, 3, 1>& to_centre, const T& radius, const Eigen::Vector3d& ray) {
+T AngleFromSphere(const Eigen::Matrix<T, 3, 1>& to_centre, const T& radius,
+                  const Eigen::Matrix<T, 3, 1>& ray) {
   using std::atan2, std::sqrt;
-  const Eigen::Matrix<T, 3, 1> beside = to_centre.cross(ray.cast<T>());
-  const T far = to_centre.dot(ray.cast<T>());
+  const Eigen::Matrix<T, 3, 1> beside = to_centre.cross(ray);
+  const T far = to_centre.dot(ray);
   // A tiny offset keeps the root's derivative finite where the ray meets the centre.
   const T tangent2 = to_centre.squaredNorm() - radius * radius;
   // Inside the sphere, it fills half the view.
@@ -48,16 +49,16 @@ T AngleFromSphere(const Eigen::Matrix<T, 3, 1>& to_centre, const T& radius, cons
 
 template <typename T>
 T OutlineDistanceRad(LuminaireShape shape, const Outline<T>& outline, const Eigen::Vector3d& eye,
-                     const Eigen::Vector3d& ray) {
+                     const Eigen::Matrix<T, 3, 1>& r) {
   using std::abs, std::sqrt;
   using Vector = Eigen::Matrix<T, 3, 1>;
   constexpr double kEdgeOn = 0.02;
-  const Vector to_centre = outline.position - eye.cast<T>(), r = ray.cast<T>();
+  const Vector to_centre = outline.position - eye.cast<T>();
   const T cosine = r.dot(outline.aim), far = to_centre.dot(outline.aim);
   const bool is_flat = shape == LuminaireShape::kDisc || shape == LuminaireShape::kRectangle;
   if (!is_flat || abs(cosine) < kEdgeOn || !(far / cosine > T(0))) {
     const T radius = is_flat || shape == LuminaireShape::kSphere ? outline.half_size[0] : T(0);
-    return outline_internal::AngleFromSphere(to_centre, radius, ray);
+    return outline_internal::AngleFromSphere(to_centre, radius, r);
   }
   const T t = far / cosine;
   const Vector q = t * r - to_centre;

@@ -97,6 +97,40 @@ TEST_F(Outlines, APointHasNoOutline) {
   EXPECT_EQ(CountOf(Taken(), 1), 0);
 }
 
+// Seen at a slant, a disc of 0.3 m is an ellipse: the median of its radii lies between the half axes.
+TEST_F(Outlines, APointOfOpenShapeBecomesADiscOfTheSizeThatPhotosShow) {
+  Show(1, 1);
+  const std::vector<LuminaireOutline> outlines = Taken();
+  LightState points = state_;
+  for (Luminaire& l : points.luminaires) {
+    l.shape = LuminaireShape::kPoint;
+    l.distribution = Distribution::kLambertian;
+    l.size_m.setZero();
+  }
+  std::vector<OpenChoice> open(2);
+  Findings findings;
+  const LightState sized = WithSeenSizes(open, outlines, points, findings);
+  for (size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(sized.luminaires[k].shape, LuminaireShape::kDisc);
+    EXPECT_GT(sized.luminaires[k].size_m[0], 0.15);
+    EXPECT_LT(sized.luminaires[k].size_m[0], 0.31);
+    EXPECT_TRUE(sized.free[k].size);
+  }
+  ASSERT_EQ(findings.choices.size(), 2u);
+  EXPECT_EQ(findings.choices[0].what, "shape of A");
+  EXPECT_EQ(findings.choices[0].chosen, "disc");
+
+  // Not where the shape is given, nor where the luminaire has no aim, nor where it looks as small as a point.
+  open[0].shape = false;
+  points.luminaires[1].distribution = Distribution::kIsotropic;
+  EXPECT_EQ(WithSeenSizes(open, outlines, points, findings).luminaires[0].shape, LuminaireShape::kPoint);
+  EXPECT_EQ(WithSeenSizes(open, outlines, points, findings).luminaires[1].shape, LuminaireShape::kPoint);
+  points.luminaires[1].distribution = Distribution::kLambertian;
+  Show(0.01, 0.01);
+  EXPECT_EQ(WithSeenSizes(open, Taken(), points, findings).luminaires[1].shape, LuminaireShape::kPoint);
+  EXPECT_EQ(findings.choices.size(), 2u);
+}
+
 TEST_F(Outlines, LuminairesThatAreHeldOrNotFoundHaveNone) {
   Show(1, 1);
   EXPECT_EQ(CountOf(Taken({true, false}), 1), 0);
