@@ -67,6 +67,14 @@ Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
   return gathered;
 }
 
+Eigen::MatrixXf Gather(const Room& room, const Receivers& receivers, const Eigen::MatrixXf& at_elements,
+                       const Eigen::VectorXd& albedo, const Columns& layout,
+                       const Eigen::MatrixXf& exitance) {
+  const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
+  return (is_prepared ? GatherPrepared : GatherThroughElements)(room, receivers, at_elements, albedo, layout,
+                                                                exitance);
+}
+
 }  // namespace
 
 Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
@@ -104,15 +112,29 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
           transport.ExitanceDerivatives(derivatives.materials, patch_total);
     }
     const Columns layout{lamps, parameters, derivatives.materials};
-    const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
-    const Eigen::MatrixXf gathered = (is_prepared ? GatherPrepared : GatherThroughElements)(
-        room, receivers, at_elements, transport.albedo(), layout, exitance);
+    const Eigen::MatrixXf gathered =
+        Gather(room, receivers, at_elements, transport.albedo(), layout, exitance);
     at_receivers += gathered.leftCols(lamps + parameters);
     result.d_albedo = gathered.rightCols(lamps * materials);
   }
   result.total = at_receivers.leftCols(lamps);
   result.d_luminaire = at_receivers.rightCols(parameters);
   return result;
+}
+
+std::vector<Eigen::MatrixXf> ComputeTotals(const Room& room, const Receivers& receivers,
+                                           const LuminaireVisibility& visibility,
+                                           const std::vector<Luminaire>& luminaires,
+                                           const std::vector<const Transport*>& transports) {
+  const DirectColumns direct = ComputeDirectColumns(room, receivers, visibility, luminaires, {});
+  std::vector<Eigen::MatrixXf> totals(transports.size(), direct.receivers);
+  if (room.patches.elements.empty()) return totals;
+  const Eigen::MatrixXf patch_direct = PatchMean(room.patches, direct.elements);
+  const Columns layout{static_cast<Eigen::Index>(luminaires.size()), 0, {}};
+  for (size_t i = 0; i < transports.size(); ++i)
+    totals[i] += Gather(room, receivers, direct.elements, transports[i]->albedo(), layout,
+                        transports[i]->Exitance(patch_direct));
+  return totals;
 }
 
 Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receivers,

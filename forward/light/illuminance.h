@@ -75,6 +75,13 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives = {});
 
+// Returns the total for each transport, per lumen (receivers x luminaires). The direct light is computed once: it
+// serves channels of colour, which differ in their reflectances only.
+std::vector<Eigen::MatrixXf> ComputeTotals(const Room& room, const Receivers& receivers,
+                                           const LuminaireVisibility& visibility,
+                                           const std::vector<Luminaire>& luminaires,
+                                           const std::vector<const Transport*>& transports);
+
 // Computes the direct part alone at the receivers, in both `total` and `direct`, with its derivatives except
 // those by reflectances. It serves callers that know the indirect light already. `visibility` needs only the
 // receivers' part (ComputeReceiverVisibility).

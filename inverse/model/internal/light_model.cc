@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -119,23 +118,28 @@ LightModel::LightModel(const Room& room, const LightData& data)
 void LightModel::FreezeVisibility(const LightState& state, int order) {
   visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
       room_, receivers_, state.luminaires, order);
-  FreezeBodies(state);
-  FreezeColour(state);
+  hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
+  if (data_.indirect_is_held || room_.sparse) return;
+  const bool has_colour = state.tint.size() > 0;
+  if (!has_colour && state.bodies == BodyPresence::kNone) return;
+  std::vector<Transport> channels;
+  channels.reserve(3);
+  for (Eigen::Index c = 0; has_colour && c < 3; ++c) {
+    constexpr double kMostAlbedo = 0.99;
+    channels.emplace_back(
+        room_.transport,
+        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo).eval());
+  }
+  std::vector<const Transport*> transports{&TransportFor(state.albedo)};
+  transports.reserve(4);
+  for (const Transport& channel : channels) transports.push_back(&channel);
+  const std::vector<Eigen::MatrixXf> totals =
+      ComputeTotals(room_, receivers_, visibility_, state.luminaires, transports);
+  if (state.bodies != BodyPresence::kNone) FreezeBodies(state, totals.front());
+  if (has_colour) FreezeColour(state, totals);
 }
 
-void LightModel::FreezeColour(const LightState& state) {
-  colour_.resize(0);
-  if (state.tint.size() == 0 || data_.indirect_is_held || room_.sparse) return;
-  const Eigen::MatrixXf grey = Light(state, {}).total;
-  std::array<Eigen::MatrixXf, 3> channel;
-  for (Eigen::Index c = 0; c < 3; ++c) {
-    constexpr double kMostAlbedo = 0.99;
-    const Eigen::VectorXd albedo =
-        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo);
-    channel[static_cast<size_t>(c)] = ComputeIlluminance(room_, receivers_, visibility_, state.luminaires,
-                                                         Transport(room_.transport, albedo), {})
-                                          .total;
-  }
+void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals) {
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   colour_.setOnes(row_count());
   for (Eigen::Index i = 0; i < row_count(); ++i) {
@@ -144,21 +148,17 @@ void LightModel::FreezeColour(const LightState& state) {
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
     const Eigen::Vector3d weights =
         blocks_[static_cast<size_t>(row.block)]->ChannelWeightsOf(state, row.place);
-    const double grey_lx = grey.row(row.receiver).cast<double>() * lumens;
+    const double grey_lx = totals[0].row(row.receiver).cast<double>().dot(lumens);
     double sum_lx = 0;
-    for (size_t c = 0; c < 3; ++c)
-      sum_lx +=
-          weights[static_cast<Eigen::Index>(c)] * channel[c].row(row.receiver).cast<double>().dot(lumens);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      sum_lx += weights[c] * totals[static_cast<size_t>(c) + 1].row(row.receiver).cast<double>().dot(lumens);
     if (grey_lx > 0) colour_[i] = sum_lx / grey_lx;
   }
 }
 
-void LightModel::FreezeBodies(const LightState& state) {
-  hidden_.resize(0), reflected_.resize(0);
-  if (state.bodies == BodyPresence::kNone || data_.indirect_is_held || room_.sparse) return;
+void LightModel::FreezeBodies(const LightState& state, const Eigen::MatrixXf& total) {
   const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room_, state.luminaires);
   if (surfaces.empty()) return;
-  const Eigen::MatrixXf total = Light(state, {}).total;
   const CoveredLight covered = ComputeCoveredLight(room_, receivers_, visibility_, state.luminaires,
                                                    TransportFor(state.albedo), surfaces);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);

@@ -69,10 +69,10 @@ class LightModel {
     int block = 0, place = 0;
     int receiver = -1, state = 0;  // -1: the row receives no light
   };
-  // Computes what the bodies of `state` hide of each row's light.
-  void FreezeBodies(const LightState& state);
-  // Computes what coloured surfaces add to each row's light.
-  void FreezeColour(const LightState& state);
+  // Computes what the bodies of `state` hide of each row's light. `total`: without them, per lumen.
+  void FreezeBodies(const LightState& state, const Eigen::MatrixXf& total);
+  // Computes what coloured surfaces add to each row's light. `totals`: of grey surfaces, then of each channel.
+  void FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
   // Returns illuminance per lumen at the receivers.
