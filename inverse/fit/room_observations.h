@@ -17,7 +17,6 @@
 #include "forward/luminaire/photometry_file.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
-#include "inverse/observe/seen_outlines.h"
 
 namespace luxfit {
 

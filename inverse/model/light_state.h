@@ -17,7 +17,7 @@
 #include "forward/light/room.h"
 #include "inverse/model/parameter.h"
 #include "inverse/observe/observe.h"
-#include "inverse/observe/seen_outlines.h"
+#include "inverse/observe/seen_luminaires.h"
 
 namespace luxfit {
 
@@ -34,7 +34,7 @@ struct LightData {
   std::vector<Eigen::VectorXd> dimming;  // one vector per state, by luminaire
   std::vector<Observation> observations;
   std::vector<Reading> readings;
-  std::vector<LuminaireOutline> outlines;  // where the photos show luminaires themselves
+  std::vector<LuminaireOutline> outlines;                  // where the photos show luminaires themselves
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};  // of red, green and blue; they sum to 1
   // true: the observations carry their indirect light (inverse/model/internal/measured_indirect.h). No
   // radiosity is solved, and there are no readings.

@@ -18,7 +18,6 @@
 #include "forward/light/room.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
-#include "inverse/observe/seen_outlines.h"
 
 namespace luxfit {
 

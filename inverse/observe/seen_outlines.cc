@@ -1,4 +1,4 @@
-#include "inverse/observe/seen_outlines.h"
+#include "inverse/observe/seen_luminaires.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

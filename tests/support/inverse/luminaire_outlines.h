@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "inverse/observe/seen_outlines.h"
+#include "inverse/observe/seen_luminaires.h"
 #include "tests/support/calib/look_at.h"
 #include "tests/support/closed_forms.h"
 
