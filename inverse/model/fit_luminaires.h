@@ -95,8 +95,8 @@ struct LuminaireFit {
   // The part of f that rows of one facet and state share: f times the root of their intra-class correlation.
   // Texture and noise of single elements are the rest, and no error of the light elsewhere. f for readings.
   double shared_relative_sigma = 0;
-  double photo_design_effect = 1;    // by which the variance of photos' rows was multiplied
-  double effective_parts = 0;        // effective number, for tables and uneven emission; needs covariance
+  double photo_design_effect = 1;  // by which the variance of photos' rows was multiplied
+  double effective_parts = 0;      // effective number, for tables and uneven emission; needs covariance
   int outer_iterations = 0;
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }
 };

@@ -42,8 +42,8 @@ struct WeightedRows {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
       jacobian;  // derivative of root weight times residual
   Eigen::VectorXd residual;
-  Eigen::MatrixXd biases;             // one in each column, weighted likewise
-  std::vector<int> cluster;           // one for each row, from 0; -1: stands alone
+  Eigen::MatrixXd biases;    // one in each column, weighted likewise
+  std::vector<int> cluster;  // one for each row, from 0; -1: stands alone
   // A coarser choice of clusters, of the same rows; empty: none. Of the two variances the larger counts.
   std::vector<int> coarse_cluster;
   double alone_scatter = 1;           // expected mean square of the residuals of rows that stand alone
