@@ -9,15 +9,12 @@
 
 #include "calib/luminance/median.h"
 #include "forward/luminaire/distribution_ops.h"
+#include "inverse/observe/internal/angle.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kTwoSided95 = 1.96;
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 // Pairs designed and measured luminaires by distance, nearest pairs first.
 std::vector<int> Pairs(const std::vector<Luminaire>& designed, const std::vector<MeasuredLuminaire>& measured,

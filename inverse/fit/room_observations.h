@@ -69,7 +69,7 @@ struct RoomObservations {
   Meter meter;
   std::vector<std::optional<double>> albedo;  // by material, where known; may be empty
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known
-  // Of red, green and blue in the relative luminance; they sum to 1.
+  // Weigh red, green and blue in the relative luminance, and sum to 1.
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
 };
 

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "inverse/observe/internal/angle.h"
+
 namespace luxfit {
 namespace {
 
@@ -38,10 +40,6 @@ Eigen::Vector3d CentreOf(const SeenOutline& outline) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const OutlineRay& ray : outline.rays) sum += ray.direction;
   return sum.normalized();
-}
-
-double AngleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 // Returns the angle from the outline's centre to the luminaire where it may be its own, else infinity.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "forward/luminaire/distribution_ops.h"
+#include "inverse/observe/internal/angle.h"
 
 namespace luxfit {
 namespace {
@@ -74,8 +74,7 @@ std::optional<NeedlessParameter> HoldAim(const LuminaireFit& fit, int luminaire,
   if (!distance.is_needless) return std::nullopt;
   state.luminaires[k].aim = aim;
   state.free[k].tilt = false;
-  return NeedlessParameter{luminaire, NeedlessKind::kTilt, std::acos(std::min(1.0, fitted.dot(aim))),
-                           distance.sigma};
+  return NeedlessParameter{luminaire, NeedlessKind::kTilt, AngleBetween(fitted, aim), distance.sigma};
 }
 
 std::optional<NeedlessParameter> HoldHeading(const LuminaireFit& fit, int luminaire,

@@ -11,6 +11,7 @@
 #include "calib/luminance/median.h"
 #include "inverse/model/internal/outline_block.h"
 #include "inverse/model/internal/row_block.h"
+#include "inverse/observe/internal/angle.h"
 
 namespace luxfit {
 namespace {
@@ -33,7 +34,7 @@ SeenRadius RadiusOf(const Luminaire& luminaire, const std::vector<LuminaireOutli
     if (outline.luminaire != index) continue;
     const Eigen::Vector3d to = luminaire.position - outline.seen.eye;
     for (const OutlineRay& ray : outline.seen.rays) {
-      const double angle = std::atan2(to.cross(ray.direction).norm(), to.dot(ray.direction));
+      const double angle = AngleBetween(to, ray.direction);
       px.push_back(angle * ray.px_per_rad);
       m.push_back(angle * to.norm());
     }

@@ -6,21 +6,14 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/support/calib/pinhole.h"
 #include "tests/support/calib/tag_render.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
 
-Camera SmallCamera() {
-  Camera camera;
-  camera.width_px = 200;
-  camera.height_px = 160;
-  camera.fx_px = camera.fy_px = 500;
-  camera.cx_px = 100.3;
-  camera.cy_px = 79.1;
-  return camera;
-}
+Camera SmallCamera() { return support::Pinhole(200, 160, 500, {100.3, 79.1}); }
 
 // A tag in the camera's own frame (the world is the camera here), facing it, upright in the picture.
 SurveyedTag FacingTag(double size_m, const Eigen::Vector3d& center) {

@@ -48,7 +48,7 @@ class SharedErrors : public testing::Test {
     }
   }
 
-  // Of the flux' logarithm, which is 0 in truth.
+  // Hold the error of the flux' logarithm, which is 0 in truth.
   struct Estimate {
     double error = 0, sigma = 0;
   };

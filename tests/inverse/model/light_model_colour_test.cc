@@ -63,7 +63,7 @@ class ColouredBox : public testing::Test {
     state.tint = tint;
     return state;
   }
-  // Of mean 1 by the luminance's weights.
+  // Have a mean of 1 by the luminance's weights.
   Eigen::Matrix3Xd Tint() const { return rgb_ * state_.albedo.cwiseInverse().asDiagonal(); }
 
   Eigen::VectorXd Predicted(const LightState& state) const {

@@ -79,8 +79,9 @@ struct OffsetPixels {
 // away from corners, so that no other side is nearer.
 OffsetPixels OffsetFromRim(const Luminaire& luminaire, const RegisteredView& view, double distance_px) {
   constexpr size_t kDense = 720, kQuarter = kDense / 4;
-  const auto rim = support::PixelsOf(support::Pinhole(), view, support::RimOf(luminaire, kDense));
-  const Eigen::Vector2d center = support::PixelsOf(support::Pinhole(), view, {luminaire.position}).front();
+  const auto rim = support::PixelsOf(support::OutlineCamera(), view, support::RimOf(luminaire, kDense));
+  const Eigen::Vector2d center =
+      support::PixelsOf(support::OutlineCamera(), view, {luminaire.position}).front();
   OffsetPixels offset{{}, distance_px};
   for (size_t i = 0; i < kDense; ++i) {
     const size_t place = i % kQuarter;
@@ -109,7 +110,7 @@ TEST_F(OutlineRows, DistancesAreThoseOfTheProjectedRim) {
       for (const double distance_px : {-3.0, -1.0, 0.0, 1.0, 3.0}) {
         const OffsetPixels offset = OffsetFromRim(luminaire, view, distance_px);
         const Eigen::VectorXd found =
-            Distances(luminaire, support::OutlineThrough(support::Pinhole(), view, offset.pixels));
+            Distances(luminaire, support::OutlineThrough(support::OutlineCamera(), view, offset.pixels));
         ASSERT_EQ(found.size(), 12);
         const double bend_per_px =
             shape == LuminaireShape::kDisc ? 2.2 / (600 * 0.3 * std::pow(std::cos(angle), 2)) : 0;
@@ -130,12 +131,12 @@ TEST_F(OutlineRows, OutsideOfACornerTheCornerIsNearest) {
   const RegisteredView view =
       support::ViewFrom(luminaire.position + Eigen::Vector3d(2.2, 0, 0), luminaire.position);
   const Eigen::Vector3d corner = luminaire.position + Eigen::Vector3d(0, 0.3, 0.15);
-  const Eigen::Vector2d corner_px = support::PixelsOf(support::Pinhole(), view, {corner}).front();
-  const Eigen::Vector2d center_px(support::Pinhole().cx_px, support::Pinhole().cy_px);
+  const Eigen::Vector2d corner_px = support::PixelsOf(support::OutlineCamera(), view, {corner}).front();
+  const Eigen::Vector2d center_px(support::OutlineCamera().cx_px, support::OutlineCamera().cy_px);
   const Eigen::Vector2d outwards = (corner_px - center_px).cwiseSign();
   const std::vector<Eigen::Vector2d> pixels(6, corner_px + outwards.cwiseProduct(Eigen::Vector2d(3, 4)));
   const Eigen::VectorXd found =
-      Distances(luminaire, support::OutlineThrough(support::Pinhole(), view, pixels));
+      Distances(luminaire, support::OutlineThrough(support::OutlineCamera(), view, pixels));
   EXPECT_NEAR(found[0], 5, 0.02 * 5);  // as above
 }
 

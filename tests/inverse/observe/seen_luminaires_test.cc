@@ -10,6 +10,7 @@
 
 #include "tests/inverse/observe/lamp_photos.h"
 #include "tests/support/calib/look_at.h"
+#include "tests/support/calib/pinhole.h"
 #include "tests/support/scenes.h"
 #include "tests/support/test_rng.h"
 
@@ -20,12 +21,7 @@ using support::LampScene;
 using support::LuminousRectangle;
 
 Camera WideCamera() {
-  Camera camera;
-  camera.width_px = 480;
-  camera.height_px = 360;
-  camera.fx_px = camera.fy_px = 340;
-  camera.cx_px = 239.5;
-  camera.cy_px = 179.5;
+  Camera camera = support::Pinhole(480, 360, 340, {239.5, 179.5});
   camera.distortion = {-0.11, 0.06, 4e-4, -7e-4};
   return camera;
 }

@@ -16,7 +16,7 @@ namespace {
 const Eigen::Vector3d kEye(0.2, -0.4, 0.5);
 
 Camera DistortedCamera() {
-  Camera camera = support::Pinhole();
+  Camera camera = support::OutlineCamera();
   camera.distortion = {-0.11, 0.06, 4e-4, -7e-4};
   return camera;
 }
@@ -66,7 +66,7 @@ TEST(FindSeenOutlines, RaysMeetTheContour) {
 
 // Off the axis by t, a pinhole has f / cos^2(t) along the radius and f / cos(t) across it.
 TEST(FindSeenOutlines, ScaleOfAPinholeIsItsFocalLengthOnTheAxis) {
-  const Camera camera = support::Pinhole();
+  const Camera camera = support::OutlineCamera();
   const Eigen::Vector2d axis(camera.cx_px, camera.cy_px);
   std::vector<Eigen::Vector2d> pixels(5, axis);
   pixels.emplace_back(axis + Eigen::Vector2d(210, -160));
@@ -80,7 +80,7 @@ TEST(FindSeenOutlines, ScaleOfAPinholeIsItsFocalLengthOnTheAxis) {
 TEST(FindSeenOutlines, FewPointsAreNoOutline) {
   const RegisteredView view = support::ViewFrom(kEye, {2, 1, 2.2});
   const PhotoBlobs photo{0, 0, {BlobOf(Circle({200, 200}, 3, 5)), BlobOf(Circle({300, 200}, 3, 6)), {}}};
-  const auto outlines = FindSeenOutlines({support::Pinhole()}, {view}, {photo});
+  const auto outlines = FindSeenOutlines({support::OutlineCamera()}, {view}, {photo});
   ASSERT_EQ(outlines.size(), 1u);
   EXPECT_EQ(outlines[0].rays.size(), 6u);
 }
@@ -88,7 +88,7 @@ TEST(FindSeenOutlines, FewPointsAreNoOutline) {
 TEST(FindSeenOutlines, AViewOutOfRangeIsRefused) {
   const std::vector<RegisteredView> views{support::ViewFrom(kEye, {2, 1, 2.2})};
   for (const int view : {-1, 1})
-    EXPECT_THROW(FindSeenOutlines({support::Pinhole()}, views, {{view, 0, {}}}), std::invalid_argument);
+    EXPECT_THROW(FindSeenOutlines({support::OutlineCamera()}, views, {{view, 0, {}}}), std::invalid_argument);
 }
 
 // Two discs of 0.3 m, 1.2 m apart under a ceiling. State 0: both are on, 1: A alone, 2: B alone.

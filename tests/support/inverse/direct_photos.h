@@ -18,7 +18,7 @@
 
 namespace luxfit::support {
 
-// Of the rectangle a x b at distance h, with a corner on the normal through the point. Odd in a and b.
+// Returns the value of the rectangle a x b at distance h, with a corner on the normal through the point. Odd in a and b.
 inline double CornerSolidAngle(double a, double b, double h) {
   return std::atan(a * b / (h * std::sqrt(a * a + b * b + h * h)));
 }

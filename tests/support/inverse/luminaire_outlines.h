@@ -10,19 +10,12 @@
 
 #include "inverse/observe/seen_luminaires.h"
 #include "tests/support/calib/look_at.h"
+#include "tests/support/calib/pinhole.h"
 #include "tests/support/closed_forms.h"
 
 namespace luxfit::support {
 
-inline Camera Pinhole() {
-  Camera camera;
-  camera.width_px = 800;
-  camera.height_px = 600;
-  camera.fx_px = camera.fy_px = 600;
-  camera.cx_px = 399.5;
-  camera.cy_px = 299.5;
-  return camera;
-}
+inline Camera OutlineCamera() { return Pinhole(800, 600, 600, {399.5, 299.5}); }
 
 inline RegisteredView ViewFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& at) {
   RegisteredView view;
@@ -84,9 +77,9 @@ struct RimView {
 inline SeenOutline OutlineFrom(const Eigen::Vector3d& eye, const Luminaire& luminaire,
                                const RimView& rim = {}) {
   const RegisteredView view = ViewFrom(eye, luminaire.position);
-  std::vector<Eigen::Vector2d> contour_px = PixelsOf(Pinhole(), view, RimOf(luminaire, 32, rim.growth));
+  std::vector<Eigen::Vector2d> contour_px = PixelsOf(OutlineCamera(), view, RimOf(luminaire, 32, rim.growth));
   for (Eigen::Vector2d& pixel : contour_px) pixel += rim.shift_px;
-  SeenOutline outline = OutlineThrough(Pinhole(), view, contour_px);
+  SeenOutline outline = OutlineThrough(OutlineCamera(), view, contour_px);
   outline.view = rim.view;
   outline.state = rim.state;
   return outline;
