@@ -10,8 +10,8 @@ namespace luxfit {
 namespace {
 
 // The derivative by each quantity; exponents, tables and cells do not change an outline.
-constexpr int kQuantities = static_cast<int>(LuminaireQuantity::kCell) + 1;
-using Jet = ceres::Jet<double, kQuantities>;
+constexpr int kOutlineQuantities = static_cast<int>(LuminaireQuantity::kCell) + 1;
+using Jet = ceres::Jet<double, kOutlineQuantities>;
 
 Jet Variable(double value, LuminaireQuantity quantity) { return Jet(value, static_cast<int>(quantity)); }
 
