@@ -15,7 +15,7 @@ cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camer
 mkdir "$work/ies" "$work/ldt" "$work/mesh"
 name_of() { cksum <"$1" | cut -d ' ' -f 1; }
 for kind in ies ldt; do
-  find "$root/fixtures" -name "*.$kind" -size -64k | while read -r file; do
+  find "$root/fixtures" "$root/tests/fuzz/photometry_seeds" -name "*.$kind" -size -64k | while read -r file; do
     cp "$file" "$work/$kind/$(name_of "$file").$kind"
   done
 done

@@ -24,6 +24,8 @@ luxfit_test(calib/register registration_faults_test LINK luxfit::calib opencv_co
 luxfit_test(calib/register unsurveyed_tags_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register mesh_alignment_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register focal_length_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/register survey_accuracy_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/register tags_on_surfaces_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register joint_registration_test LINK luxfit::calib opencv_core opencv_calib3d)
 
 luxfit_test(calib/calibrate calibration_test LINK luxfit::calib opencv_core opencv_calib3d)
@@ -38,5 +40,5 @@ luxfit_test(calib/targets corners_file_test LINK luxfit::calib)
 add_executable(memorial_radiance validation/memorial_radiance.cc)
 target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
 # The office as worse cameras would have photographed it, for `luxfit run`.
-add_executable(office_variants validation/office_variants.cc)
-target_link_libraries(office_variants PRIVATE luxfit_build luxfit::calib opencv_core opencv_imgcodecs)
+add_executable(office_variants validation/office_texture.cc validation/office_variants.cc)
+target_link_libraries(office_variants PRIVATE luxfit_build luxfit_apps opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)

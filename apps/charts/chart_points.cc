@@ -1,7 +1,5 @@
 #include "apps/charts/chart_points.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -319,28 +317,6 @@ class ChartMaker {
   std::map<Setup, ChartPoint> measured_;
 };
 
-// Steps right and down: the least error within each time.
-std::vector<Eigen::Vector2d> FrontSteps(std::vector<Eigen::Vector2d> front, double end_s) {
-  std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.x() < b.x(); });
-  std::vector<Eigen::Vector2d> steps;
-  steps.reserve(2 * front.size() + 1);
-  for (const Eigen::Vector2d& point : front) {
-    if (!steps.empty()) steps.emplace_back(point.x(), steps.back().y());
-    steps.push_back(point);
-  }
-  if (!steps.empty()) steps.emplace_back(end_s, steps.back().y());
-  return steps;
-}
-
-std::string AutomaticName(const ChartPoint& point) {
-  const std::string bounces = point.bounces ? std::to_string(*point.bounces) : "all";
-  return fmt::format(
-      "automatic: {}\n{:g} to {:g} m, {} rays\n{} bounces, {:.2g} s\n"
-      "error {:.2g} %\nestimated error {:.2g} %",
-      ToString(point.method), point.patch_size_m, point.element_size_m, point.rays, bounces, point.time_s,
-      point.error_percent, point.estimated_error_percent.value_or(0));
-}
-
 }  // namespace
 
 void MarkFront(std::vector<ChartPoint>& points) {
@@ -357,44 +333,6 @@ void MarkFront(std::vector<ChartPoint>& points) {
 
 Chart MeasureChart(const LitScene& lit, double error_percent, double budget_s) {
   return ChartMaker(lit, error_percent, budget_s).Run();
-}
-
-XyChart SpeedAccuracyChart(const Chart& chart, const std::string& title) {
-  if (chart.points.empty()) return {};
-  constexpr double kLeastS = 1e-6, kLeastPercent = 1e-3, kMargin = 1.3;  // a logarithmic axis has no 0
-  const auto [fastest, slowest] =
-      std::minmax_element(chart.points.begin(), chart.points.end(),
-                          [](const ChartPoint& a, const ChartPoint& b) { return a.time_s < b.time_s; });
-  const double begin_s = std::max(fastest->time_s, kLeastS) / kMargin,
-               end_s = std::max(slowest->time_s, kLeastS) * kMargin,
-               sigma = std::max(chart.reference.sigma_percent, kLeastPercent);
-  XyChart picture{title,
-                  fmt::format("each point one way to compute the same illuminance; reference: light tracer, "
-                              "{} paths a sensor, ± {:.2g} %",
-                              chart.reference.paths_per_sensor, chart.reference.sigma_percent),
-                  {"time for the whole prediction, s", true, begin_s, end_s},
-                  {"error of the illuminance, rms over sensors and luminaires, %", true, {}, {}},
-                  {}};
-  for (const FormFactorOps& ops : FormFactorMethods()) picture.series.push_back({ops.name, {}, {}, false});
-  XySeries sweeps{"bounces, solvers", {}, {}, false, XyStyle{"#000000", 2.5, SvgMarkShape::kDisc}};
-  XySeries automatic{"", {}, {}, false, XyStyle{"#d00000", 11}};
-  std::vector<Eigen::Vector2d> front;
-  for (const ChartPoint& point : chart.points) {
-    const Eigen::Vector2d at(std::max(point.time_s, kLeastS), std::max(point.error_percent, kLeastPercent));
-    const bool is_sweep = point.factor == "bounces" || point.factor == "solver";
-    const auto method = static_cast<size_t>(&OpsOf(point.method) - FormFactorMethods().data());
-    (is_sweep ? sweeps : picture.series[method]).points.push_back(at);
-    if (point.on_front) front.push_back(at);
-    if (!point.automatic) continue;
-    automatic.points.push_back(at);
-    automatic.name = AutomaticName(point);
-  }
-  picture.series.push_back(std::move(sweeps));
-  picture.series.push_back({"Pareto front", FrontSteps(front, end_s), {}, true, XyStyle{"#333333", 0}});
-  const std::vector<Eigen::Vector2d> noise{{begin_s, sigma}, {end_s, sigma}};
-  picture.series.push_back({"noise of the reference", noise, {}, true, XyStyle{"#777777", 0, {}, true}});
-  picture.series.push_back(std::move(automatic));
-  return picture;
 }
 
 }  // namespace luxfit

@@ -10,10 +10,6 @@
 // follows, coarse points first. Points that would exceed the budget, judged by the time of their neighbours,
 // are skipped and listed.
 //
-// The chart has time in s as x and error in percent as y, both logarithmic. Each method is a series. Points of
-// sweeps over solvers and bounces are small. The Pareto front is drawn as steps, and the automatic choice is
-// ringed. A dashed line shows the reference's own standard error; errors below it have no meaning.
-//
 // Sensors are taken as cosine-corrected, the only kind that the tracer has.
 // Source: the reference is that of forward/light/light_tracer.h, which shares no patch with what is measured.
 #ifndef LUXFIT_APPS_CHARTS_CHART_POINTS_H_
@@ -24,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/charts/xy_chart_svg.h"
 #include "forward/light/choose_accuracy.h"
 
 namespace luxfit {
@@ -68,9 +63,6 @@ Chart MeasureChart(const LitScene& lit, double error_percent, double budget_s);
 // Marks the points that no other point beats by being no slower, no less accurate, and better in one of the
 // two. Values within one percent of each other count as equal.
 void MarkFront(std::vector<ChartPoint>& points);
-
-// Makes the picture's description; without series where there are no points.
-XyChart SpeedAccuracyChart(const Chart& chart, const std::string& title);
 
 }  // namespace luxfit
 

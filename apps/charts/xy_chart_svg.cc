@@ -18,19 +18,6 @@ constexpr double kWidthPx = 960, kHeightPx = 560;
 constexpr double kLeftPx = 76, kRightPx = 720, kTopPx = 64, kBottomPx = 496;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Colours of Okabe and Ito, which differ for any colour vision. A series that is added at the end leaves the
-// others theirs.
-XyStyle StyleOf(std::size_t series) {
-  constexpr std::pair<const char*, SvgMarkShape> kStyles[] = {
-      {"#d55e00", SvgMarkShape::kDisc},     {"#0072b2", SvgMarkShape::kSquare},
-      {"#009e73", SvgMarkShape::kDiamond},  {"#cc79a7", SvgMarkShape::kCross},
-      {"#56b4e9", SvgMarkShape::kTriangle}, {"#b09a00", SvgMarkShape::kSquare},
-      {"#888888", SvgMarkShape::kDisc},     {"#000000", SvgMarkShape::kCross},
-      {"#e69f00", SvgMarkShape::kTriangle}, {"#000000", SvgMarkShape::kDiamond}};
-  const auto& [colour, mark] = kStyles[series % std::size(kStyles)];
-  return {colour, 4, mark, false};
-}
-
 bool IsDrawn(const XyChart& chart, const Eigen::Vector2d& point) {
   return point.allFinite() && (!chart.x.is_log || point.x() > 0) && (!chart.y.is_log || point.y() > 0);
 }
@@ -87,7 +74,7 @@ std::vector<Drawn> DrawnOf(const XyChart& chart, const ChartAxis& x, const Chart
   std::vector<Drawn> all;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const XySeries& series = chart.series[i];
-    Drawn drawn{series, series.style.value_or(StyleOf(i)), {}};
+    Drawn drawn{series, series.style.value_or(XyStyleAt(i)), {}};
     bool has_points = false;
     drawn.px.reserve(series.points.size());
     for (const Eigen::Vector2d& p : series.points) {
@@ -180,17 +167,24 @@ std::string Labels(const std::vector<Drawn>& all) {
   return text;
 }
 
-std::string Legend(const std::vector<Drawn>& all) {
+// Draws an entry of the legend with its middle at `y_px`. Returns the place of the next one.
+double LegendEntry(const XySeries& series, const XyStyle& style, double y_px, std::string& text) {
   constexpr double kX = kRightPx + 24;
-  std::string text, line;
+  const Eigen::Vector2d middle(kX, y_px), half(9, 0);
+  text += Line({series, style, {middle - half, middle + half}}) + Marks({series, style, {middle}});
+  std::istringstream lines(series.name);
+  for (std::string line; std::getline(lines, line); y_px += 17) text += SvgText(kX + 16, y_px + 4, line);
+  return y_px + 5;
+}
+
+std::string Legend(const std::vector<XySeries>& keys, const std::vector<Drawn>& all) {
+  std::string text;
   double y = kTopPx + 8;
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    y = LegendEntry(keys[i], keys[i].style.value_or(XyStyleAt(i)), y, text);
+  if (!keys.empty()) y += 8;
   for (const Drawn& drawn : all) {
-    const Eigen::Vector2d middle(kX, y), half(9, 0);
-    text += Line({drawn.series, drawn.style, {middle - half, middle + half}}) +
-            Marks({drawn.series, drawn.style, {middle}});
-    std::istringstream lines(drawn.series.name);
-    for (; std::getline(lines, line); y += 17) text += SvgText(kX + 16, y + 4, line);
-    y += 5;
+    if (!drawn.series.name.empty()) y = LegendEntry(drawn.series, drawn.style, y, text);
   }
   return text;
 }
@@ -207,10 +201,23 @@ std::string ChartBody(const XyChart& chart) {
   }
   return SvgText(kLeftPx, 26, chart.title, " font-size=\"17\" font-weight=\"bold\"") +
          SvgText(kLeftPx, 46, chart.subtitle, " fill=\"#555\"") + Axes(chart, x, y) + lines + Labels(all) +
-         marks + Legend(all);
+         marks + Legend(chart.keys, all);
 }
 
 }  // namespace
+
+// Colours of Okabe and Ito, which differ for any colour vision. A series that is added at the end leaves the
+// others theirs.
+XyStyle XyStyleAt(std::size_t place) {
+  constexpr std::pair<const char*, SvgMarkShape> kStyles[] = {
+      {"#d55e00", SvgMarkShape::kDisc},     {"#0072b2", SvgMarkShape::kSquare},
+      {"#009e73", SvgMarkShape::kDiamond},  {"#cc79a7", SvgMarkShape::kCross},
+      {"#56b4e9", SvgMarkShape::kTriangle}, {"#b09a00", SvgMarkShape::kSquare},
+      {"#888888", SvgMarkShape::kDisc},     {"#000000", SvgMarkShape::kCross},
+      {"#e69f00", SvgMarkShape::kTriangle}, {"#000000", SvgMarkShape::kDiamond}};
+  const auto& [colour, mark] = kStyles[place % std::size(kStyles)];
+  return {colour, 4, mark, false};
+}
 
 std::string XyChartsSvg(const std::vector<XyChart>& charts) {
   std::string bodies;

@@ -77,6 +77,27 @@ void AddFitCharts(CLI::App& chart, ChartCommandOptions& options) {
   });
 }
 
+// Adds the options that draw an earlier chart in the same pictures.
+void AddBefore(CLI::App& chart, EarlierChart& before) {
+  CLI::Option* const path = chart.add_option(
+      "--before", before.path,
+      "earlier chart of the same kind and session (folder or table), drawn lighter and dashed");
+  const auto add_name = [&](const std::string& flag, std::string& name, const std::string& help) {
+    chart.add_option(flag, name, help)
+        ->capture_default_str()
+        ->needs(path)
+        ->check(CLI::Validator(
+            [](const std::string& typed) {
+              constexpr size_t kMost = 24;  // the legend's width
+              const bool fits = !typed.empty() && typed.size() <= kMost;
+              return fits ? "" : "expected 1 to 24 bytes, got " + std::to_string(typed.size());
+            },
+            ""));
+  };
+  add_name("--before-name", before.names.before, "name of the earlier chart in the legend");
+  add_name("--after-name", before.names.after, "name of the present chart in the legend");
+}
+
 void AddChart(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
       app.add_subcommand("chart", "chart speed against accuracy, of the forward model or of the whole fit");
@@ -89,6 +110,7 @@ void AddChart(CLI::App& app, Invocation& invocation) {
   AddEarlierResult(*command, "--result", options->earlier_result,
                    "earlier fit (folder or result.json): its luminaires and reflectances count as given");
   AddFitCharts(*command, *options);
+  AddBefore(*command, options->before);
   command->final_callback([&invocation, options] {
     options->command_line = invocation.command_line;
     options->threads = invocation.threads;
@@ -100,7 +122,10 @@ void AddChart(CLI::App& app, Invocation& invocation) {
              "on the front:\n"
              "method               rays patch m element m bounces solver                 time s   error %\n"
              "malley_stratified      32     0.8       0.2 ...\n"
-             "...");
+             "...\n"
+             "$ luxfit chart spots/session.toml -o again --budget 4 --before out --before-name yesterday\n"
+             "...\n"
+             "done      again/chart.svg");
 }
 
 void AddFormFactors(CLI::App& app, Invocation& invocation) {

@@ -36,6 +36,13 @@ void AddRunOptions(const Added<Options>& added) {
   added.command->add_flag("--dry-run", added.options->dry_run,
                           "tell which stages would run and why, and do nothing");
   added.command->add_flag("--fresh", added.options->fresh, "reuse nothing of an earlier run in OUT");
+  added.command
+      ->add_option(
+          "--budget", added.options->budget_s,
+          "seconds after which the fit ends with the best state so far, marked as stopped (exit 1); Ctrl-C "
+          "ends it likewise")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
 }
 
 void AddLuminairesOption(const Added<RunCommandOptions>& added) {

@@ -32,7 +32,9 @@ Session ReadRoomSession(const SessionCommandOptions& options) {
 // Charts the stability of a session's fit. Returns exit status 1 where the undegraded session has no fit.
 int ChartStability(const ChartCommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
-  const nlohmann::json artifact = StabilityOfSession(session, options.stability_options, context);
+  StabilityOptions stability = options.stability_options;
+  stability.before = options.before;
+  const nlohmann::json artifact = StabilityOfSession(session, stability, context);
   PrintText(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/stability.csv").c_str());
   return context.undetermined ? 1 : 0;
@@ -41,7 +43,8 @@ int ChartStability(const ChartCommandOptions& options, const Session& session) {
 int ChartWholeFit(const ChartCommandOptions& options, const Session& session) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = FitChartOfSession(
-      session, {options.stability_options.elements, options.stability_options.truth_path}, context);
+      session, {options.stability_options.elements, options.stability_options.truth_path, options.before},
+      context);
   PrintText(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/fit.csv").c_str());
   return 0;
@@ -62,7 +65,7 @@ int AlbedoCommand(const AlbedoCommandOptions& options) {
   if (!session.lights) {
     if (session.photos.empty())
       throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
-    return RunRoom(std::move(session), {options, options.dry_run, options.fresh, "", true},
+    return RunRoom(std::move(session), {options, options.dry_run, options.fresh, "", true, options.budget_s},
                    RoomRun::kFitAndAlbedo);
   }
   RunContext context = MakeContext(options, session);
@@ -95,8 +98,8 @@ int ChartCommand(const ChartCommandOptions& options) {
   if (options.whole_fit) return ChartWholeFit(options, session);
   if (!options.earlier_result.empty()) session = WithResult(std::move(session), options.earlier_result);
   RunContext context = MakeContext(options, session);
-  const nlohmann::json artifact =
-      ChartSession(session, {options.error_percent, options.budget_s, options.threads}, context);
+  const nlohmann::json artifact = ChartSession(
+      session, {options.error_percent, options.budget_s, options.threads, options.before}, context);
   PrintText(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/chart.svg").c_str());
   return 0;

@@ -21,11 +21,14 @@ struct SessionCommandOptions {
   bool json = false;         // print the result as JSON on standard output
 };
 
+constexpr double kFitBudgetS = 600;
+
 struct RunCommandOptions : SessionCommandOptions {
   bool dry_run = false;            // tell what would run and why
   bool fresh = false;              // reuse nothing of an earlier run
   std::string earlier_luminaires;  // path of a result.json whose luminaires count as given; empty: none
   bool prints = true;              // print the result on standard output
+  double budget_s = kFitBudgetS;   // of the fit, which then ends with the best state so far
 };
 // RunCommand runs all stages and writes OUT/report.html; FitCommand ends with OUT/result.json.
 int RunCommand(const RunCommandOptions& options);
@@ -45,6 +48,7 @@ struct ChartCommandOptions : SessionCommandOptions {
   bool stability = false;      // chart the whole fit instead of the forward model
   StabilityOptions stability_options;
   bool whole_fit = false;  // error against time of the whole fit; elements and truth as in stability_options
+  EarlierChart before;     // of the same kind, drawn in the same pictures
 };
 // Charts speed against accuracy of the forward model; writes OUT/chart.csv, OUT/chart.svg and
 // OUT/stages/chart.json. Or charts the stability of the fit (apps/commands/study/stage_stability.h), or its error
@@ -60,6 +64,7 @@ int RegisterCommand(const SessionCommandOptions& options);
 
 struct AlbedoCommandOptions : SessionCommandOptions {
   bool dry_run = false, fresh = false;  // of a room, as for run
+  double budget_s = kFitBudgetS;
 };
 // Estimates the albedo of a room (after all stages of RunCommand), or of an object by photometric stereo.
 // Writes OUT/result.json and the files of apps/stages/albedo/stage_albedo.h and apps/stages/albedo/stage_stereo.h.

@@ -22,7 +22,8 @@ bool IsInFiles(const Parameter& parameter) {
          (parameter.quantity == LuminaireQuantity::kExponent ||
           parameter.quantity == LuminaireQuantity::kSizeAlong ||
           parameter.quantity == LuminaireQuantity::kSizeAcross ||
-          parameter.quantity == LuminaireQuantity::kGammaNode);
+          parameter.quantity == LuminaireQuantity::kGammaNode ||
+          parameter.quantity == LuminaireQuantity::kSide);
 }
 
 bool IsDetermined(const RoomFit& fit, size_t luminaire) {
@@ -35,7 +36,7 @@ bool IsDetermined(const RoomFit& fit, size_t luminaire) {
   return std::none_of(solved.parameters.begin(), solved.parameters.end(), [&](const Parameter& p) {
     // A flux at its bound is meaningless: the fit could not explain the light.
     const bool is_lost = p.kind == ParameterKind::kLogFlux && holds(solved.at_bound, p);
-    return p.index == static_cast<int>(luminaire) && IsInFiles(p) &&
+    return p.Concerns(static_cast<int>(luminaire)) && IsInFiles(p) &&
            (is_lost || holds(solved.undetermined, p));
   });
 }

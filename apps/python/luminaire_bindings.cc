@@ -209,7 +209,7 @@ void BindLuminaire(py::module_& module) {
       "read_photometry", &PhotometryDict, py::arg("path"),
       "An .ies or .ldt file: c_deg (C,) over the whole circle, gamma_deg (G,) from the nadir, cd_per_klm "
       "(C, G) per 1000 lm of the luminaire's flux, flux_lm (the integral), stated_flux_lm and lamp_flux_lm "
-      "(None where the file says none), shape, size_m along C0 and across, keywords (bytes, as in the file) "
+      "(None where the file says none), shape, size_m along C0 and across, keywords (bytes, UTF-8) "
       "and notes.");
   module.def(
       "write_photometry", &WriteFile, py::arg("path"), py::arg("luminaire"), py::arg("test") = "",

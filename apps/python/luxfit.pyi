@@ -276,6 +276,9 @@ class Session(metaclass=_Pybind11Type):
     def photos(self) -> _Photos:
         """The photos, exposures in s."""
     @property
+    def groups(self) -> dict[str, list[str]]:
+        """{group: [luminaires]}, those that are switched together."""
+    @property
     def states(self) -> dict[str, dict[str, float]]:
         """{state: {luminaire: dimming 0..1}}, those that are on."""
     @property
@@ -462,10 +465,11 @@ def simulate(session: Session, *, error_percent: float = 1.0, threads: int = 0) 
 def read_result(out: _Path) -> Result:
     """Reads the result of an earlier run: its folder, or result.json in it. Raises InputError for anything else."""
 
-def fit(session: _Path, out: _Path, *, threads: int = 0, fresh: bool = False, luminaires: Optional[_Path] = None) -> Result:
+def fit(session: _Path, out: _Path, *, threads: int = 0, fresh: bool = False, luminaires: Optional[_Path] = None, budget_s: float = 600.0) -> Result:
     """Runs what `luxfit run SESSION -o OUT` runs and returns the Result; progress goes to standard error.
 
     luminaires: result.json of an earlier fit whose luminaires count as given. fresh: takes over no stage of an earlier run. threads: 0 for all.
+    budget_s: after it the fit ends with the best state so far (key "stopped" of the result), as it does at Ctrl-C.
     """
 
 run = fit

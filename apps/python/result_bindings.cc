@@ -41,13 +41,16 @@ Result ReadResultOf(const std::filesystem::path& given) {
 }
 
 Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads, bool fresh,
-           const std::optional<std::filesystem::path>& luminaires) {
+           const std::optional<std::filesystem::path>& luminaires, double budget_s) {
+  if (!(budget_s > 0))
+    throw py::value_error("fit: budget_s: expected seconds > 0, got " + std::to_string(budget_s));
   RunCommandOptions options;
   options.session = session.string();
   options.out = out.string();
   if (luminaires) options.earlier_luminaires = ResultFileOf(luminaires->string());
   options.fresh = fresh;
   options.prints = false;
+  options.budget_s = budget_s;
   options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";
   const py::gil_scoped_release release;
   const ThreadLimit limit(threads);
@@ -167,7 +170,7 @@ void BindResult(py::module_& module) {
       "read_result", &ReadResultOf, py::arg("out"),
       "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");
   module.def("fit", &Fit, py::arg("session"), py::arg("out"), py::kw_only(), py::arg("threads") = 0,
-             py::arg("fresh") = false, py::arg("luminaires") = py::none(),
+             py::arg("fresh") = false, py::arg("luminaires") = py::none(), py::arg("budget_s") = kFitBudgetS,
              "As `luxfit run SESSION -o OUT`: registers the photos, observes, fits, checks; writes "
              "OUT/result.json and "
              "OUT/stages and returns the Result. session, out, luminaires: paths; luminaires: result.json of "

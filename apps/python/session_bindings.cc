@@ -137,6 +137,12 @@ py::dict States(const Session& session) {
   return states;
 }
 
+py::dict Groups(const Session& session) {
+  py::dict groups;
+  for (const SessionGroup& group : session.groups) groups[py::str(group.name)] = py::cast(group.luminaires);
+  return groups;
+}
+
 RowMajorXd Dimming(const Session& session) {
   const std::vector<Eigen::VectorXd> by_state = DimmingOf(session);
   RowMajorXd dimming(static_cast<Eigen::Index>(by_state.size()),
@@ -167,6 +173,7 @@ void BindSession(py::module_& module) {
           "photos", &PhotoColumns,
           "dict of columns: file, camera, view, state (lists), exposure_s (n,), NaN where the "
           "table leaves it to the file.")
+      .def_property_readonly("groups", &Groups, "{group: [luminaires]}, those that are switched together.")
       .def_property_readonly("states", &States, "{state: {luminaire: dimming 0..1}}, those that are on.")
       .def_property_readonly("dimming", &Dimming,
                              "(states, luminaires), 0..1, in the order of states and luminaires.")

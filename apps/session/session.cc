@@ -64,7 +64,7 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
   if (lights) {
     session.states = StatesOfLights(tables.front());
   } else if (const auto states = root.Find("states")) {
-    session.states = ReadStates(*states);
+    session.states = ReadStates(*states, session.groups);
   } else {
     session.states = {OnlyState(tables, session.luminaires)};
   }
@@ -98,7 +98,8 @@ void ExpectObjectSession(const TomlCursor& root) {
   const auto lights = root.Find("lights");
   if (!lights) return;
   root.Require("photos", "the photos of the object, one a light");
-  for (const char* key : {"scene", "tags", "registration", "states", "luminaires", "luminaire", "luxmeter"}) {
+  for (const char* key :
+       {"scene", "tags", "registration", "groups", "states", "luminaires", "luminaire", "luxmeter"}) {
     const auto other = root.Find(key);
     if (other)
       throw other->Error(
@@ -161,8 +162,8 @@ Session ReadSession(const std::string& path) {
   ExpectSessionFile(path);
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
-  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "states",
-                   "luminaires", "luminaire", "luxmeter", "lights"});
+  root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "groups",
+                   "states", "luminaires", "luminaire", "luxmeter", "lights"});
   ExpectObjectSession(root);
   const std::string folder = fs::path(path).parent_path().string();
   Session session;
@@ -180,6 +181,7 @@ Session ReadSession(const std::string& path) {
   if (const auto calibration = root.Find("calibration"))
     session.calibration = ReadCalibrationSection(*calibration);
   const NamedLuminaires named = ReadLuminaires(root, folder);
+  session.groups = named.groups;
   session.luminaires = named.luminaires;
   session.count_is_estimated = named.count_is_estimated && !root.Find("lights");
   session.max_luminaires = named.max;

@@ -75,9 +75,15 @@ struct SessionPhoto {
   int line = 0;  // in the photo table
 };
 
+// Holds luminaires that are switched together.
+struct SessionGroup {
+  std::string name;
+  std::vector<std::string> luminaires;  // ids
+};
+
 struct SessionState {
   std::string id;
-  std::map<std::string, double> dimming;  // luminaire id -> 0..1
+  std::map<std::string, double> dimming;  // luminaire id -> 0..1; groups stand as their luminaires
 };
 
 // Describes an object under distant lights switched in turn, seen from one place: photometric stereo.
@@ -163,10 +169,11 @@ struct Session {
   SessionCalibration calibration;
   std::string photos_path;  // empty: no [photos] section
   std::vector<SessionPhoto> photos;
+  std::vector<SessionGroup> groups;  // in file order
   std::vector<SessionState>
       states;  // in file order; absent in the file: one state named by the tables, all on
   std::vector<SessionLuminaire>
-      luminaires;                   // [[luminaire]], completed by those that [states] names, in that order
+      luminaires;  // [[luminaire]], completed by those that [groups] or [states] name, in that order
   bool count_is_estimated = false;  // there may be more luminaires than those, all on in the only state
   int max_luminaires = 12;
   SessionLuxmeter luxmeter;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "apps/session/internal/session_groups.h"
+#include "apps/session/internal/session_states.h"
 #include "apps/session/session_files.h"
 #include "apps/text/suggest.h"
 #include "forward/luminaire/distribution_ops.h"
@@ -200,42 +202,26 @@ void ReadCount(const TomlCursor& session, NamedLuminaires& named) {
 
 }  // namespace
 
-std::vector<SessionState> ReadStates(const TomlCursor& section) {
-  std::vector<SessionState> states;
-  for (const auto& [id, table] : section.Members()) {
-    SessionState state{id, {}};
-    for (const auto& [luminaire, value] : table.Members()) {
-      const double dimming = value.Number("a dimming in 0..1");
-      if (dimming < 0 || dimming > 1)
-        throw value.Error("expected a dimming in 0..1, got " + value.Shown() + "; 30 % is written 0.3");
-      state.dimming[luminaire] = dimming;
-    }
-    states.push_back(std::move(state));
-  }
-  if (states.empty())
-    throw section.Error("expected at least one state, got none; write A = { A = 1.0 } or remove the section");
-  return states;
-}
-
 NamedLuminaires ReadLuminaires(const TomlCursor& session, const std::string& folder) {
   NamedLuminaires named;
-  std::vector<SessionLuminaire>& luminaires = named.luminaires;
+  std::vector<std::string> ids;
   if (const auto list = session.Find("luminaire")) {
     const std::vector<TomlCursor> tables = list->Elements("a list of tables [[luminaire]]");
-    for (const TomlCursor& table : tables) luminaires.push_back(ReadLuminaire(table, folder));
-    const std::vector<std::string> ids = UniqueIds(tables);
-    for (size_t i = 0; i < luminaires.size(); ++i) luminaires[i].id = ids[i];
+    for (const TomlCursor& table : tables) named.luminaires.push_back(ReadLuminaire(table, folder));
+    ids = UniqueIds(tables);
+    for (size_t i = 0; i < ids.size(); ++i) named.luminaires[i].id = ids[i];
   }
+  const auto add = [&](const std::string& id) {
+    if (std::find(ids.begin(), ids.end(), id) != ids.end()) return;
+    ids.push_back(id);
+    named.luminaires.emplace_back();
+    named.luminaires.back().id = id;
+  };
+  named.groups = ReadGroups(session, ids);
+  for (const SessionGroup& group : named.groups)
+    std::for_each(group.luminaires.begin(), group.luminaires.end(), add);
   if (const auto states = session.Find("states")) {
-    for (const auto& state : states->Members()) {
-      for (const auto& member : state.value.Members()) {
-        const bool is_known = std::any_of(luminaires.begin(), luminaires.end(),
-                                          [&](const SessionLuminaire& one) { return one.id == member.name; });
-        if (is_known) continue;
-        luminaires.emplace_back();
-        luminaires.back().id = member.name;
-      }
-    }
+    for (const std::string& id : LuminairesOfStates(*states, named.groups, ids)) add(id);
   }
   ReadCount(session, named);
   return named;

@@ -1,7 +1,7 @@
-// Reads the sections [states], [luminaires] and [[luminaire]] of a session.
+// Reads the sections [groups], [luminaires] and [[luminaire]] of a session.
 //
-// Throws std::runtime_error("FILE:LINE: key: ...") for dimmings outside 0..1, ids that two luminaires share,
-// shapes whose size does not fit, sigmas without a value, and values of the format that this version does not
+// Throws std::runtime_error("FILE:LINE: key: ...") for ids that two luminaires share, names in [groups] and
+// [states] that nothing has, shapes whose size does not fit, sigmas without a value, and values of the format that this version does not
 // support.
 //
 // Source: docs/session-format.md.
@@ -16,12 +16,10 @@
 
 namespace luxfit {
 
-// Reads the states in file order, with the dimming of each luminaire that they name.
-std::vector<SessionState> ReadStates(const TomlCursor& section);
-
-// Holds the luminaires of [[luminaire]] in file order, followed by those that only [states] names, in its
-// order.
+// Holds the luminaires of [[luminaire]] in file order, followed by those that only [groups] or [states] name, in
+// their order.
 struct NamedLuminaires {
+  std::vector<SessionGroup> groups;
   std::vector<SessionLuminaire> luminaires;
   int count = 0;                    // number of all luminaires, named or not
   bool count_is_estimated = false;  // there may be more

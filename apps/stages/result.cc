@@ -7,7 +7,9 @@
 #include "apps/stages/check_report.h"
 #include "apps/stages/stages.h"
 #include "apps/text/formats/former_keys.h"
+#include "apps/text/formats/json_vectors.h"
 #include "forward/luminaire/distribution_ops.h"
+#include "forward/luminaire/luminaire_parts.h"
 #include "forward/luminaire/photometry.h"
 #include "inverse/check/luxmeter_check.h"
 #include "inverse/fit/fit_room.h"
@@ -39,6 +41,7 @@ json ViewsJson(const Session& session, const Registration& registration) {
 
 json MaterialsJson(const Session& session, const Room& room, const RoomFit& fit) {
   json materials = json::array();
+  const std::vector<bool> by_indirect_light = ToldByIndirectLight(room, fit);
   for (size_t m = 0; m < room.scene.materials.size(); ++m) {
     const std::string& name = room.scene.materials[m];
     const bool given = session.scene->known_albedo_rgb.count(name) > 0;
@@ -53,6 +56,7 @@ json MaterialsJson(const Session& session, const Room& room, const RoomFit& fit)
                                       : Eigen::Vector3d(fit.albedo_rgb.col(static_cast<Eigen::Index>(m)));
     material["albedo_rgb"] = determined && rgb.allFinite() ? Vector(rgb) : json();
     material["sigma"] = determined ? json(sigma) : json();
+    material["by_indirect_light"] = static_cast<bool>(by_indirect_light[m]);
     // Unseen materials are listed too, since they also reflect light.
     material["albedo_in_model"] = fit.fit.state.albedo[static_cast<Eigen::Index>(m)];
     materials.push_back(material);
@@ -85,6 +89,14 @@ json SizeJson(const Luminaire& luminaire) {
 std::string PhotometryName(const Luminaire& luminaire, const SessionLuminaire& given) {
   const DistributionOps& ops = OpsOf(luminaire.distribution);
   return ops.has_table && !given.photometry_path.empty() ? given.photometry : ops.photometry;
+}
+
+// `ratio_sigma`: of the smaller side's share over the larger one's, which is 1 - smaller.
+void AddShareUp(const Luminaire& luminaire, double ratio_sigma, json& entry) {
+  const Eigen::VectorXd shares = PartShares(luminaire, PartKind::kSide);
+  const double reference = shares.maxCoeff();
+  entry["share_up"] = shares[1];
+  entry["share_up_sigma"] = ratio_sigma * reference * reference;
 }
 
 json LuminairesJson(const Session& session, const RoomFit& fit, const std::vector<LuminaireFiles>& files) {
@@ -123,6 +135,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
       entry["heading_sigma_deg"] = kDegrees * sigma(LuminaireQuantity::kHeading);
     }
     if (ops.has_table && session.luminaires[k].photometry_path.empty()) AddNodes(*luminaire.table, entry);
+    if (fit.fit.state.free[k].sides) AddShareUp(luminaire, sigma(LuminaireQuantity::kSide), entry);
     if (luminaire.emission.size() > 0) entry["emission"] = EmissionJson(luminaire.emission);
     if (ops.has_exponent) {
       entry["cosine_exponent"] = luminaire.cosine_exponent;
@@ -192,6 +205,22 @@ json ChoicesJson(const RunContext& context) {
   return choices;
 }
 
+json TypesJson(const RoomFit& fit) {
+  const auto id = [&](int k) { return fit.fit.state.luminaires[static_cast<size_t>(k)].id; };
+  json types = json::array();
+  for (const LuminaireType& type : fit.types) {
+    json ids = json::array(), deviating = json::array();
+    for (const int k : type.luminaires) ids.push_back(id(k));
+    for (const DeviatingFlux& flux : type.deviating)
+      deviating.push_back({{"id", id(flux.luminaire)}, {"flux_ratio", flux.ratio}, {"z", flux.z}});
+    types.push_back({{"luminaires", ids},
+                     {"flux_lm", fit.absolute ? json(type.flux) : json(nullptr)},
+                     {"flux_spread", NumberOrNull(type.relative_spread)},
+                     {"deviating", deviating}});
+  }
+  return types;
+}
+
 json WarningsJson(const RunContext& context) {
   json warnings = json::array();
   for (const Warning& w : context.warnings)
@@ -206,10 +235,12 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["session"] = session.name;
   result["session_file"] = session.path;
   result["status"] = context.undetermined ? "undetermined" : "done";
+  if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
   result["luminaires"] = LuminairesJson(session, fit, files);
+  if (!fit.types.empty()) result["luminaire_types"] = TypesJson(fit);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
   result["luminaire_bodies"] = ToString(fit.fit.state.bodies);

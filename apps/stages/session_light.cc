@@ -1,11 +1,13 @@
 #include "apps/stages/session_light.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "apps/stages/fit_stop.h"
 #include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/simulate/given_luminaire.h"
 #include "forward/luminaire/distribution_ops.h"
@@ -95,6 +97,11 @@ std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   return by_state;
 }
 
+Eigen::MatrixXd PoseErrorsOf(const Registration& registration) {
+  const bool is_in_doubt = registration.survey_sigma_m > 2 * RegisterViewsOptions().survey_sigma_m;
+  return is_in_doubt ? registration.pose_covariance : Eigen::MatrixXd();
+}
+
 RoomObservations RoomObservationsOf(const Session& session, const LinearizedSession& linearized,
                                     const Room& room, const SessionObservations& observed) {
   RoomObservations given;
@@ -104,6 +111,7 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.observations = observed.observations;
   given.seen = observed.seen;
   given.outlines = observed.outlines;
+  given.pose_covariance = observed.pose_covariance;
   const Eigen::Vector3d weights = LuminanceWeights(session);
   given.luminance_weights = weights / weights.sum();
   given.meter = MeterOf(session, linearized.readings);
@@ -116,8 +124,10 @@ Session WithCountedLuminaires(Session session, const LinearizedSession& lineariz
                               const SessionObservations& observed, RunContext& context) {
   if (!session.count_is_estimated) return session;
   const StageTimer timer(context, "count", "how many luminaires there are");
+  std::function<std::string()> stop_reason;
+  if (context.stop) stop_reason = [stop = context.stop] { return stop->ReasonOfCount(); };
   const int count = CountLuminaires(room, RoomObservationsOf(session, linearized, room, observed),
-                                    session.max_luminaires, context);
+                                    session.max_luminaires, context, stop_reason);
   return WithMoreLuminaires(std::move(session), count);
 }
 

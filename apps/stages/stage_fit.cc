@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "apps/stages/fit_stop.h"
 #include "apps/stages/parameter_json.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
@@ -59,6 +62,12 @@ RoomFit FitSession(const Session& session, const LinearizedSession& linearized, 
   options.on_step = [&](const std::string& step, const std::string& words) {
     return std::make_shared<StageTimer>(context, step, words);
   };
+  options.on_round = [&](const FitRound& round) {
+    const std::string left =
+        context.stop ? fmt::format(", at most {:.0f} s to go", context.stop->LeftS()) : "";
+    Say(context, fmt::format("round {}, residual {:.2f} %{}", round.round, 100 * round.relative_sigma, left));
+  };
+  if (context.stop) options.stop_reason = [stop = context.stop] { return stop->Reason(); };
   RoomFit fit = FitRoom(room, RoomObservationsOf(session, linearized, room, observed), options);
   context.Add(fit.findings);
   WriteArtifact(fit.fit, context);

@@ -100,7 +100,7 @@ class Parts {
   StageInputs States() const {
     std::string ids;
     for (const SessionLuminaire& luminaire : session_.luminaires) ids += luminaire.id + "\n";
-    return {{"[states]", HashText(Table("states") + ids)}};
+    return {{"[states]", HashText(Table("states") + Table("groups") + ids)}};
   }
 
   StageInputs Light(const std::string& earlier_luminaires) const {

@@ -70,6 +70,10 @@ void Advance(const RunContext& context, size_t total) {
   if (context.progress) context.progress->Advance(static_cast<int>(total));
 }
 
+void Say(const RunContext& context, const std::string& words) {
+  if (context.progress) context.progress->Say(words);
+}
+
 LoadedMesh LoadMesh(const Session& session) {
   LoadedMesh mesh;
   mesh.scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);

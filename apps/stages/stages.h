@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/charts/before_after.h"
 #include "apps/session/photo_corrections.h"
 #include "apps/session/session.h"
 #include "apps/stages/linearize/linearized_session.h"
@@ -34,6 +35,7 @@
 
 namespace luxfit {
 
+class FitStop;
 class PhotoStore;
 class ProgressLine;
 
@@ -45,6 +47,7 @@ struct RunContext : Findings {
   std::map<std::string, double> expected_s;  // times of the stages in the last run into that folder
   std::shared_ptr<ProgressLine> progress;    // for the running stage, where lines are printed
   std::vector<std::string> reused_stages;    // not run: products of the last run are used
+  std::shared_ptr<const FitStop> stop;       // ends the fit early; null: nothing does
   std::shared_ptr<PhotoStore> photos;        // the run's decoded photos; may be null
   bool is_quiet = false;                     // no progress lines
 
@@ -69,6 +72,9 @@ class StageTimer {
 
 // Counts one more of `total` parts of the running stage as done. Any thread may call it.
 void Advance(const RunContext& context, size_t total);
+
+// Shows words beside the running stage; where there is no terminal, every ten seconds at most.
+void Say(const RunContext& context, const std::string& words);
 
 // Loads the mesh of a session that has a [scene], checks it against the tag survey, and lists its defects.
 struct LoadedMesh {
@@ -109,12 +115,17 @@ std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, c
 LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
                              const Camera& camera, const PhotoCorrections& corrections);
 
+// Returns the views' joint pose covariance where the survey is less accurate than given; else nothing, for
+// the fit's sigma of outlines covers what an accurate survey leaves.
+Eigen::MatrixXd PoseErrorsOf(const Registration& registration);
+
 // Holds what photos of registered views show: the relative luminance of every element in each, and the places
 // where luminaires are visible.
 struct SessionObservations {
   std::vector<Observation> observations;
   std::vector<SeenPlace> seen;
   std::vector<SeenOutline> outlines;
+  Eigen::MatrixXd pose_covariance;  // PoseErrorsOf
 };
 SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
                                    const RegisteredSession& registered, const Room& room,
@@ -124,8 +135,8 @@ RoomFit FitSession(const Session& session, const LinearizedSession& linearized, 
                    const SessionObservations& observed, RunContext& context);
 
 // Simulates a session in which everything is given. Returns the artifact of OUT/stages/simulate.json, which
-// it writes with OUT/illuminance.csv (id, state, illuminance_lx, direct_lx, indirect_lx of every reading). Patches, rays
-// and bounces are chosen for the given error.
+// it writes with OUT/illuminance.csv (id, state, illuminance_lx, direct_lx, indirect_lx of every reading).
+// Patches, rays and bounces are chosen for the given error.
 nlohmann::json SimulateSession(const Session& session, double error_percent, RunContext& context);
 
 // Charts speed against accuracy of the forward model on such a session. Writes OUT/chart.csv, OUT/chart.svg
@@ -134,6 +145,7 @@ struct ChartOptions {
   double error_percent = 1;  // error asked of the automatic choice
   double budget_s = 120;     // points that would take longer are skipped
   int threads = 0;           // number asked for; 0: all
+  EarlierChart before;       // drawn in the same picture
 };
 nlohmann::json ChartSession(const Session& session, const ChartOptions& options, RunContext& context);
 

@@ -15,6 +15,7 @@ namespace luxfit {
 namespace {
 
 constexpr int kBarWidth = 20;
+constexpr double kBetweenLinesS = 10;
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr char kClearLine[] = "\r\x1b[K";
 
@@ -72,7 +73,7 @@ std::string ProgressText(double share, double elapsed_s) {
 }
 
 ProgressLine::ProgressLine(std::string text, double expected_s)
-    : text_(std::move(text)), expected_s_(expected_s), start_s_(NowS()) {
+    : text_(std::move(text)), expected_s_(expected_s), start_s_(NowS()), said_s_(start_s_) {
   if (!IsTerminal(stderr)) {
     std::fprintf(stderr, "%s\n", text_.c_str());
     is_over_ = true;
@@ -93,7 +94,17 @@ void ProgressLine::Draw() {
   const bool is_counted = total > 0 && done < total;
   const double share =
       is_counted ? static_cast<double>(done) / total : (expected_s_ > 0 ? elapsed_s / expected_s_ : -1);
-  std::fprintf(stderr, "%s%s  %s", kClearLine, text_.c_str(), ProgressText(share, elapsed_s).c_str());
+  const std::lock_guard<std::mutex> lock(said_mutex_);
+  std::fprintf(stderr, "%s%s  %s%s", kClearLine, text_.c_str(), said_.c_str(),
+               ProgressText(share, elapsed_s).c_str());
+}
+
+void ProgressLine::Say(const std::string& words) {
+  const std::lock_guard<std::mutex> lock(said_mutex_);
+  said_ = words + "  ";
+  if (drawer_.joinable() || NowS() - said_s_ < kBetweenLinesS) return;
+  said_s_ = NowS();
+  std::fprintf(stderr, "%-9s %s\n", "", words.c_str());
 }
 
 void ProgressLine::Advance(int total) {

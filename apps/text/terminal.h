@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -42,6 +43,9 @@ class ProgressLine {
 
   // Counts one more of `total` parts as done. Any thread may call it.
   void Advance(int total);
+  // Shows words behind the text while the line is redrawn. Elsewhere they are lines of their own, one in ten seconds
+  // at most.
+  void Say(const std::string& words);
   // Ends the line, because another one follows below it.
   void HandOver();
 
@@ -50,6 +54,9 @@ class ProgressLine {
 
   std::string text_;
   double expected_s_, start_s_;
+  std::mutex said_mutex_;
+  std::string said_;  // by Say
+  double said_s_;     // when
   std::atomic<int> done_{0}, total_{0};
   std::atomic<bool> is_over_{false};
   std::thread drawer_;

@@ -219,20 +219,27 @@ Registration MovedToSurface(const Registration& registration, const SurfaceAlign
   Registration moved = registration;
   moved.frame = "surface";
   const Similarity& motion = alignment.world_from_points;
-  for (RegisteredView& view : moved.views) {
+  const auto rows = static_cast<Eigen::Index>(6 * moved.views.size());
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(rows, rows), by_motion = Eigen::MatrixXd::Zero(rows, 7);
+  for (std::size_t i = 0; i < moved.views.size(); ++i) {
+    RegisteredView& view = moved.views[i];
     view.cam_from_world = PoseUnder(motion, view.cam_from_world);
-    Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
-    turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = motion.rotation;
+    const auto at = 6 * static_cast<Eigen::Index>(i);
+    turn.block<3, 3>(at, at) = turn.block<3, 3>(at + 3, at + 3) = motion.rotation;
     // A turn about the points' middle moves the camera with them.
     const Eigen::Vector3d arm = view.cam_from_world.inverse().translation() - alignment.middle_in_world;
-    Eigen::Matrix<double, 6, 7> by_motion = Eigen::Matrix<double, 6, 7>::Zero();
-    by_motion.topLeftCorner<3, 3>().setIdentity();
-    by_motion.bottomLeftCorner<3, 3>() = -CrossMatrix(arm);
-    by_motion.block<3, 3>(3, 3).setIdentity();
-    by_motion.bottomRightCorner<3, 1>() = arm;
-    view.covariance =
-        turn * view.covariance * turn.transpose() + by_motion * alignment.covariance * by_motion.transpose();
-    view.position_sigma_m = view.covariance.diagonal().tail<3>().cwiseSqrt();
+    by_motion.block<3, 3>(at, 0).setIdentity();
+    by_motion.block<3, 3>(at + 3, 0) = -CrossMatrix(arm);
+    by_motion.block<3, 3>(at + 3, 3).setIdentity();
+    by_motion.block<3, 1>(at + 3, 6) = arm;
+  }
+  // The motion's own error is common to all views.
+  moved.pose_covariance = turn * registration.pose_covariance * turn.transpose() +
+                          by_motion * alignment.covariance * by_motion.transpose();
+  for (std::size_t i = 0; i < moved.views.size(); ++i) {
+    const auto at = 6 * static_cast<Eigen::Index>(i);
+    moved.views[i].covariance = moved.pose_covariance.block<6, 6>(at, at);
+    moved.views[i].position_sigma_m = moved.views[i].covariance.diagonal().tail<3>().cwiseSqrt();
   }
   for (SurveyedTag& tag : moved.placed_tags) {
     tag.center_in_world = motion * tag.center_in_world;

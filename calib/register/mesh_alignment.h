@@ -25,11 +25,6 @@
 
 namespace luxfit {
 
-struct TriangleSurface {
-  Eigen::Matrix3Xd vertices_m;  // in world
-  Eigen::Matrix3Xi triangles;   // indices of vertices, one triangle for each column
-};
-
 struct SurfaceAlignmentOptions {
   bool scale_is_free = true;
   double rough_m = 0.5;         // error of the start, at the points

@@ -7,17 +7,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "calib/register/internal/bundle/bundle_adjustment.h"
 #include "calib/register/internal/bundle/bundle_covariance.h"
-#include "calib/register/internal/bundle/free_frame.h"
 #include "calib/register/internal/feature_alignment.h"
-#include "calib/register/internal/feature_views.h"
-#include "calib/register/internal/focal_check.h"
-#include "calib/register/internal/leave_out.h"
-#include "calib/register/internal/survey_diagnosis.h"
+#include "calib/register/internal/survey_attempt.h"
+#include "calib/register/internal/survey_check.h"
+#include "calib/register/internal/survey_on_surfaces.h"
 #include "calib/register/internal/tag_mapping.h"
 #include "calib/register/internal/tag_views.h"
 
@@ -34,43 +32,53 @@ void CheckOptions(const RegisterViewsOptions& options) {
   }
 }
 
-// Holds the focal length of each camera as the tags show it; nothing: as given.
-using FocalScales = std::vector<std::optional<FocalScale>>;
+// Adds the uncertainty of the focal lengths that the tags showed. It moves all views of a camera together.
+void AddFocalUncertainty(const FocalScales& focal, const std::vector<RegisteredView>& views,
+                         Eigen::MatrixXd& pose_covariance) {
+  for (std::size_t c = 0; c < focal.size(); ++c) {
+    if (!focal[c]) continue;
+    Eigen::VectorXd moved = Eigen::VectorXd::Zero(pose_covariance.rows());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto its = focal[c]->pose_derivatives.find(views[i].view);
+      if (views[i].camera == static_cast<int>(c) && its != focal[c]->pose_derivatives.end())
+        moved.segment<6>(6 * static_cast<Eigen::Index>(i)) = focal[c]->sigma * its->second;
+    }
+    pose_covariance += moved * moved.transpose();
+  }
+}
 
-void AddCovariances(const BundleContext& context, BundleAdjustment& adjustment, const FocalScales& focal,
+void AddCovariances(const BundleCovariance& covariance, const FocalScales& focal,
                     Registration& registration) {
   if (registration.views.empty()) return;
-  const BundleCovariance covariance = ComputeBundleCovariance(context, adjustment);
+  const auto rows = static_cast<Eigen::Index>(6 * registration.views.size());
+  registration.pose_covariance.setConstant(rows, rows, std::numeric_limits<double>::quiet_NaN());
   if (!covariance.determined) {
     registration.converged = false;
     registration.message = "the poses are not determined: their covariance is singular";
     return;
   }
   registration.tag_size_error_sigma = covariance.size_error_sigma;
+  registration.pose_covariance = covariance.of_poses;
+  AddFocalUncertainty(focal, registration.views, registration.pose_covariance);
   for (std::size_t i = 0; i < registration.views.size(); ++i) {
     RegisteredView& view = registration.views[i];
-    view.covariance = covariance.of_views[i];
-    if (const auto& its = focal[static_cast<std::size_t>(view.camera)]) {
-      const auto moved = its->pose_derivatives.find(view.view);
-      if (moved != its->pose_derivatives.end())
-        view.covariance += its->sigma * its->sigma * moved->second * moved->second.transpose();
-    }
+    const auto at = 6 * static_cast<Eigen::Index>(i);
+    view.covariance = registration.pose_covariance.block<6, 6>(at, at);
     view.position_sigma_m = view.covariance.diagonal().tail<3>().cwiseSqrt();
   }
 }
 
 void LeaveOutUncertain(double max_rotation_sigma_rad, Registration& registration) {
-  std::vector<RegisteredView> kept;
+  std::vector<bool> is_kept;
+  is_kept.reserve(registration.views.size());
   for (const RegisteredView& view : registration.views) {
     const Eigen::Matrix3d of_rotation = view.covariance.topLeftCorner<3, 3>();
     const double sigma_rad =
         of_rotation.allFinite()
             ? std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(of_rotation).eigenvalues()[2])
             : std::numeric_limits<double>::infinity();
-    if (sigma_rad <= max_rotation_sigma_rad) {
-      kept.push_back(view);
-      continue;
-    }
+    is_kept.push_back(sigma_rad <= max_rotation_sigma_rad);
+    if (is_kept.back()) continue;
     registration.notes.push_back(
         {view.view, -1, "pose_uncertain",
          fmt::format("The tags in view {} leave its direction uncertain by {:.2g} "
@@ -78,7 +86,7 @@ void LeaveOutUncertain(double max_rotation_sigma_rad, Registration& registration
                      view.view, sigma_rad * 180 / M_PI, 1000 * view.position_sigma_m.norm()),
          "Show the view more tags, larger tags, or tags on a second surface."});
   }
-  registration.views = kept;
+  KeepViews(is_kept, registration);
 }
 
 RegisteredView ViewOf(const BundleContext& context, const BundleAdjustment& adjustment,
@@ -126,8 +134,29 @@ void SetFocalScales(const FocalScales& focal, Registration& registration) {
   }
 }
 
-void Summarise(const BundleContext& context, BundleAdjustment& adjustment, const FocalScales& focal,
-               Registration& registration) {
+// Notes a survey that is much less accurate than it was given.
+void NameSurveySigma(double given_sigma_m, Registration& registration) {
+  constexpr double kMuchLess = 2;
+  if (!(registration.survey_sigma_m > kMuchLess * given_sigma_m)) return;
+  const TagsOnSurfaces& on_surfaces = registration.tags_on_surfaces;
+  std::string of_surfaces;
+  if (on_surfaces.used > 0) {
+    of_surfaces =
+        fmt::format(" {} of {} tags lie on surfaces of the mesh within {:.2g} mm, which place the cameras.",
+                    on_surfaces.used, on_surfaces.seen, 1000 * given_sigma_m);
+  } else if (!on_surfaces.reason.empty()) {
+    of_surfaces = " The surfaces of the mesh do not help: " + on_surfaces.reason + ".";
+  }
+  registration.notes.push_back(
+      {"", -1, "survey_less_accurate",
+       fmt::format("The tags hang {:.2g} mm off their surveyed places (1 sigma per axis), not {:.2g} mm; the "
+                   "poses' sigmas hold that.{}",
+                   1000 * registration.survey_sigma_m, 1000 * given_sigma_m, of_surfaces),
+       "Measure the tags' places again, with a laser or along the walls, where poses should be better."});
+}
+
+void Summarise(const BundleContext& context, const BundleAdjustment& adjustment,
+               const BundleCovariance& covariance, const FocalScales& focal, Registration& registration) {
   const std::vector<bool> used_points = UsedPoints(adjustment);
   for (const BundleView& view : adjustment.views) {
     if (view.active) registration.views.push_back(ViewOf(context, adjustment, used_points, view));
@@ -139,7 +168,7 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, const
   SetFocalScales(focal, registration);
   registration.points = static_cast<int>(std::count(used_points.begin(), used_points.end(), true));
   registration.point_sigma_px = registration.points > 0 ? adjustment.point_sigma_px : 0;
-  AddCovariances(context, adjustment, focal, registration);
+  AddCovariances(covariance, focal, registration);
   LeaveOutUncertain(context.options.max_rotation_sigma_rad, registration);
   double total = 0, measured = 0;
   for (const RegisteredView& view : registration.views) {
@@ -148,14 +177,6 @@ void Summarise(const BundleContext& context, BundleAdjustment& adjustment, const
     measured += weight;
   }
   if (measured > 0) registration.reprojection_rms_px = std::sqrt(total / measured);
-}
-
-// Adjusts all views, from views that have been started.
-void Adjust(const BundleContext& context, const FeatureModel& features, BundleAdjustment& adjustment,
-            std::vector<RegistrationNote>& notes) {
-  if (!features.views.empty()) JoinFeatures(context, features, adjustment, notes);
-  SolveLeavingOut(context, adjustment, notes);
-  if (adjustment.fixed_tag >= 0) SettleFrame(adjustment);
 }
 
 // Returns the places of the tags after the adjustment, for those that a registered view uses.
@@ -203,65 +224,40 @@ Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterView
   adjustment.views = ViewsOf(context, IndexSurvey(map.tags), OnlyPlaced(map, detections, registration.notes),
                              registration.notes);
   StartFromMap(context, map, adjustment.views, registration.notes);
-  Adjust(context, features, adjustment, registration.notes);
-  Summarise(context, adjustment, FocalScales(cameras.size()), registration);
+  AdjustViews(context, features, adjustment, registration.notes);
+  Summarise(context, adjustment, ComputeBundleCovariance(context, adjustment), FocalScales(cameras.size()),
+            registration);
   registration.frame = "tag " + std::to_string(map.frame_tag);
   registration.placed_tags = PlacedTags(adjustment);
   return registration;
 }
 
-// Holds one registration with the cameras as they are at the time.
-struct Attempt {
-  BundleAdjustment adjustment;
-  std::vector<RegistrationNote> notes;
-  bool is_refused = false;  // the survey is contradicted as a whole; the last note says how
-};
-
-Attempt RegisterBySurvey(const BundleContext& context, const std::map<int, SurveyedTag>& survey,
-                         const std::vector<ViewDetections>& detections, const FeatureModel& features) {
-  Attempt attempt;
-  attempt.adjustment.views = ViewsOf(context, survey, detections, attempt.notes);
-  if (const std::optional<RegistrationNote> diagnosis =
-          DiagnoseSurvey(context, survey, attempt.adjustment.views)) {
-    attempt.notes.push_back(*diagnosis);
-    attempt.is_refused = true;
-    return attempt;
+// Registers by a survey, whose accuracy the tags themselves may contradict.
+Registration RegisterWithMap(const SurveyEvidence& evidence, const RegisterViewsOptions& options,
+                             const FeatureModel& features) {
+  SurveyVerdict verdict = CheckSurvey(evidence, options);
+  const TagsOnSurfaces on_surfaces = LayTagsOnSurfaces(options.survey_sigma_m, verdict);
+  if (!features.views.empty())
+    verdict.attempt = RegisterBySurvey(verdict.evidence, verdict.options, features);
+  SurveyAttempt& attempt = verdict.attempt;
+  Registration registration;
+  registration.notes = attempt.notes;
+  registration.notes.insert(registration.notes.end(), verdict.notes.begin(), verdict.notes.end());
+  registration.survey_sigma_m = evidence.survey.empty() ? 0 : options.survey_sigma_m;
+  registration.tags_on_surfaces = on_surfaces;
+  if (attempt.is_refused) {
+    registration.message = attempt.notes.back().message;
+    return registration;
   }
-  StartViews(context, attempt.adjustment.views, attempt.notes);
-  Adjust(context, features, attempt.adjustment, attempt.notes);
-  return attempt;
-}
-
-// Corrects the focal lengths that the attempt's tags contradict, or that earlier ones did. Returns whether
-// any changed. `focal` is relative to the cameras as given.
-bool Refocus(const BundleContext& context, const BundleAdjustment& solved, std::vector<Camera>& cameras,
-             FocalScales& focal) {
-  bool is_changed = false;
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    std::optional<FocalScale> its = EstimateFocalScale(context, solved, static_cast<int>(c));
-    if (!its || (!its->IsOff() && !focal[c])) continue;
-    if (std::abs(its->scale - 1) < its->sigma / 2) its->scale = 1;
-    is_changed = is_changed || its->scale != 1;
-    cameras[c] = WithFocalScale(cameras[c], its->scale);
-    if (focal[c]) its->scale *= focal[c]->scale;
-    focal[c] = its;
+  Summarise({attempt.cameras, verdict.options}, attempt.adjustment, attempt.covariance, attempt.focal,
+            registration);
+  if (verdict.options.survey_sigma_m > options.survey_sigma_m) {
+    registration.survey_sigma_m =
+        verdict.options.survey_sigma_m * std::sqrt(attempt.covariance.variance_factor);
+    NameSurveySigma(options.survey_sigma_m, registration);
   }
-  return is_changed;
-}
-
-// Corrects focal lengths so far off that the survey's tags do not agree at all.
-void RefocusRoughly(const std::map<int, SurveyedTag>& survey, const std::vector<ViewDetections>& detections,
-                    const RegisterViewsOptions& options, std::vector<Camera>& cameras, FocalScales& focal) {
-  const BundleContext context{cameras, options};
-  std::vector<RegistrationNote> said_later;
-  const std::vector<BundleView> views = ViewsOf(context, survey, detections, said_later);
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const double scale = FindFocalScale(context, views, static_cast<int>(c));
-    if (scale == 1) continue;
-    cameras[c] = WithFocalScale(cameras[c], scale);
-    constexpr double kGridSigma = 0.05;
-    focal[c] = FocalScale{scale, kGridSigma, {}};
-  }
+  if (evidence.survey.empty() && registration.points > 0) registration.frame = "surface";
+  return registration;
 }
 
 }  // namespace
@@ -278,26 +274,25 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
   CheckOptions(options);
   if (survey.empty() && options.tag_size_m > 0)
     return RegisterWithoutMap(cameras, options, detections, features);
-  const std::map<int, SurveyedTag> survey_by_id = IndexSurvey(survey);
-  std::vector<Camera> focused = cameras;
-  FocalScales focal(cameras.size());
-  RefocusRoughly(survey_by_id, detections, options, focused, focal);
-  const BundleContext with_focus{focused, options};
-  Attempt attempt = RegisterBySurvey(with_focus, survey_by_id, detections, features);
-  constexpr int kMostRounds = 4;
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (attempt.is_refused || !Refocus(with_focus, attempt.adjustment, focused, focal)) break;
-    attempt = RegisterBySurvey(with_focus, survey_by_id, detections, features);
+  return RegisterWithMap({cameras, IndexSurvey(survey), detections, {}}, options, features);
+}
+
+void KeepViews(const std::vector<bool>& is_kept, Registration& registration) {
+  if (is_kept.size() != registration.views.size())
+    throw std::invalid_argument("KeepViews: expected one flag for each view");
+  std::vector<RegisteredView> views;
+  std::vector<Eigen::Index> rows;
+  views.reserve(is_kept.size());
+  rows.reserve(6 * is_kept.size());
+  for (std::size_t i = 0; i < is_kept.size(); ++i) {
+    if (!is_kept[i]) continue;
+    views.push_back(registration.views[i]);
+    for (Eigen::Index k = 0; k < 6; ++k) rows.push_back(6 * static_cast<Eigen::Index>(i) + k);
   }
-  Registration registration;
-  registration.notes = attempt.notes;
-  if (attempt.is_refused) {
-    registration.message = attempt.notes.back().message;
-    return registration;
-  }
-  Summarise(with_focus, attempt.adjustment, focal, registration);
-  if (survey.empty() && registration.points > 0) registration.frame = "surface";
-  return registration;
+  registration.views = std::move(views);
+  if (registration.pose_covariance.size() == 0) return;
+  const Eigen::MatrixXd kept = registration.pose_covariance(rows, rows);
+  registration.pose_covariance = kept;
 }
 
 }  // namespace luxfit

@@ -18,6 +18,16 @@
 // one tag, and the scale comes from its size. Features whose points lie on surfaces of the scene
 // (calib/register/mesh_alignment.h) need no tags at all.
 //
+// Tags that hang further off their places than survey_sigma allows show their own sigma:
+//   sigma^2 = sum |d_t|^2 / (3 T - tr(Cov_d) / sigma^2)   (calib/register/internal/bundle/survey_scale.h)
+// It takes the place of the given one, unless one moved tag explains all.
+//
+// Such tags are laid on the surfaces of the scene that they hang on, where `surface` has them. The tape was
+// wrong, but a sticker lies on its wall: along the surface's normal n the given sigma holds, in the plane the
+// larger one,
+//   |d_t|^2 / survey_sigma^2  becomes  |(I - n n^T) d_t|^2 / survey_sigma^2 + (n . d_t)^2 / given_sigma^2
+// (calib/register/internal/survey_on_surfaces.h). So the frame is held by the scene, not by the survey.
+//
 // Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by those that the tags
 // show: `focal_scale`, calib/register/internal/focal_check.h. The poses' covariance then holds their
 // uncertainty.
@@ -63,14 +73,30 @@ struct RegistrationNote {
   int tag_id = -1;   // -1 where it concerns a view
   // no_tags | pose_ambiguous | pose_uncertain | view_disagrees | tag_disagrees | tag_unknown | tag_duplicated
   // | tag_sizes_wrong | map_mirrored | map_turned | features_unaligned | features_disagree | tag_unplaced
+  // | survey_less_accurate
   std::string code;
   std::string message;  // a sentence for the user
   std::string remedy;
 };
 
+// Tells whether surveyed tags were laid on the surfaces of the scene.
+struct TagsOnSurfaces {
+  int used = 0;        // tags that lie on a surface; 0: their surveyed places alone count
+  int candidates = 0;  // tags that hang near a surface
+  int seen = 0;        // surveyed tags in the photos
+  std::string reason;  // of the decision; empty: not tried
+};
+
 struct Registration {
   std::vector<RegisteredView> views;  // those registered, in input order
+  // 6V x 6V, six for each view in their order, as RegisteredView::covariance, which is its diagonal block. All
+  // poses share the errors of the tags: differences of poses are better known than poses.
+  Eigen::MatrixXd pose_covariance;
   std::vector<RegistrationNote> notes;
+  // Sigma of each surveyed tag's place per axis (in the plane, for tags on surfaces): as given, or larger where
+  // the tags show it; 0 without a survey.
+  double survey_sigma_m = 0;
+  TagsOnSurfaces tags_on_surfaces;
   double reprojection_rms_px = 0;   // over every corner of every view
   double tag_size_error = 0;        // e: tags are (1 + e) times as large as surveyed
   double tag_size_error_sigma = 0;  // 0 if it was held
@@ -85,13 +111,22 @@ struct Registration {
   bool IsUsable() const { return converged && !views.empty(); }
 };
 
+// Holds the surfaces of a scene as triangles.
+struct TriangleSurface {
+  Eigen::Matrix3Xd vertices_m;  // in world
+  Eigen::Matrix3Xi triangles;   // indices of vertices, one triangle for each column
+};
+
 struct RegisterViewsOptions {
   // Side of every tag's black square where there is no survey, so that places are estimated. 0: there is a
   // survey.
   double tag_size_m = 0;
-  // Sigma of each surveyed tag's place per axis: a careful laser measure, the thickness of a sticker. 0:
-  // exact.
+  // Sigma of each surveyed tag's place per axis: a careful laser measure, the thickness of a sticker. The
+  // tags may show a larger one. 0: exact.
   double survey_sigma_m = 0.001;
+  // Surfaces of the scene that surveyed tags may hang on, in the frame of the survey. Tried where the survey is
+  // less accurate than given. Empty: not tried.
+  TriangleSurface surface;
   double tag_size_sigma =
       0.005;                  // relative, common to all tags: printers scale by as much; 0: sizes are exact
   double huber_sigmas = 2.5;  // loss switches from squared to linear here
@@ -113,6 +148,10 @@ Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector
 Registration RegisterViews(const std::vector<Camera>& cameras, const std::vector<SurveyedTag>& survey,
                            const std::vector<ViewDetections>& detections, const FeatureModel& features,
                            const RegisterViewsOptions& options = {});
+
+// Leaves out the views whose flag is false, with their rows of the covariance. Throws std::invalid_argument
+// unless there is one flag for each view.
+void KeepViews(const std::vector<bool>& is_kept, Registration& registration);
 
 }  // namespace luxfit
 

@@ -1,6 +1,7 @@
 #include "forward/light/illuminance.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "forward/factors/form_factors.h"
 #include "forward/light/internal/direct_columns.h"
@@ -10,31 +11,53 @@
 namespace luxfit {
 namespace {
 
-// Counts the columns of light: luminaires, their parameters, then reflectances luminaire-major.
+// Counts the columns of light: luminaires, (sums of) their parameters, then reflectances, sum-major.
 struct Columns {
   Eigen::Index lamps = 0, parameters = 0;
   const std::vector<int>& materials;
+  Eigen::SparseMatrix<float> sum = {};  // lamps x sums
 
   Eigen::Index lit() const { return lamps + parameters; }
-  Eigen::Index albedo(Eigen::Index lamp, size_t material) const {
-    return lit() + lamp * static_cast<Eigen::Index>(materials.size()) + static_cast<Eigen::Index>(material);
+  Eigen::Index sums() const { return materials.empty() ? 0 : sum.cols(); }
+  Eigen::Index albedo(Eigen::Index of_sum, size_t material) const {
+    return lit() + of_sum * static_cast<Eigen::Index>(materials.size()) + static_cast<Eigen::Index>(material);
   }
 };
 
+Eigen::SparseMatrix<float> SumsOrEach(const Eigen::SparseMatrix<float>& sums, Eigen::Index terms) {
+  if (sums.cols() > 0) return sums;
+  Eigen::SparseMatrix<float> each(terms, terms);
+  each.setIdentity();
+  return each;
+}
+
+// Returns columns of luminaires, and sums of those of parameters.
+Eigen::MatrixXf Summed(Eigen::MatrixXf columns, Eigen::Index lamps, const Eigen::SparseMatrix<float>& sum) {
+  if (sum.cols() == 0) return columns;
+  Eigen::MatrixXf summed(columns.rows(), lamps + sum.cols());
+  summed.leftCols(lamps) = columns.leftCols(lamps);
+  summed.rightCols(sum.cols()) = columns.rightCols(columns.cols() - lamps) * sum;
+  return summed;
+}
+
 // Returns receivers x columns, by way of the indirect light of every element.
 Eigen::MatrixXf GatherThroughElements(const Room& room, const Receivers& receivers,
-                                      const Eigen::MatrixXf& at_elements, const Eigen::VectorXd& albedo,
+                                      const Eigen::MatrixXf& at_elements, const Transport& transport,
                                       const Columns& columns, const Eigen::MatrixXf& exitance) {
   const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
   Eigen::MatrixXf reflected = indirect;  // exitance of elements
   reflected.leftCols(columns.lit()) += at_elements;
-  const Eigen::MatrixXf lit = reflected.leftCols(columns.lamps);
-  const Eigen::VectorXf element_albedo = ElementAlbedo(room.patches, albedo);
+  const Eigen::MatrixXf lit = columns.sums() > 0
+                                  ? Eigen::MatrixXf(reflected.leftCols(columns.lamps) * columns.sum)
+                                  : Eigen::MatrixXf();
+  const Eigen::VectorXf element_albedo =
+      ElementAlbedo(room.patches, transport.albedo(), transport.patch_factor());
   reflected.array().colwise() *= element_albedo.array();
   for (size_t m = 0; m < columns.materials.size(); ++m) {
     const Eigen::VectorXf of_material =
-        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(albedo.size(), columns.materials[m]));
-    for (Eigen::Index k = 0; k < columns.lamps; ++k)
+        ElementAlbedo(room.patches, Eigen::VectorXd::Unit(transport.albedo().size(), columns.materials[m]),
+                      transport.patch_factor());
+    for (Eigen::Index k = 0; k < columns.sums(); ++k)
       reflected.col(columns.albedo(k, m)) += of_material.cwiseProduct(lit.col(k));
   }
   return GatherAtReceivers(receivers, indirect, reflected);
@@ -61,18 +84,20 @@ Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
     const auto asked = std::find(columns.materials.begin(), columns.materials.end(), static_cast<int>(m));
     if (asked == columns.materials.end()) continue;
     const auto column = static_cast<size_t>(asked - columns.materials.begin());
-    for (Eigen::Index k = 0; k < columns.lamps; ++k)
-      gathered.col(columns.albedo(k, column)).tail(sensors) += reflected.col(k);
+    const Eigen::MatrixXf lit = reflected.leftCols(columns.lamps) * columns.sum;
+    for (Eigen::Index k = 0; k < columns.sums(); ++k)
+      gathered.col(columns.albedo(k, column)).tail(sensors) += lit.col(k);
   }
   return gathered;
 }
 
 Eigen::MatrixXf Gather(const Room& room, const Receivers& receivers, const Eigen::MatrixXf& at_elements,
-                       const Eigen::VectorXd& albedo, const Columns& layout,
-                       const Eigen::MatrixXf& exitance) {
+                       const Transport& transport, const Columns& layout, const Eigen::MatrixXf& exitance) {
   const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
-  return (is_prepared ? GatherPrepared : GatherThroughElements)(room, receivers, at_elements, albedo, layout,
-                                                                exitance);
+  // The products are by material.
+  if (is_prepared && transport.patch_factor().size() == 0)
+    return GatherPrepared(room, receivers, at_elements, transport.albedo(), layout, exitance);
+  return GatherThroughElements(room, receivers, at_elements, transport, layout, exitance);
 }
 
 }  // namespace
@@ -90,35 +115,35 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
                                const std::vector<Luminaire>& luminaires, const Transport& transport,
                                const DerivativeRequest& derivatives) {
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
-  const Eigen::Index parameters = static_cast<Eigen::Index>(derivatives.parameters.size());
   const Eigen::Index materials = static_cast<Eigen::Index>(derivatives.materials.size());
   const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
 
   DirectColumns columns = ComputeDirectColumns(room, receivers, visibility, luminaires, derivatives);
-  const Eigen::MatrixXf& at_elements = columns.elements;
-  Eigen::MatrixXf& at_receivers = columns.receivers;
+  const Eigen::MatrixXf at_elements = Summed(std::move(columns.elements), lamps, derivatives.parameter_sum);
+  Eigen::MatrixXf at_receivers = Summed(std::move(columns.receivers), lamps, derivatives.parameter_sum);
+  const Columns layout{lamps, at_receivers.cols() - lamps, derivatives.materials,
+                       SumsOrEach(derivatives.luminaire_sum, lamps)};
+  const Eigen::Index of_albedo = layout.sums() * materials;
 
   Illuminance result;
   result.direct = at_receivers.leftCols(lamps);
-  result.d_albedo.setZero(receivers.count(), lamps * materials);
+  result.d_albedo.setZero(receivers.count(), of_albedo);
   if (elements > 0) {
     const Eigen::MatrixXf patch_direct = PatchMean(room.patches, at_elements);
-    Eigen::MatrixXf exitance(patch_direct.rows(), lamps + parameters + lamps * materials);
-    exitance.leftCols(lamps + parameters) = transport.Exitance(patch_direct);
+    Eigen::MatrixXf exitance(patch_direct.rows(), layout.lit() + of_albedo);
+    exitance.leftCols(layout.lit()) = transport.Exitance(patch_direct);
     if (materials > 0) {
-      const Eigen::MatrixXf patch_total =
-          patch_direct.leftCols(lamps) + transport.Irradiance(exitance.leftCols(lamps));
-      exitance.rightCols(lamps * materials) =
-          transport.ExitanceDerivatives(derivatives.materials, patch_total);
+      const Eigen::MatrixXf summed_direct = patch_direct.leftCols(lamps) * layout.sum;
+      const Eigen::MatrixXf summed_exitance = exitance.leftCols(lamps) * layout.sum;
+      exitance.rightCols(of_albedo) = transport.ExitanceDerivatives(
+          derivatives.materials, summed_direct + transport.Irradiance(summed_exitance));
     }
-    const Columns layout{lamps, parameters, derivatives.materials};
-    const Eigen::MatrixXf gathered =
-        Gather(room, receivers, at_elements, transport.albedo(), layout, exitance);
-    at_receivers += gathered.leftCols(lamps + parameters);
-    result.d_albedo = gathered.rightCols(lamps * materials);
+    const Eigen::MatrixXf gathered = Gather(room, receivers, at_elements, transport, layout, exitance);
+    at_receivers += gathered.leftCols(layout.lit());
+    result.d_albedo = gathered.rightCols(of_albedo);
   }
   result.total = at_receivers.leftCols(lamps);
-  result.d_luminaire = at_receivers.rightCols(parameters);
+  result.d_luminaire = at_receivers.rightCols(layout.parameters);
   return result;
 }
 
@@ -132,7 +157,7 @@ std::vector<Eigen::MatrixXf> ComputeTotals(const Room& room, const Receivers& re
   const Eigen::MatrixXf patch_direct = PatchMean(room.patches, direct.elements);
   const Columns layout{static_cast<Eigen::Index>(luminaires.size()), 0, {}};
   for (size_t i = 0; i < transports.size(); ++i)
-    totals[i] += Gather(room, receivers, direct.elements, transports[i]->albedo(), layout,
+    totals[i] += Gather(room, receivers, direct.elements, *transports[i], layout,
                         transports[i]->Exitance(patch_direct));
   return totals;
 }
@@ -141,9 +166,10 @@ Illuminance ComputeDirectIlluminance(const Room& room, const Receivers& receiver
                                      const LuminaireVisibility& visibility,
                                      const std::vector<Luminaire>& luminaires,
                                      const DerivativeRequest& derivatives) {
-  const Eigen::MatrixXf columns =
-      ComputeReceiverColumns(room, receivers, visibility, luminaires, derivatives);
   const auto lamps = static_cast<Eigen::Index>(luminaires.size());
+  const Eigen::MatrixXf columns =
+      Summed(ComputeReceiverColumns(room, receivers, visibility, luminaires, derivatives), lamps,
+             derivatives.parameter_sum);
   Illuminance result;
   result.direct = columns.leftCols(lamps);
   result.total = result.direct;

@@ -6,7 +6,8 @@
 //
 // E is in lx per lm of luminaire k. D: direct illuminance, V: visible share, F and G: form factors, M:
 // exitance. Columns of d_luminaire are in the order of `parameters`, those of d_albedo luminaire-major: k *
-// materials + m. Reflected light takes on the surfaces' colours, so each channel has its own interreflection.
+// materials + m. What a caller will add up anyway (luminaires that are dimmed alike, parameters that they share) is
+// added up here, before it is reflected: that is where each column costs. Reflected light takes on the surfaces' colours, so each channel has its own interreflection.
 //
 // Light is linear in the direct light of the luminaires. Derivatives with respect to a luminaire's parameter
 // take the same path with dD in place of D: one more column each and no further factorisation. Derivatives
@@ -18,6 +19,7 @@
 #define LUXFIT_FORWARD_LIGHT_ILLUMINANCE_H_
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "forward/light/room.h"
@@ -38,19 +40,21 @@ enum class LuminaireQuantity {
   kHeading,     // rad: turned about the aim, along towards across (clockwise seen from above)
   kGammaNode,   // share of the flux of one node of its table (forward/luminaire/luminaire_parts.h)
   kCell,        // share of the flux of one cell
+  kSide,        // share of the flux of one side of its table, towards the aim or against it
 };
 
 struct LuminaireParameter {
   int luminaire = 0;
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
-  int part = 0;  // for kGammaNode and kCell
+  int part = 0;  // for kGammaNode, kCell and kSide
 };
 
 struct Illuminance {
   Eigen::MatrixXf total;        // receivers x luminaires, lx per lm
   Eigen::MatrixXf direct;       // its direct part
-  Eigen::MatrixXf d_luminaire;  // receivers x parameters
-  Eigen::MatrixXf d_albedo;     // receivers x (luminaires * materials)
+  Eigen::MatrixXf d_luminaire;  // receivers x parameters, or columns of `parameter_sum`
+  Eigen::MatrixXf
+      d_albedo;  // receivers x (luminaires * materials), or columns of `luminaire_sum` for luminaires
 };
 
 struct DerivativeRequest {
@@ -60,6 +64,9 @@ struct DerivativeRequest {
   // (forward/direct/internal/shadowed_light.h). It costs some hundred rays per place. Fits that update
   // visibility between their steps do without.
   bool moving_shadows = false;
+  // Sums, one a column, with the lumens of each term. Empty: each luminaire and parameter by itself, per lumen.
+  Eigen::SparseMatrix<float> luminaire_sum;  // luminaires x sums, for d_albedo
+  Eigen::SparseMatrix<float> parameter_sum;  // parameters x sums, for d_luminaire
 };
 
 // Computes the illuminance; `albedo` by material of the scene.

@@ -152,6 +152,7 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   photometry.format = file.version == IesVersion::k1986 ? "IES LM-63-1986" : FirstLineOf(file.version);
   photometry.keywords = file.keywords;
   if (file.lumens_per_lamp > 0) photometry.lamp_flux_lm = file.lamps * file.lumens_per_lamp;
+  photometry.factor = scale;
   const Opening opening = OpeningOf(file);
   photometry.shape = opening.shape;
   photometry.size_m = opening.size_m;

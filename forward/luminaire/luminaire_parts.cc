@@ -1,5 +1,6 @@
 #include "forward/luminaire/luminaire_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -14,9 +15,33 @@ bool IsRotational(const Luminaire& luminaire) {
          luminaire.table->c_rad.size() == 2;
 }
 
+// The node at the horizontal is the lower side's, with a tolerance for angles from files in degrees.
+bool IsAbove(double gamma_rad) { return gamma_rad > M_PI / 2 + 1e-6; }
+
+constexpr Eigen::Index kSides = 2;
+
 Eigen::Index PartCount(const Luminaire& luminaire, PartKind kind) {
   if (kind == PartKind::kCell) return HasUnevenEmission(luminaire) ? luminaire.emission.size() : 0;
-  return IsRotational(luminaire) ? static_cast<Eigen::Index>(luminaire.table->gamma_rad.size()) : 0;
+  if (!IsRotational(luminaire)) return 0;
+  const std::vector<double>& gamma_rad = luminaire.table->gamma_rad;
+  if (kind == PartKind::kGammaNode) return static_cast<Eigen::Index>(gamma_rad.size());
+  return !IsAbove(gamma_rad.front()) && IsAbove(gamma_rad.back()) ? kSides : 0;
+}
+
+// Shares of the flux by node.
+Eigen::VectorXd NodeShares(const IntensityTable& table) {
+  const auto nodes = static_cast<Eigen::Index>(table.gamma_rad.size());
+  return Eigen::Map<const Eigen::VectorXd>(table.cd_per_lm.data(), nodes)
+      .cwiseProduct(NodeFlux(table.gamma_rad));
+}
+
+// Shares of the flux by side and node, sides x nodes.
+Eigen::MatrixXd SharesBySide(const IntensityTable& table) {
+  const Eigen::VectorXd shares = NodeShares(table);
+  Eigen::MatrixXd by_side = Eigen::MatrixXd::Zero(kSides, shares.size());
+  for (Eigen::Index j = 0; j < shares.size(); ++j)
+    by_side(IsAbove(table.gamma_rad[static_cast<size_t>(j)]) ? 1 : 0, j) = shares[j];
+  return by_side;
 }
 
 }  // namespace
@@ -45,8 +70,33 @@ Eigen::VectorXd PartShares(const Luminaire& luminaire, PartKind kind) {
   const Eigen::Index n = PartCount(luminaire, kind);
   if (n == 0) return {};
   if (kind == PartKind::kCell) return Eigen::Map<const Eigen::VectorXd>(luminaire.emission.data(), n);
-  const IntensityTable& table = *luminaire.table;
-  return Eigen::Map<const Eigen::VectorXd>(table.cd_per_lm.data(), n).cwiseProduct(NodeFlux(table.gamma_rad));
+  if (kind == PartKind::kSide) return SharesBySide(*luminaire.table).rowwise().sum();
+  return NodeShares(*luminaire.table);
+}
+
+Eigen::MatrixXd NodesOfSides(const Luminaire& luminaire) {
+  if (PartCount(luminaire, PartKind::kSide) == 0)
+    throw std::invalid_argument("NodesOfSides: expected a table with two sides");
+  Eigen::MatrixXd nodes = SharesBySide(*luminaire.table);
+  for (Eigen::Index side = 0; side < kSides; ++side) {
+    const double share = nodes.row(side).sum();
+    if (share > 0) nodes.row(side) /= share;
+  }
+  return nodes;
+}
+
+IntensityTable TwoSidedTable(double share_up) {
+  if (!(share_up >= 0) || !(share_up <= 1))
+    throw std::invalid_argument("TwoSidedTable: expected a share from 0 to 1");
+  constexpr int kNodes = 73;  // every 2.5 degrees: the chords lie within 0.03 % of the cosine
+  std::vector<double> gamma_rad, intensity;
+  gamma_rad.reserve(kNodes), intensity.reserve(kNodes);
+  for (int j = 0; j < kNodes; ++j) {
+    gamma_rad.push_back(j * M_PI / (kNodes - 1));
+    const double cosine = j == kNodes / 2 ? 0 : std::cos(gamma_rad.back());
+    intensity.push_back(std::max((1 - share_up) * cosine, -share_up * cosine));
+  }
+  return RotationalTable(gamma_rad, intensity);
 }
 
 Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen::VectorXd& shares) {
@@ -62,9 +112,12 @@ Luminaire WithPartShares(const Luminaire& luminaire, PartKind kind, const Eigen:
     return result;
   }
   const std::vector<double>& gamma_rad = luminaire.table->gamma_rad;
-  const Eigen::VectorXd cd_per_lm = shares.cwiseQuotient(NodeFlux(gamma_rad)) / sum;
+  const Eigen::VectorXd node_shares =
+      kind == PartKind::kSide ? (NodesOfSides(luminaire).transpose() * shares).eval() : shares;
+  const Eigen::VectorXd cd_per_lm = node_shares.cwiseQuotient(NodeFlux(gamma_rad)) / sum;
+  const auto nodes = static_cast<Eigen::Index>(gamma_rad.size());
   auto table = std::make_shared<IntensityTable>(
-      RotationalTable(gamma_rad, {cd_per_lm.data(), cd_per_lm.data() + parts}));
+      RotationalTable(gamma_rad, {cd_per_lm.data(), cd_per_lm.data() + nodes}));
   table->table_from_luminaire = luminaire.table->table_from_luminaire;
   result.table = std::move(table);
   return result;
@@ -75,7 +128,7 @@ Luminaire PartOf(const Luminaire& luminaire, PartKind kind, int part) {
   if (part < 0 || part >= parts)
     throw std::invalid_argument("PartOf: expected a part that the luminaire has");
   Luminaire alone = WithPartShares(luminaire, kind, Eigen::VectorXd::Unit(parts, part));
-  if (kind == PartKind::kGammaNode) {
+  if (kind != PartKind::kCell) {
     // The number of points on the luminous surface goes by the lobe's peak.
     auto table = std::make_shared<IntensityTable>(*alone.table);
     table->peak_cd_per_lm = luminaire.table->peak_cd_per_lm;

@@ -79,6 +79,24 @@ Eigen::Vector3d DirectionOf(double c_rad, double gamma_rad) {
   return {std::sin(gamma_rad) * std::cos(c_rad), std::sin(gamma_rad) * std::sin(c_rad), -std::cos(gamma_rad)};
 }
 
+// Returns whether the table is one plane, repeated after a whole turn: fits of free tables ask for no other.
+bool IsOnePlaneAllRound(const IntensityTable& table) {
+  return table.c_rad.size() == 2 && table.c_rad.back() - table.c_rad.front() > 2 * M_PI - kSameAngle;
+}
+
+// `d`: the direction in the table's frame; `sine`: of its gamma.
+TableIntensity TowardsInOnePlane(const IntensityTable& table, const TableCell& g, const Eigen::Vector3d& d,
+                                 double sine) {
+  const double* at = table.cd_per_lm.data() + g.index;
+  TableIntensity result;
+  result.cd_per_lm = at[0] + g.share * (at[1] - at[0]);
+  if (sine < kSameAngle) return result;
+  const double d_gamma = (at[1] - at[0]) / g.width, cot = -d.z() / sine;
+  result.d_direction =
+      table.table_from_luminaire.transpose() * (d_gamma * Eigen::Vector3d(cot * d.x(), cot * d.y(), sine));
+  return result;
+}
+
 }  // namespace
 
 IntensityTable ExpandPlanes(const std::vector<double>& c_rad, const std::vector<double>& gamma_rad,
@@ -155,9 +173,10 @@ bool IsSymmetricAboutAim(const IntensityTable& table) {
 
 TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d d = table.table_from_luminaire * direction;
-  const double sine = std::hypot(d.x(), d.y());
+  const double sine = std::sqrt(d.x() * d.x() + d.y() * d.y());
   const TableCell g = CellOf(table.gamma_rad, std::atan2(sine, -d.z()));
   if (g.index < 0) return {};
+  if (IsOnePlaneAllRound(table)) return TowardsInOnePlane(table, g, d, sine);
   const double first = table.c_rad.front();
   double c_angle = sine > 0 ? std::atan2(d.y(), d.x()) : 0;
   // Rounding must not carry the first plane once round.

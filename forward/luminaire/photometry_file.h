@@ -34,7 +34,7 @@
 namespace luxfit {
 
 // Holds one line of description, in the order of the file. A line without a name (1986) has an empty one.
-// Bytes are those of the file: usually Latin-1.
+// Text is UTF-8, whatever the file is in.
 struct PhotometryKeyword {
   std::string name, text;
 };
@@ -46,6 +46,7 @@ struct PhotometryFile {
   double luminaire_flux_lm = 0;                      // integral of the file's intensities
   double stated_flux_lm = 0;                         // what the file says of the same; 0: nothing
   double lamp_flux_lm = 0;                           // of its lamps; 0: absolute photometry
+  double factor = 1;                                 // the file's own of its intensities: multiplier, ballast
   LuminaireShape shape = LuminaireShape::kPoint;     // of the luminous opening, seen along the aim
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // along C0, across; or a diameter
   std::vector<std::string> notes;

@@ -9,10 +9,12 @@
 // luminaire that it came from. Columns of the matrices are independent light sources (or derivatives of
 // them); rows are patches.
 //
-// Throws std::invalid_argument for reflectances outside [0, 1), or when S is not positive definite (a closed
-// room that absorbs nothing has no solution).
-// Source: Goral et al. (1984), "Modeling the interaction of light between diffuse surfaces"; symmetrised
-// form: Neumann and Neumann (1990).
+// Single patches may depart from their material: rho_i = rho_m(i) f_i, at most kMostReflectance.
+//
+// Throws std::invalid_argument for reflectances outside [0, 1), factors below 0 or not one for each patch, or
+// when S is not positive definite (a closed room that absorbs nothing has no solution). Source: Goral et al.
+// (1984), "Modeling the interaction of light between diffuse surfaces"; symmetrised form: Neumann and Neumann
+// (1990).
 #ifndef LUXFIT_FORWARD_RADIOSITY_TRANSPORT_H_
 #define LUXFIT_FORWARD_RADIOSITY_TRANSPORT_H_
 
@@ -34,8 +36,11 @@ TransportGeometry MakeTransportGeometry(const Patches& patches, const FormFactor
 
 class Transport {
  public:
-  // Factors S; `albedo` by material. `geometry` must outlive it.
-  Transport(const TransportGeometry& geometry, const Eigen::VectorXd& albedo);
+  static constexpr double kMostReflectance = 0.98;
+
+  // Factors S; `albedo` by material; `patch_factor`: f, empty for 1. `geometry` must outlive it.
+  Transport(const TransportGeometry& geometry, const Eigen::VectorXd& albedo,
+            const Eigen::VectorXd& patch_factor = {});
 
   // Returns the exitance of every patch (patches x columns, lm/m2) for its direct illuminance (lx).
   Eigen::MatrixXf Exitance(const Eigen::MatrixXf& direct_lx) const;
@@ -43,15 +48,16 @@ class Transport {
   Eigen::MatrixXf Irradiance(const Eigen::MatrixXf& exitance) const;
   // Returns d(exitance)/d(albedo of each material), for the illuminance E = direct + Irradiance(exitance) of
   // the same light: patches x (columns of E, each with its materials).
-  //   dM = 1_m E + rho F dM   =>   dM = 1_m E + Exitance(F 1_m E)
+  //   dM = f 1_m E + rho F dM   =>   dM = f 1_m E + Exitance(F f 1_m E)
   Eigen::MatrixXf ExitanceDerivatives(const std::vector<int>& materials,
                                       const Eigen::MatrixXf& illuminance_lx) const;
 
   const Eigen::VectorXd& albedo() const { return albedo_; }
+  const Eigen::VectorXd& patch_factor() const { return patch_factor_; }  // as given
 
  private:
   const TransportGeometry& geometry_;
-  Eigen::VectorXd albedo_;
+  Eigen::VectorXd albedo_, patch_factor_;
   Eigen::VectorXf root_albedo_, root_area_;
   Eigen::MatrixXf factor_;  // lower Cholesky factor of S
 };

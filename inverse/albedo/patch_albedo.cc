@@ -11,12 +11,12 @@
 #include "calib/luminance/median.h"
 #include "inverse/albedo/internal/albedo_ratios.h"
 #include "inverse/model/fit_uncertainty.h"
+#include "inverse/model/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kLargestAlbedoZ2 = 9;  // limit of z^2 for one observation left out
-constexpr double kMadToSigma = 1.4826;
 constexpr std::array<AlbedoDetail, 3> kDetails = {AlbedoDetail::kMaterial, AlbedoDetail::kPatch,
                                                   AlbedoDetail::kElement};
 
@@ -108,8 +108,7 @@ class MaterialFit {
   }
   double WeightOf(const AlbedoRatio& ratio, double albedo, double model_error) const {
     const double sigma = Sigma(ratio, albedo, model_error);
-    const double z = (ratio.value - albedo) / (options_.robust_sigmas * sigma);
-    return 1 / (sigma * sigma * (1 + z * z));
+    return CauchyWeight((ratio.value - albedo) / sigma, options_.robust_sigmas) / (sigma * sigma);
   }
 
   // Returns a sigma that is cluster-robust by facet and state, never below that of independent errors.
@@ -148,7 +147,7 @@ double ModelError(const Ratios& ratios, const std::vector<MaterialFit>& fits,
         noises.push_back(ratios[fit.own()[i]].relative_noise);
       }
     }
-    const double size = kMadToSigma * Median(std::move(sizes)), noise = Median(std::move(noises));
+    const double size = kSigmaPerMad * Median(std::move(sizes)), noise = Median(std::move(noises));
     if (std::isfinite(size))
       smallest = std::min(smallest, std::sqrt(std::max(0.0, size * size - noise * noise)));
   }

@@ -179,7 +179,7 @@ ChosenCurve ChooseCurve(const StereoProblem& problem, const Eigen::VectorXd& str
     HeldOut held_out = LeaveOut(thinned, strength, kind, folds);
     if (held_out.is_at_bound && kind != CurveKind::kLambert) continue;
     // The common error is the smallest that any candidate reached.
-    sigma = std::min(sigma, std::max(1.4826 * MedianSize(held_out.residual), 1e-9));
+    sigma = std::min(sigma, std::max(kSigmaPerMad * MedianSize(held_out.residual), 1e-9));
     among.push_back(kind);
     residuals.push_back(std::move(held_out.residual));
   }

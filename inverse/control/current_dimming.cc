@@ -15,16 +15,16 @@ namespace {
 constexpr double kLeastRelativeSigma = 0.01;
 constexpr double kLeastSigmaLx = 0.05;
 
-struct WeightedRows {
+struct DimmingRows {
   Eigen::MatrixXd light;     // rows / sigma
   Eigen::VectorXd measured;  // likewise
   Eigen::VectorXd sigma;
 };
 
-WeightedRows RowsOf(const Eigen::MatrixXd& element_lx, const std::vector<ElementIlluminance>& measured) {
+DimmingRows RowsOf(const Eigen::MatrixXd& element_lx, const std::vector<ElementIlluminance>& measured) {
   const Eigen::Index rows = static_cast<Eigen::Index>(measured.size());
-  WeightedRows weighted{Eigen::MatrixXd(rows, element_lx.cols()), Eigen::VectorXd(rows),
-                        Eigen::VectorXd(rows)};
+  DimmingRows weighted{Eigen::MatrixXd(rows, element_lx.cols()), Eigen::VectorXd(rows),
+                       Eigen::VectorXd(rows)};
   for (Eigen::Index i = 0; i < rows; ++i) {
     const ElementIlluminance& e = measured[static_cast<size_t>(i)];
     if (e.element < 0 || e.element >= element_lx.rows())
@@ -51,7 +51,7 @@ CurrentDimming EstimateDimming(const Eigen::MatrixXd& element_lx,
   current.elements = static_cast<int>(measured.size());
   current.dimming = Eigen::VectorXd::Zero(luminaires);
   current.covariance = Eigen::MatrixXd::Zero(luminaires, luminaires);
-  const WeightedRows rows = RowsOf(element_lx, measured);
+  const DimmingRows rows = RowsOf(element_lx, measured);
   if (rows.measured.size() <= luminaires) return current;
   const Eigen::MatrixXd gram = rows.light.transpose() * rows.light;
   const Eigen::LDLT<Eigen::MatrixXd> factored(gram);

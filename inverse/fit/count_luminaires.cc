@@ -1,4 +1,5 @@
 #include "inverse/fit/fit_room.h"
+#include "inverse/fit/internal/early_stop.h"
 
 #include <fmt/format.h>
 
@@ -57,15 +58,18 @@ void Record(const CountChoice& choice, int most, Findings& findings) {
 
 }  // namespace
 
-int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings) {
+int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
+                    const std::function<std::string()>& stop_reason) {
   LightData data = LightOf(given).data;
   if (!data.observations.empty()) data = WithMeasuredIndirect(room, data);
+  data.checkpoint = CheckpointOf(stop_reason);
   std::vector<std::optional<Eigen::Vector3d>> known;
   for (const KnownLuminaire& luminaire : given.luminaires) known.push_back(luminaire.position_m);
   ChooseCountOptions options;
   options.max_count = max_count;
   const CountChoice choice = ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, options);
   Record(choice, options.max_count, findings);
+  if (!choice.stopped.empty()) WarnOfStop({choice.stopped, "count"}, findings);
   return std::max(1, choice.chosen);
 }
 

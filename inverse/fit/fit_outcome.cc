@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "inverse/model/internal/indirect_error.h"
 #include "inverse/model/internal/row_block.h"
 
 namespace luxfit {
@@ -24,7 +25,8 @@ bool IsLit(const RoomFit& fit, int state) {
 double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity) {
   for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
     const Parameter& p = fit.parameters[i];
-    if (!p.Is(kind, index, quantity)) continue;
+    if (p.kind != kind || !p.Concerns(index)) continue;
+    if (kind == ParameterKind::kLuminaire && p.quantity != quantity) continue;
     const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
     const auto row = static_cast<Eigen::Index>(i);
     return known ? std::sqrt(fit.covariance(row, row)) : kNotDetermined;
@@ -34,6 +36,12 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
 
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
   return fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[luminaire].flux);
+}
+
+std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit) {
+  std::vector<bool> told = MaterialsWithoutPhotos(room, fit.data, fit.fit.weight);
+  for (size_t m = 0; m < told.size(); ++m) told[m] = told[m] && fit.fit.state.albedo_free[m];
+  return told;
 }
 
 std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit) {

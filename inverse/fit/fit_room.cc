@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "forward/luminaire/photometry.h"
@@ -14,15 +13,26 @@
 #include "inverse/choose/internal/choose_model.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/enough_rows.h"
+#include "inverse/choose/internal/luminaire_types.h"
 #include "inverse/choose/internal/needless_parameters.h"
 #include "inverse/choose/internal/profile_direct_share.h"
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
+#include "inverse/choose/internal/two_sides.h"
+#include "inverse/fit/internal/detail_words.h"
+#include "inverse/fit/internal/early_stop.h"
+#include "inverse/fit/internal/expect_whole.h"
+#include "inverse/fit/internal/indirect_albedo.h"
+#include "inverse/fit/internal/match_scale.h"
+#include "inverse/fit/internal/name_in_order.h"
+#include "inverse/fit/internal/odd_luminaires.h"
 #include "inverse/fit/internal/outlines.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
+#include "inverse/fit/internal/surface_texture.h"
+#include "inverse/fit/internal/type_fluxes.h"
 #include "inverse/fit/internal/words.h"
-#include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/measured_indirect.h"
 
 namespace luxfit {
@@ -33,6 +43,7 @@ class RoomFitter {
  public:
   RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
       : room_(room), given_(given), options_(options), light_(LightOf(given)) {
+    RecordBetweenViews(light_, result_.findings);
     RecordReadings(given.meter, light_, result_.findings);
     result_.data = light_.data;
   }
@@ -41,24 +52,69 @@ class RoomFitter {
     const auto step = Begin(
         "fit", fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
                            result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
-    LightState state = StartByParts();
-    SettleScale(state);
-    LuminaireFit fit = FitToAll(state);
-    if (fit.IsUsable() && AsksForDirectShare()) {
+    LuminaireFit fit = FitInTime();
+    const bool is_whole = !result_.stopped;
+    if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, start_.priors);
       RecordDirectShare(*result_.direct_share, result_.findings);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
-    CompareDetails(fit);
+    if (is_whole) CompareDetails(fit);
+    RecordTexture(room_, fit, result_.findings);
+    result_.types = CompareTypeFluxes(fit);
+    WarnOfDeviatingFluxes(fit.state, result_.types, result_.findings);
+    WarnOfOddLuminaires(fit.state, FindOddLuminaires(fit, result_.data), result_.findings);
     result_.fit = std::move(fit);
     WarnOfMisfit(room_, result_, result_.findings);
-    RecordOutcome(given_, result_.fit, result_.findings);
+    WarnOfIndirectAlbedo(room_, result_, result_.findings);
+    RecordOutcome(given_, result_, result_.findings);
     return std::move(result_);
   }
 
  private:
+  // Fits until it is done, or until it is stopped: then to the best state so far.
+  LuminaireFit FitInTime() {
+    LuminaireFit fit;
+    try {
+      LightState state = StartByParts();
+      SettleScale(state);
+      best_ = state;
+      fit = FitToAll(state);
+    } catch (const FitStopped& stop) {
+      result_.stopped = EarlyStop{stop.what(), step_};
+      WarnOfStop(*result_.stopped, result_.findings);
+      fit = FitOfBest();
+    }
+    result_.data.checkpoint = nullptr;  // what follows is short
+    return fit;
+  }
+
+  // Returns the best state so far with its covariance, as a fit that moves nothing.
+  LuminaireFit FitOfBest() {
+    if (!is_scale_settled_) {
+      best_.camera_scale_free = start_.state.camera_scale_free;
+      best_.meter_scale_free = start_.state.meter_scale_free;
+      SettleScale(best_);
+    }
+    result_.data.checkpoint = nullptr;
+    result_.data.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
+    FitLuminairesOptions options = OfPart();
+    options.max_outer_iterations = 0;
+    options.start_is_near = true;
+    return FitLuminaires(room_, result_.data, best_, start_.priors, options);
+  }
+
+  // Returns what keeps the best state of a fit of all luminaires, and reports its rounds.
+  std::function<void(const FitRound&)> KeepBest() {
+    return [this](const FitRound& round) {
+      best_ = round.state;
+      if (options_.on_round) options_.on_round(round);
+    };
+  }
+
   // Announces a step. The caller holds the returned token until the step ends.
-  std::shared_ptr<void> Begin(const std::string& step, const std::string& words) const {
+  std::shared_ptr<void> Begin(const std::string& step, const std::string& words) {
+    step_ = step;
     return options_.on_step ? options_.on_step(step, words) : nullptr;
   }
 
@@ -72,6 +128,8 @@ class RoomFitter {
       start_ = StartFit(room_, given_, light_, data, result_.findings);
       result_.luminaire_found = start_.luminaire_found;
     }
+    best_ = start_.state;
+    result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason);
     LightState state = start_.state;
     // Without readings, the camera's scale is given or follows from a known flux.
     if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;
@@ -80,23 +138,43 @@ class RoomFitter {
     part.observations = ThinElements(data.observations, options_.max_elements_to_choose);
     FitLuminairesOptions quick;
     quick.covariance = false;
+    quick.has_texture = false;
+    quick.on_round = KeepBest();
     LuminaireFit fit = FitLuminaires(room_, part, state, start_.priors, quick);
+    if (photos && fit.status != FitStatus::kNoData) {
+      const auto lit = WithTwoSides(room_, data, fit.state, OpenDistributions(), start_.priors);
+      if (lit) fit = FitLuminaires(room_, part, *lit, start_.priors, quick);
+    }
+    quick.has_texture = true;
     if (fit.status == FitStatus::kNoData) return start_.state;
     if (photos) {
       // The radiosity is solved here, so that the models are compared with its indirect light.
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
       fit = FitLuminaires(room_, part, fit.state, start_.priors, quick);
-      data = WithModelledIndirect(room_, result_.data, fit.state);
+      is_textured_ = IsTextured(fit);
+      data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, start_.priors);
     }
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
     for (const StartComparison& c : starts.comparisons) RecordStarts(given_, c, result_.findings);
+    best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
-    state = ChooseModels(data, starts.state);
+    state = WithNamesInOrder(given_, ChooseModels(data, starts.state));
+    result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, state);
     state.camera_scale_free = start_.state.camera_scale_free;
     state.meter_scale_free = start_.state.meter_scale_free;
     return state;
+  }
+
+  // Returns by luminaire whether nothing is known of its distribution.
+  std::vector<bool> OpenDistributions() const {
+    std::vector<bool> open;
+    open.reserve(given_.luminaires.size());
+    for (size_t k = 0; k < given_.luminaires.size(); ++k)
+      open.push_back(result_.luminaire_found[k] &&
+                     given_.luminaires[k].photometry == KnownPhotometry::kNothing);
+    return open;
   }
 
   LightState ChooseModels(const LightData& data, const LightState& state) {
@@ -104,13 +182,18 @@ class RoomFitter {
     for (size_t k = 0; k < state.luminaires.size(); ++k) {
       const KnownLuminaire& known = given_.luminaires[k];
       const bool found = result_.luminaire_found[k];
-      held_.push_back({state.luminaires[k].aim, state.luminaires[k].heading});
+      held_.push_back({state.free[k].tilt ? Eigen::Vector3d(0, 0, -1) : state.luminaires[k].aim,
+                       state.luminaires[k].heading});
       open_.push_back({found && known.photometry == KnownPhotometry::kNothing,
                        found && !known.shape_is_known && known.photometry != KnownPhotometry::kFile,
                        found && !known.aim.has_value(),
                        found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, state, open_, start_.priors);
+    LightState typed = state;
+    typed.first_of_type = TypesBySwitching(data, state, open_);
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, start_.priors,
+                                                     SeenPlacesOfTypes(given_.seen, data, typed));
+    for (const PlacesChoice& c : choice.places) RecordPlaces(given_, c, result_.findings);
     for (const LuminaireChoice& c : choice.choices) RecordChoice(given_, c, result_.findings);
     for (const AimChoice& c : choice.aims)
       RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
@@ -123,7 +206,7 @@ class RoomFitter {
   // Compares finer and coarser models at the fitted state. A material that fits as well in grey becomes grey.
   void CompareDetails(const LuminaireFit& fit) {
     const auto step = Begin("detail", "");
-    RecordDetail(CompareDetail(room_, result_.data, fit), result_.findings);
+    RecordDetail(CompareDetail(room_, result_.data, fit, start_.priors), taken_, result_.findings);
     const ColourDetail colours = CompareColours(room_, result_.data, fit);
     RecordColours(given_, room_, colours, result_.findings);
     if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) result_.tint_rgb = colours.tint;
@@ -151,7 +234,7 @@ class RoomFitter {
     return state;
   }
 
-  // Fits the whole problem: to a part of the elements until nothing moves, then to all of them.
+  // Fits the whole problem: to a part of the elements until nothing moves, then to as many as the answer needs.
   LuminaireFit FitToAll(const LightState& start) {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
     LightData part = result_.data;
@@ -159,21 +242,46 @@ class RoomFitter {
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
     LuminaireFit near = FitLuminaires(room_, part, sized, start_.priors, OfPart());
     if (near.status == FitStatus::kNoData) return near;
+    near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
     near = WithoutNeedless(part, std::move(near));
+    near = WithOneOfLikeTypes(part, std::move(near));
     const ColourChoice colour =
         ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), start_.priors);
     RecordTransportColour(colour, result_.findings);
     const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, start_.priors);
     RecordBodies(bodies, result_.findings);
     FitLuminairesOptions options;
+    options.on_round = KeepBest();
     options.start_is_near = true;
+    options.has_texture = is_textured_;
     options.initial_relative_sigma = bodies.relative_sigma;
-    // Errors of neighbours are alike: more rows of a facet do not tell more.
-    const double thinning = static_cast<double>(result_.data.observations.size()) /
-                            std::max(1.0, static_cast<double>(part.observations.size()));
-    options.photo_design_effect = 1 + (colour.fit.photo_design_effect - 1) * thinning;
-    return FitLuminaires(room_, result_.data, bodies.state, start_.priors, options);
+    options.photo_design_effect = colour.fit.photo_design_effect;
+    EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, start_.priors,
+                                        options_.max_elements_to_choose, options);
+    result_.data.observations = std::move(enough.observations);
+    taken_ = std::move(enough.taken);
+    return std::move(enough.fit);
+  }
+
+  // Merges types that the fit does not tell apart.
+  LuminaireFit WithOneOfLikeTypes(const LightData& part, LuminaireFit fit) {
+    TypedState typed = WithMergedTypes(fit, open_);
+    RecordTypes(typed, result_.findings);
+    if (typed.merged.empty()) return fit;
+    return FitLuminaires(room_, part, typed.state, start_.priors, OfPart(&fit));
+  }
+
+  // Lets photos tell squares from discs where the light did not.
+  LuminaireFit WithSeenRectangles(const LightData& part, LuminaireFit fit) {
+    const std::optional<LightState> rectangles = WithRectangles(open_, part, fit);
+    if (!rectangles) return fit;
+    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, start_.priors, OfPart(&fit));
+    const LightState kept = WithExplainedRectangles(part, fit, squared, result_.findings);
+    const auto is_alike = [](const Luminaire& a, const Luminaire& b) { return a.shape == b.shape; };
+    if (std::equal(kept.luminaires.begin(), kept.luminaires.end(), rectangles->luminaires.begin(), is_alike))
+      return squared;
+    return FitLuminaires(room_, part, kept, start_.priors, OfPart(&fit));
   }
 
   // Takes outlines that the fit does not explain out of the data, and fits again without them.
@@ -185,9 +293,11 @@ class RoomFitter {
   }
 
   // `near`: a fit to the same part, from which the fit starts.
-  static FitLuminairesOptions OfPart(const LuminaireFit* near = nullptr) {
+  FitLuminairesOptions OfPart(const LuminaireFit* near = nullptr) {
     FitLuminairesOptions options;
+    options.on_round = KeepBest();
     options.subtracts_discretisation = false;
+    options.has_texture = is_textured_;
     if (near == nullptr) return options;
     options.start_is_near = true;
     options.initial_relative_sigma = near->relative_sigma;
@@ -244,27 +354,9 @@ class RoomFitter {
            "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
            "sigma"});
     }
-    if (light_.used_readings > 0 && state.camera_scale_free) MatchScale(state);
-  }
-
-  // Scales the fluxes to the readings by one linear factor, solved exactly.
-  void MatchScale(LightState& state) const {
-    LightData readings;
-    readings.dimming = result_.data.dimming;
-    for (const Reading& reading : result_.data.readings) {
-      if (reading.used) readings.readings.push_back(reading);
-    }
-    LightModel model(room_, readings);
-    model.FreezeVisibility(state);
-    const double modelled = model.Predict(state, {}, false).value.sum();
-    double measured = 0;
-    for (const Reading& reading : readings.readings) measured += reading.illuminance_lx;
-    if (!(measured > 0) || !(modelled > 0)) return;
-    for (size_t k = 0; k < state.luminaires.size(); ++k) {
-      if (state.free[k].flux && !given_.luminaires[k].flux_lm)
-        state.luminaires[k].flux_lm *= measured / modelled;
-    }
-    state.camera_scale *= modelled / measured;
+    if (light_.used_readings > 0 && state.camera_scale_free)
+      state = WithMatchedScale(room_, given_, result_.data, std::move(state));
+    is_scale_settled_ = true;
   }
 
   const Room& room_;
@@ -273,29 +365,14 @@ class RoomFitter {
   RoomLight light_;
   RoomFit result_;
   FitStart start_;
+  std::string step_;  // that is under way
+  LightState best_;   // of all luminaires, so far
+  bool is_scale_settled_ = false;
   std::vector<OpenChoice> open_;
+  bool is_textured_ = false;          // elements depart from their materials
+  TakenRows taken_;                   // elements of the last fit
   std::vector<HeldDirections> held_;  // by luminaire, before aims and headings were chosen
 };
-
-void ExpectWhole(const Room& room, const RoomObservations& given) {
-  const auto expect = [](bool holds, const char* what) {
-    if (!holds) throw std::invalid_argument(std::string("FitRoom: expected ") + what);
-  };
-  expect(!given.luminaires.empty(), "at least one luminaire");
-  expect(!given.dimming.empty(), "at least one state");
-  for (const Eigen::VectorXd& dimming : given.dimming)
-    expect(dimming.size() == static_cast<Eigen::Index>(given.luminaires.size()),
-           "one dimming a luminaire in each state");
-  const int states = static_cast<int>(given.dimming.size());
-  for (const MeterReading& reading : given.meter.readings)
-    expect(reading.state >= 0 && reading.state < states && reading.sensor_index < given.meter.sensor_count,
-           "readings of known states and sensors");
-  expect(given.albedo.empty() || given.albedo.size() == room.scene.materials.size(),
-         "one albedo a material, or none");
-  const bool has_used = std::any_of(given.meter.readings.begin(), given.meter.readings.end(),
-                                    [](const MeterReading& r) { return r.used; });
-  expect(!given.observations.empty() || has_used, "observations or readings to fit to");
-}
 
 }  // namespace
 

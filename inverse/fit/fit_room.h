@@ -57,18 +57,45 @@ struct FitRoomOptions {
   // Called as a step begins, with its name ("guess", "choose", "refine", "detail", "fit") and its
   // description. The token that it returns is released as the step ends. Empty: no calls.
   std::function<std::shared_ptr<void>(const std::string& step, const std::string& words)> on_step;
+  // Called after each round of a fit of all luminaires. Empty: no calls.
+  std::function<void(const FitRound&)> on_round;
+  // Asked before each round, from any thread, once there is a first guess: a text ends the fit with the best state
+  // so far and says why ("its budget of 600 s is spent"). Empty: the fit runs to its end.
+  std::function<std::string()> stop_reason;
+};
+
+// Says why and in which step a fit ended before it was done.
+struct EarlyStop {
+  std::string reason, step;
+};
+
+// Holds a luminaire whose flux is not that of its type: aged, dimmed, or of another kind.
+struct DeviatingFlux {
+  int luminaire = 0;
+  double ratio = 1;  // to the type's flux
+  double z = 0;      // of its logarithm, by the type's spread and its own sigma
+};
+
+// Holds luminaires that are alike but for place and flux (inverse/fit/internal/type_fluxes.h).
+struct LuminaireType {
+  std::vector<int> luminaires;  // two and more
+  double flux = 0;              // median; in lm where the fit is absolute
+  double relative_spread = 0;   // robust standard deviation; NaN: too few luminaires to tell
+  std::vector<DeviatingFlux> deviating;
 };
 
 struct RoomFit {
   LuminaireFit fit;
   LightData data;                     // data of the fit, with the views of one element merged
   std::vector<bool> luminaire_found;  // false: it has no place and gives no light
-  Eigen::Matrix3Xd albedo_rgb;        // by material; NaN where not estimated
+  std::vector<LuminaireType> types;
+  Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
   // By luminaire, relative to their mean (inverse/choose/internal/colour_detail.h). Empty where all have
   // one colour.
   Eigen::Matrix3Xd tint_rgb;
   bool absolute = false;                    // whether fluxes are in lm
   std::optional<DirectShare> direct_share;  // only for fits to readings alone with free reflectances
+  std::optional<EarlyStop> stopped;         // the fit is of the best state until then
   Findings findings;
 
   bool IsUsable() const { return fit.IsUsable(); }
@@ -89,6 +116,10 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
 // Returns whether the data determine the luminaire's flux in lumens.
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
 
+// Returns, by material, whether only indirect light tells its reflectance: it was estimated, and no photo's row of
+// weight shows its surfaces.
+std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit);
+
 // Returns the luminaires that were found. Their flux is relative where the fit is not absolute.
 std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);
 
@@ -107,8 +138,9 @@ std::vector<PredictedReading> PredictedReadings(const RoomFit& fit);
 // (inverse/choose/internal/choose_count.h). Returns the chosen number, at least 1, and records the choice.
 // Where nothing could be placed, it sets `undetermined` and a warning says why. Throws as
 // ChooseLuminaireCount does. `given.luminaires`: the luminaires that are known already. `max_count`: the
-// largest number tried.
-int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings);
+// largest number tried. `stop_reason`: as in FitRoomOptions; ends the count with the numbers compared so far.
+int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
+                    const std::function<std::string()>& stop_reason = {});
 
 }  // namespace luxfit
 

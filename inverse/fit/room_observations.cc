@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "inverse/fit/fit_room.h"
 
@@ -12,12 +14,42 @@ namespace {
 // Files round ratios and fluxes to a percent. Beyond this tolerance one of the two is wrong.
 constexpr double kFluxTolerance = 0.03;
 
+// An .ies states no light output ratio, but none is above 1. The tenth is for lumens that were rounded, or
+// measured apart. Below a tenth a factor is missing, such as that of intensities per 1000 lm.
+constexpr double kLeastOutputRatio = 0.1, kMostOutputRatio = 1.1;
+
+struct LampContradiction {
+  double lamp_flux_lm, ratio;
+};
+
+// Some files' factor makes intensities those of the stated lamps, others' those of lamps that much brighter:
+// both are allowed.
+std::optional<LampContradiction> ContradictionOfLamps(const PhotometryFile& file) {
+  if (file.stated_flux_lm > 0 || !(file.lamp_flux_lm > 0)) return std::nullopt;
+  const double with_factor_lm = file.lamp_flux_lm * file.factor, flux_lm = file.luminaire_flux_lm;
+  const double least_lm = std::min(file.lamp_flux_lm, with_factor_lm);
+  const double most_lm = std::max(file.lamp_flux_lm, with_factor_lm);
+  if (flux_lm > kMostOutputRatio * most_lm) return LampContradiction{most_lm, flux_lm / most_lm};
+  if (flux_lm < kLeastOutputRatio * least_lm) return LampContradiction{least_lm, flux_lm / least_lm};
+  return std::nullopt;
+}
+
 }  // namespace
 
 void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Findings& findings) {
   std::string because = fmt::format("the file's intensities integrate to {:.6g} lm", file.luminaire_flux_lm);
   for (const std::string& note : file.notes) because += "; " + note;
   findings.choices.push_back({"photometry of " + id, file.format + ", C0 along the heading", {}, because});
+  if (const auto lamps = ContradictionOfLamps(file)) {
+    findings.warnings.push_back(
+        {"photometry_flux",
+         fmt::format(
+             "the intensities of the photometry of {} integrate to {:.6g} lm, {:.3g} times the {:.6g} lm of "
+             "its lamps",
+             id, file.luminaire_flux_lm, lamps->ratio, lamps->lamp_flux_lm),
+         "the intensities were used; correct the lamps, lumens per lamp or multiplier of the file, or give "
+         "flux_lm"});
+  }
   const bool differs =
       file.stated_flux_lm > 0 && std::abs(file.luminaire_flux_lm / file.stated_flux_lm - 1) > kFluxTolerance;
   if (!differs) return;

@@ -66,6 +66,9 @@ struct RoomObservations {
   std::vector<Observation> observations;  // all views (inverse/observe/observe.h)
   std::vector<SeenPlace> seen;            // where luminaires show in photos
   std::vector<SeenOutline> outlines;      // how they show there
+  // Of the views that SeenOutline::view numbers, 6 rows and columns each: rotation vector in world axes (rad), camera
+  // centre in world (m) (calib/register/registration.h). Empty: poses are exact.
+  Eigen::MatrixXd pose_covariance;
   Meter meter;
   std::vector<std::optional<double>> albedo;  // by material, where known; may be empty
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known
@@ -74,7 +77,7 @@ struct RoomObservations {
 };
 
 // Records what was taken from a photometric file. Warns ("photometry_flux") where its intensities contradict
-// its stated flux.
+// its stated flux or, where it states none, that of its lamps: more than 1.1 times it, or less than a tenth.
 void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Findings& findings);
 
 }  // namespace luxfit

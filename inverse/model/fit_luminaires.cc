@@ -5,36 +5,50 @@
 #include <map>
 #include <tuple>
 
-#include "calib/luminance/median.h"
 #include "inverse/model/internal/fit_covariance.h"
 #include "inverse/model/internal/frozen_problem.h"
+#include "inverse/model/internal/indirect_error.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/null_direction.h"
 #include "inverse/model/internal/part_smoothness.h"
+#include "inverse/model/internal/row_weights.h"
+#include "inverse/model/internal/shared_errors.h"
 
 namespace luxfit {
 namespace {
+
+constexpr double kLastStepSigmas = 0.1;  // of a step that ends the outer loop
+// Texture and robust weights start from nothing. Where the start is near, they settle there before the first step:
+// steps by unsettled weights would lead away, and back over ten rounds.
+constexpr int kMostWeighings = 20;
+constexpr double kSettledWeights = 0.01;  // relative change of f
 
 class OuterLoop {
  public:
   OuterLoop(const Room& room, const LightData& data, const LightState& start,
             const std::vector<ParameterPrior>& priors, const FitLuminairesOptions& options)
-      : data_(data), options_(options), model_(room, data) {
+      : room_(room),
+        data_(data),
+        options_(options),
+        model_(room, data),
+        weigher_(room, data, model_,
+                 {options.robust_sigmas, options.min_relative_sigma, options.has_texture}) {
+    bias_.setZero(model_.row_count());
     fit_.state = start;
     fit_.relative_sigma = options.initial_relative_sigma;
     fit_.parameters = FreeParameters(room, start);
     priors_ = PriorsOf(fit_.parameters, priors);
     smoothness_ = SmoothnessRows(start, fit_.parameters);
-    ReadRows();
   }
 
   LuminaireFit Run() {
-    if (!HasData()) {
+    if (!weigher_.HasData()) {
       fit_.message = "no observation and no reading to fit to";
       return fit_;
     }
     fit_.photo_design_effect = std::max(1.0, options_.photo_design_effect);
     bool settled = Settle(options_.start_is_near);
+    if (ExchangesTexturedLight()) settled = Settle(true);
     double design_effect = fit_.photo_design_effect;
     if (options_.covariance && options_.photo_design_effect == 0 && !data_.observations.empty()) {
       design_effect = PhotoDesignEffect();
@@ -61,22 +75,39 @@ class OuterLoop {
   bool Settle(bool start_is_near) {
     bool settled = false;
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
+      if (data_.checkpoint) data_.checkpoint();
       ++fit_.outer_iterations;
       const LightState before = fit_.state;
       fit_.parameters = Recentred(fit_.parameters, before);
       Refresh(true);
-      const FrozenProblem problem{model_,           before,  fit_.parameters, values_,
-                                  fit_.root_weight, priors_, smoothness_,     at_state_};
+      const FrozenProblem problem{model_, before, fit_.parameters, weights_, priors_, smoothness_, at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
-      const bool is_near = start_is_near || outer >= 2;
+      bool is_near = start_is_near || outer >= 2;
       SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      if (is_near && !IsNear(before, WithParameters(before, fit_.parameters, x))) {
+        is_near = false;
+        x = PackParameters(before, fit_.parameters);
+        SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      }
       fit_.state = WithParameters(before, fit_.parameters, x);
+      if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
       settled = is_near &&
-                LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m &&
+                (LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m ||
+                 StepInSigmas(x - PackParameters(before, fit_.parameters)) < kLastStepSigmas) &&
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
     return settled;
+  }
+
+  // Lets patches reflect as their elements' texture says. Returns whether that matters.
+  bool ExchangesTexturedLight() {
+    if (data_.indirect_is_held || room_.sparse) return false;
+    Refresh(true);
+    fit_.patch_factor = weigher_.elements().PatchFactors(room_, weights_.texture);
+    model_.SetPatchFactor(fit_.patch_factor);
+    frozen_.clear();
+    return fit_.patch_factor.size() > 0;
   }
 
   // Returns whether rows other than photos', or priors, share a parameter with the photos: only then their
@@ -84,7 +115,8 @@ class OuterLoop {
   bool HasOtherKnowledge() const {
     const auto photos = static_cast<std::ptrdiff_t>(data_.observations.size());
     return photos > 0 &&
-           (!priors_.empty() || std::find(is_used_.begin() + photos, is_used_.end(), true) != is_used_.end());
+           (!priors_.empty() || std::find(weigher_.is_used().begin() + photos, weigher_.is_used().end(),
+                                          true) != weigher_.is_used().end());
   }
 
   // Residuals of photos resemble one another: facets whose rows all err alike know less than they seem to.
@@ -102,34 +134,12 @@ class OuterLoop {
     for (Eigen::Index i = 0; i < FirstReadingRow(data_); ++i) {
       const int row = static_cast<int>(i);
       const auto cluster = model_.BlockOf(row).ClusterOf(model_.PlaceInBlock(row));
-      if (cluster && is_usable_[static_cast<size_t>(i)]) ++size[*cluster];
+      if (cluster && weights_.root_weight[i] > 0) ++size[*cluster];
     }
     double rows = 0, squares = 0;
     for (const auto& [cluster, count] : size) rows += count, squares += count * count;
     return squares > rows ? std::min(1.0, (design_effect - 1) / (squares / rows - 1)) : 1;
   }
-
-  // Reads from the blocks what no state changes.
-  void ReadRows() {
-    const int rows = model_.row_count();
-    values_.resize(rows);
-    variance_.resize(rows);
-    bias_.setZero(rows);
-    is_used_.resize(static_cast<size_t>(rows));
-    is_robust_.resize(static_cast<size_t>(rows));
-    carries_model_error_.resize(static_cast<size_t>(rows));
-    for (int i = 0; i < rows; ++i) {
-      const RowBlock& block = model_.BlockOf(i);
-      const int place = model_.PlaceInBlock(i);
-      values_[i] = block.ValueOf(place);
-      variance_[i] = block.VarianceOf(place);
-      is_used_[static_cast<size_t>(i)] = block.IsUsed(place);
-      carries_model_error_[static_cast<size_t>(i)] = model_.block_index(i) == model_.block_index(0);
-      is_robust_[static_cast<size_t>(i)] = block.IsRobust() || carries_model_error_[static_cast<size_t>(i)];
-    }
-  }
-
-  bool HasData() const { return std::find(is_used_.begin(), is_used_.end(), true) != is_used_.end(); }
 
   // Updates visibility, model error and weights at the present state.
   void Refresh(bool with_jacobian) {
@@ -141,42 +151,33 @@ class OuterLoop {
     }
     const std::vector<bool> penumbra = model_.InPenumbra();
     at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
-    const Eigen::VectorXd residual = at_state_.value - values_;
-    relative_sigma_before_ = fit_.relative_sigma;
-    is_usable_ = is_used_;
-    for (size_t i = 0; i < is_usable_.size(); ++i) is_usable_[i] = is_used_[i] && !penumbra[i];
-    EstimateRelativeSigma(residual);
-    fit_.weight.setZero(values_.size());
-    fit_.root_weight.setZero(values_.size());
-    for (Eigen::Index i = 0; i < values_.size(); ++i) {
-      if (!is_usable_[static_cast<size_t>(i)]) continue;
-      const double sigma = SigmaOf(i);
-      const double z = residual[i] / (options_.robust_sigmas * sigma);
-      fit_.weight[i] = is_robust_[static_cast<size_t>(i)] ? 1 / (1 + z * z) : 1;
-      fit_.root_weight[i] = std::sqrt(fit_.weight[i]) / sigma;
-      if (i < FirstReadingRow(data_)) fit_.root_weight[i] /= std::sqrt(fit_.photo_design_effect);
+    const bool is_first = weights_.root_weight.size() == 0;
+    for (int left = is_first && options_.start_is_near ? kMostWeighings : 1; left > 0; --left) {
+      relative_sigma_before_ = fit_.relative_sigma;
+      weights_ = weigher_.Weigh(fit_.state, at_state_.value, penumbra, fit_.photo_design_effect, weights_,
+                                fit_.relative_sigma);
+      if (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < kSettledWeights) break;
     }
   }
 
-  double SigmaOf(Eigen::Index row) const {
-    const double model =
-        carries_model_error_[static_cast<size_t>(row)] ? fit_.relative_sigma * values_[row] : 0;
-    return std::hypot(std::sqrt(variance_[row]), model);
+  // Returns whether a step without damping stayed where its linearisation can be trusted. Farther away, less
+  // cost may be another valley.
+  static bool IsNear(const LightState& before, const LightState& after) {
+    constexpr double kReachM = 0.3, kFluxFactor = 3;
+    if (LargestMove(before.luminaires, after.luminaires) > kReachM) return false;
+    for (size_t k = 0; k < before.luminaires.size(); ++k) {
+      const double ratio = after.luminaires[k].flux_lm / before.luminaires[k].flux_lm;
+      if (!(ratio > 1 / kFluxFactor && ratio < kFluxFactor)) return false;
+    }
+    return true;
   }
 
-  // Finds f by a damped fixed point: the median absolute normalised residual is to be a Gaussian's.
-  void EstimateRelativeSigma(const Eigen::VectorXd& residual) {
-    for (int k = 0; k < 3; ++k) {
-      std::vector<double> absolute;
-      for (Eigen::Index i = 0; i < residual.size(); ++i) {
-        const auto row = static_cast<size_t>(i);
-        if (is_usable_[row] && carries_model_error_[row])
-          absolute.push_back(std::abs(residual[i]) / SigmaOf(i));
-      }
-      if (absolute.empty()) return;
-      fit_.relative_sigma =
-          std::clamp(fit_.relative_sigma * Median(absolute) / 0.6745, options_.min_relative_sigma, 1.0);
-    }
+  // Returns the root mean square of a step from the present weights' state in the sigmas that the rows give, the
+  // photos' design effect included.
+  double StepInSigmas(const Eigen::VectorXd& step) const {
+    const Eigen::VectorXd moved = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
+    const double squares = moved.squaredNorm() + step.dot(PriorInformation() * step);
+    return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, step.size())));
   }
 
   // Returns the largest move of any point of any luminaire, in m.
@@ -193,10 +194,10 @@ class OuterLoop {
   // Moves to the minimum of the same problem with its discretisation's bias added to the model: one
   // Gauss-Newton step, for the bias is small. Weights stay.
   void SubtractDiscretisation() {
-    bias_ = BlockBias();
-    const Eigen::MatrixXd jacobian = fit_.root_weight.asDiagonal() * at_state_.jacobian;
+    bias_ = DiscretisationBias(model_, fit_.state);
+    const RowMajorMatrix jacobian = weights_.Weighed(at_state_.jacobian);
     const Eigen::VectorXd step = -InverseOf(jacobian.transpose() * jacobian + PriorInformation()) *
-                                 (jacobian.transpose() * bias_.cwiseProduct(fit_.root_weight));
+                                 (jacobian.transpose() * weights_.Weighed(bias_));
     Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters) + step;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const Parameter& p = fit_.parameters[static_cast<size_t>(i)];
@@ -210,6 +211,12 @@ class OuterLoop {
   // Computes the covariance, the undetermined directions and the predictions of the readings.
   void Conclude() {
     fit_.predicted = at_state_.value;
+    fit_.weight = weights_.weight;
+    fit_.target = weights_.target;
+    fit_.root_weight = weights_.root_weight;
+    fit_.texture = weights_.texture.deviation;
+    fit_.texture_sigma = weights_.texture.sigma;
+    fit_.material_texture_sigma = weights_.texture.sigma_of_material;
     const auto readings = static_cast<Eigen::Index>(data_.readings.size());
     fit_.reading_direct_lx = at_state_.direct.segment(FirstReadingRow(data_), readings);
     const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
@@ -222,15 +229,25 @@ class OuterLoop {
       if (value < p.lower + margin || value > p.upper - margin) fit_.at_bound.push_back(p.id());
     }
     if (!options_.covariance || fit_.parameters.empty()) return;
-    const WeightedRows rows = RowsAtState();
+    WeightedRows rows = RowsAtState();
+    const IndirectError indirect = IndirectErrorOf(rows);
+    AppendColumns(indirect.weighted, rows.biases);
     fit_.effective_parts =
         EffectiveParts(rows.jacobian.transpose() * rows.jacobian, smoothness_, fit_.parameters);
     const FitCovariance found = CovarianceOf(rows);
     fit_.covariance = found.covariance;
     for (const Eigen::VectorXd& direction : found.null_directions) NameNullDirection(direction);
     const Eigen::MatrixXd reading_jacobian = at_state_.jacobian.middleRows(FirstReadingRow(data_), readings);
-    fit_.reading_sigma_lx =
-        (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal().cwiseSqrt();
+    Eigen::VectorXd variance = (reading_jacobian * fit_.covariance * reading_jacobian.transpose()).diagonal();
+    if (indirect.weighted.size() > 0) {
+      // The fit follows this error where it is read, so a prediction errs by what is left of it.
+      const Eigen::MatrixXd moved =
+          reading_jacobian * InverseOf(rows.jacobian.transpose() * rows.jacobian + rows.prior_information) *
+          (rows.jacobian.transpose() * indirect.weighted);
+      const Eigen::MatrixXd left = moved - indirect.rows.middleRows(FirstReadingRow(data_), readings);
+      variance += left.rowwise().squaredNorm() - moved.rowwise().squaredNorm();
+    }
+    fit_.reading_sigma_lx = variance.cwiseMax(0).cwiseSqrt();
   }
 
   void NameNullDirection(const Eigen::VectorXd& direction) {
@@ -245,9 +262,9 @@ class OuterLoop {
 
   WeightedRows RowsAtState() const {
     WeightedRows rows;
-    rows.jacobian = fit_.root_weight.asDiagonal() * at_state_.jacobian;
-    rows.residual = (at_state_.value + bias_ - values_).cwiseProduct(fit_.root_weight);
-    rows.biases = fit_.root_weight.asDiagonal() * Biases();
+    rows.jacobian = weights_.Weighed(at_state_.jacobian);
+    rows.residual = weights_.Residual(at_state_.value + bias_);
+    rows.biases = weights_.Weighed(RowMajorMatrix(SharedErrors(model_, fit_.state, at_state_, bias_)));
     std::map<std::tuple<int, int, int>, int> clusters;
     std::map<std::pair<int, int>, int> coarse;  // all states of a facet
     for (int i = 0; i < model_.row_count(); ++i) {
@@ -260,9 +277,51 @@ class OuterLoop {
       rows.coarse_cluster.push_back(
           cluster ? coarse.try_emplace({block, cluster->first}, next_coarse).first->second : -1);
     }
+    rows.spread = weights_.MeansByCluster(at_state_.value + bias_, rows.cluster);
+    rows.coarse_spread = weights_.MeansByCluster(at_state_.value + bias_, rows.coarse_cluster);
     rows.alone_scatter = AloneScatter(rows);
+    rows.cluster.resize(static_cast<size_t>(rows.residual.size()), -1);
+    rows.coarse_cluster.resize(rows.cluster.size(), -1);
     rows.prior_information = PriorInformation();
     return rows;
+  }
+
+  // Holds what surfaces that no photo shows may lack of being even and diffuse, in a column for each mode at 1
+  // sigma: in the rows' units, and weighted. Empty: no reflectance rests on their light alone.
+  struct IndirectError {
+    Eigen::MatrixXd rows, weighted;
+  };
+  IndirectError IndirectErrorOf(const WeightedRows& rows) const {
+    const std::vector<bool> unseen = MaterialsWithoutPhotos(room_, data_, weights_.weight);
+    const bool is_needed =
+        std::any_of(fit_.parameters.begin(), fit_.parameters.end(), [&](const Parameter& p) {
+          return p.kind == ParameterKind::kAlbedo && unseen[static_cast<size_t>(p.index)];
+        });
+    if (!is_needed || data_.indirect_is_held || room_.sparse) return {};
+    const IndirectCells cells = CutIntoCells(room_, unseen);
+    const RowMajorMatrix received = model_.LightReflectedBy(fit_.state, cells.surfaces);
+    const Eigen::MatrixXd effect = weights_.Weighed(received);
+    const auto used = static_cast<int>((weights_.root_weight.array() > 0).count());
+    const Eigen::MatrixXd root = RootOfCellErrors(rows, PriorGradient(), effect, cells, used);
+    return {received * root, effect * root};
+  }
+
+  static void AppendColumns(const Eigen::MatrixXd& columns, Eigen::MatrixXd& matrix) {
+    if (columns.size() == 0) return;
+    matrix.conservativeResize(Eigen::NoChange, matrix.cols() + columns.cols());
+    matrix.rightCols(columns.cols()) = columns;
+  }
+
+  Eigen::VectorXd PriorGradient() const {
+    const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(x.size());
+    for (const auto& [parameter, prior] : priors_)
+      gradient[parameter] += (x[parameter] - prior.mean) / (prior.sigma * prior.sigma);
+    for (const SmoothnessRow& row : smoothness_) {
+      const double value = row.Value(x);
+      for (const auto& [parameter, coefficient] : row.terms) gradient[parameter] += coefficient * value;
+    }
+    return gradient;
   }
 
   Eigen::MatrixXd PriorInformation() const {
@@ -272,36 +331,6 @@ class OuterLoop {
       information(parameter, parameter) += 1 / (prior.sigma * prior.sigma);
     AddSmoothness(smoothness_, information);
     return information;
-  }
-
-  // Returns what the model's discretisation leaves out of each row.
-  Eigen::VectorXd BlockBias() const {
-    Eigen::VectorXd bias(values_.size());
-    Eigen::Index first = 0;
-    for (const auto& block : model_.blocks()) {
-      const Eigen::Index count = block->row_count();
-      if (count > 0) bias.segment(first, count) = block->BiasOf(fit_.state);
-      first += count;
-    }
-    return bias;
-  }
-
-  // Returns what remains of the discretisation's bias, errors that the rows of a block share, and an error of the
-  // bodies' reflectance.
-  Eigen::MatrixXd Biases() const {
-    // The bias is extrapolated from two sizes; a third of it may be left.
-    constexpr double kBiasLeft = 1.0 / 3;
-    Eigen::MatrixXd biases(values_.size(), at_state_.d_body.size() > 0 ? 3 : 2);
-    biases.col(0) = kBiasLeft * bias_;
-    if (biases.cols() > 2) biases.col(2) = kBodyAlbedoSigma * at_state_.d_body;
-    Eigen::Index first = 0;
-    for (const auto& block : model_.blocks()) {
-      const Eigen::Index count = block->row_count();
-      if (count == 0) continue;
-      biases.col(1).segment(first, count) = block->SharedErrorOf(fit_.state);
-      first += count;
-    }
-    return biases;
   }
 
   // Returns the mean square of the normalised residuals of rows that stand alone, at least 1. A reading's
@@ -314,23 +343,22 @@ class OuterLoop {
       if (rows.cluster[i] >= 0) continue;
       const auto row = static_cast<Eigen::Index>(i);
       squares += rows.residual[row] * rows.residual[row];
-      used += fit_.root_weight[row] > 0 ? 1 : 0;
+      used += weights_.root_weight[row] > 0 ? 1 : 0;
     }
     return used > 0 ? std::max(1.0, squares / used) : 1.0;
   }
 
+  const Room& room_;
   const LightData& data_;
   const FitLuminairesOptions& options_;
   LightModel model_;
+  RowWeigher weigher_;
+  RowWeights weights_;
   LuminaireFit fit_;
   IndexedPriors priors_;
   std::vector<Luminaire> frozen_;  // luminaires at which the visibility was computed
   std::vector<SmoothnessRow> smoothness_;
-  Eigen::VectorXd values_, variance_;
   Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
-  std::vector<bool> is_used_, is_usable_;  // fitted to; fitted to and not spoilt at the present state
-  std::vector<bool> is_robust_;
-  std::vector<bool> carries_model_error_;  // rows of the first block that has any
   Prediction at_state_;
   double relative_sigma_before_ = 0;
 };

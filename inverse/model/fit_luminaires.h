@@ -6,7 +6,10 @@
 // - the luminaires' visibility;
 // - the robust weights w (Cauchy at robust_sigmas);
 // - the model error f, a relative error common to all observations, estimated from the residuals' median
-//   absolute deviation.
+//   absolute deviation;
+// - the texture t of elements, which all states share and which the fit eliminates, with a variance for each
+//   material (inverse/model/internal/element_texture.h).
+// Errors of camera poses are eliminated likewise, from the rows of outlines.
 // Rows that a shadow edge crosses are left out: their dependence on position is not smooth.
 //
 // A fit with a covariance does two things more:
@@ -17,16 +20,21 @@
 //
 // Covariance: residuals of neighbouring elements share their model error, so they are not independent. The
 // estimate is cluster-robust ("sandwich"), with one cluster for each facet and state, or for each facet, whichever
-// gives the larger variance. Each cluster is judged by a fit without it. Few clusters enlarge sigma as Student's t does: 1.96 sigma is the 95 % interval
-// (inverse/model/internal/fit_covariance.h).
+// gives the larger variance. Each cluster is judged by a fit without it. Few clusters enlarge sigma as Student's
+// t does: 1.96 sigma is the 95 % interval (inverse/model/internal/fit_covariance.h). A bootstrap over the same
+// clusters checks it: the larger variance counts (inverse/model/internal/cluster_bootstrap.h).
 // - It contains noise, errors that differ between facets or states (model, poses, mesh, reflectance of a facet),
 //   and the readings', outlines' and priors' sigmas. It also contains a third of the error by the size of
 //   elements and patches.
+// - Where a reflectance is free that only indirect light tells, it contains what the surfaces lack of being even
+//   and diffuse (inverse/model/internal/indirect_error.h).
 // - It does not contain a model error that is the same everywhere.
 //
 // A direction of parameters that the data leave undetermined (singular value below 1e-5 of the largest, after
 // scaling) has no covariance. It is listed in `undetermined` and described in `null_directions`, and the
 // status is kUndetermined.
+//
+// LightData::checkpoint is called before each round: what it throws leaves FitLuminaires.
 //
 // Sources: Triggs et al. (2000), sec. 4 (IRLS, LM); Kish (1965), "Survey sampling" (design effect).
 #ifndef LUXFIT_INVERSE_MODEL_FIT_LUMINAIRES_H_
@@ -52,8 +60,15 @@ struct ParameterPrior {
   double sigma = 1;
 };
 
+// Describes the fit as a round of the outer loop ends.
+struct FitRound {
+  int round = 0;              // of this fit, from 1
+  double relative_sigma = 0;  // f: how far the model departs from the data, relative
+  const LightState& state;
+};
+
 struct FitLuminairesOptions {
-  int max_outer_iterations = 12;
+  int max_outer_iterations = 12;  // 0: weighs the rows at the start and moves nothing
   int max_inner_iterations = 12;
   double initial_relative_sigma =
       0.05;                          // f at the start: generous, so that a rough start is not all outliers
@@ -64,11 +79,15 @@ struct FitLuminairesOptions {
   bool covariance = true;
   // Whether a fit with a covariance subtracts what the size of elements and patches leaves out.
   bool subtracts_discretisation = true;
+  // Whether elements may depart from their material (inverse/model/internal/element_texture.h). Far from the
+  // truth, what all states miss alike is the luminaires' fault.
+  bool has_texture = true;
   // Design effect of the photos' rows; 0: estimated by a fit with a covariance.
   double photo_design_effect = 0;
   // Set it where the start came from a fit to a part of the same data. relative_sigma then begins at
   // initial_relative_sigma, steps need no damping, and one round that moves nothing is enough.
   bool start_is_near = false;
+  std::function<void(const FitRound&)> on_round = {};  // empty: no calls
 };
 
 // Holds in words a combination of parameters that the data leave undetermined.
@@ -88,7 +107,14 @@ struct LuminaireFit {
   std::vector<ParameterId> at_bound;           // parameters that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
-  Eigen::VectorXd root_weight;                 // sqrt(weight) / sigma of every row
+  // What the last equations aimed at, and their root weights (inverse/model/internal/row_weights.h).
+  Eigen::VectorXd target, root_weight;
+  // Departure of the row's element from its material's reflectance, relative, and the sigma it was allowed; 0
+  // where there is none (inverse/model/internal/element_texture.h).
+  Eigen::VectorXd texture, texture_sigma;
+  Eigen::VectorXd material_texture_sigma;  // by material, 0: plain
+  // Reflectance of patches over their material's, in the exchange of light; empty: 1.
+  Eigen::VectorXd patch_factor;
   Eigen::VectorXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // sigma of the predicted readings
   double relative_sigma = 0;         // f

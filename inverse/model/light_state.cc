@@ -12,12 +12,18 @@ namespace luxfit {
 namespace {
 
 PartKind PartKindOf(LuminaireQuantity quantity) {
+  if (quantity == LuminaireQuantity::kSide) return PartKind::kSide;
   return quantity == LuminaireQuantity::kCell ? PartKind::kCell : PartKind::kGammaNode;
 }
 
 AimFrame FrameOf(const Luminaire& luminaire) {
   const LuminaireAxes axes = AxesOf(luminaire);
   return {luminaire.aim, axes.along, axes.across};
+}
+
+bool IsPosition(LuminaireQuantity quantity) {
+  return quantity == LuminaireQuantity::kPositionX || quantity == LuminaireQuantity::kPositionY ||
+         quantity == LuminaireQuantity::kPositionZ;
 }
 
 bool IsTurn(const Parameter& p) {
@@ -93,7 +99,7 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
       break;
     }
     case LuminaireQuantity::kExponent:
-      p.lower = std::log(0.2), p.upper = std::log(100);
+      p.lower = std::log(kLeastCosinePower), p.upper = std::log(kGreatestCosinePower);
       break;
     case LuminaireQuantity::kSizeAlong:
     case LuminaireQuantity::kSizeAcross:
@@ -109,6 +115,10 @@ Parameter MakeLuminaireParameter(const Eigen::AlignedBox3d& box, const Luminaire
       break;
     case LuminaireQuantity::kGammaNode:
     case LuminaireQuantity::kCell:
+      p.upper = 1e3;
+      break;
+    case LuminaireQuantity::kSide:
+      p.lower = 1e-3;  // a side without light would have lost its shape
       p.upper = 1e3;
       break;
   }
@@ -135,6 +145,7 @@ double ValueOf(const Luminaire& luminaire, const Parameter& p) {
     case LuminaireQuantity::kHeading:
       return TurnOf(luminaire, p.frame).heading;
     case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kSide:
     case LuminaireQuantity::kCell:
       break;
   }
@@ -155,7 +166,43 @@ void AddParts(const Eigen::AlignedBox3d& box, const Luminaire& luminaire, int in
   }
 }
 
+std::vector<int> OthersOfType(const LightState& state, int first) {
+  std::vector<int> others;
+  for (int k = 0; k < static_cast<int>(state.first_of_type.size()); ++k) {
+    if (k != first && state.first_of_type[static_cast<size_t>(k)] == first) others.push_back(k);
+  }
+  return others;
+}
+
+void AddLuminaire(const Eigen::AlignedBox3d& box, const LightState& state, int index,
+                  std::vector<Parameter>& parameters) {
+  const Luminaire& luminaire = state.luminaires[static_cast<size_t>(index)];
+  const FreeQuantities& free = state.free[static_cast<size_t>(index)];
+  const size_t before = parameters.size();
+  for (const LuminaireQuantity quantity : FreeQuantitiesOf(luminaire, free))
+    parameters.push_back(MakeLuminaireParameter(box, luminaire, index, quantity));
+  if (free.table_sigma > 0) AddParts(box, luminaire, index, LuminaireQuantity::kGammaNode, parameters);
+  if (free.sides) AddParts(box, luminaire, index, LuminaireQuantity::kSide, parameters);
+  if (free.emission_sigma > 0) AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
+  const auto own = parameters.begin() + static_cast<std::ptrdiff_t>(before);
+  if (IsFirstOfType(state, index)) {
+    const std::vector<int> others = OthersOfType(state, index);
+    std::for_each(own, parameters.end(), [&](Parameter& p) {
+      if (!IsPosition(p.quantity)) p.tied = others;
+    });
+  } else {
+    parameters.erase(
+        std::remove_if(own, parameters.end(), [](const Parameter& p) { return !IsPosition(p.quantity); }),
+        parameters.end());
+  }
+  if (free.flux) parameters.push_back({ParameterKind::kLogFlux, index, {}, -50, 50, luminaire.id});
+}
+
 }  // namespace
+
+bool IsFirstOfType(const LightState& state, int luminaire) {
+  return state.first_of_type.empty() || state.first_of_type[static_cast<size_t>(luminaire)] == luminaire;
+}
 
 Eigen::MatrixXf LumensByState(const LightData& data, const std::vector<Luminaire>& luminaires) {
   const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
@@ -171,23 +218,43 @@ double ReferenceShare(const LightState& state, const Parameter& p) {
   return PartShares(state.luminaires[static_cast<size_t>(p.index)], PartKindOf(p.quantity))[p.reference];
 }
 
+std::vector<std::vector<int>> TypesOf(const LightState& state) {
+  std::vector<std::vector<int>> types;
+  for (int k = 0; k < static_cast<int>(state.luminaires.size()); ++k) {
+    if (!IsFirstOfType(state, k)) continue;
+    types.push_back({k});
+    const std::vector<int> others = OthersOfType(state, k);
+    types.back().insert(types.back().end(), others.begin(), others.end());
+  }
+  return types;
+}
+
+Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire) {
+  Luminaire alike = first;
+  alike.id = luminaire.id;
+  alike.position = luminaire.position;
+  alike.flux_lm = luminaire.flux_lm;
+  return alike;
+}
+
+LightState WithLikeTypes(LightState state) {
+  for (size_t k = 0; k < state.first_of_type.size(); ++k) {
+    const auto first = static_cast<size_t>(state.first_of_type[k]);
+    if (first == k) continue;
+    state.luminaires[k] = OfTypeOf(state.luminaires[first], state.luminaires[k]);
+    const FreeQuantities own = state.free[k];
+    state.free[k] = state.free[first];
+    state.free[k].position = own.position;
+    state.free[k].flux = own.flux;
+  }
+  return state;
+}
+
 std::vector<Parameter> FreeParameters(const Room& room, const LightState& state) {
   std::vector<Parameter> parameters;
   const Eigen::AlignedBox3d box = room.scene.Bounds();
-  for (size_t k = 0; k < state.luminaires.size(); ++k) {
-    const Luminaire& luminaire = state.luminaires[k];
-    for (const LuminaireQuantity quantity : FreeQuantitiesOf(luminaire, state.free[k])) {
-      parameters.push_back(MakeLuminaireParameter(box, luminaire, static_cast<int>(k), quantity));
-    }
-    const int index = static_cast<int>(k);
-    if (state.free[k].table_sigma > 0)
-      AddParts(box, luminaire, index, LuminaireQuantity::kGammaNode, parameters);
-    if (state.free[k].emission_sigma > 0)
-      AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
-    if (state.free[k].flux) {
-      parameters.push_back({ParameterKind::kLogFlux, static_cast<int>(k), {}, -50, 50, luminaire.id});
-    }
-  }
+  for (size_t k = 0; k < state.luminaires.size(); ++k)
+    AddLuminaire(box, state, static_cast<int>(k), parameters);
   for (size_t m = 0; m < state.albedo_free.size(); ++m) {
     if (!state.albedo_free[m]) continue;
     parameters.push_back(
@@ -277,6 +344,7 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
         turns.try_emplace(p.index, Turn{p.frame}).first->second.heading = value;
         break;
       case LuminaireQuantity::kGammaNode:
+      case LuminaireQuantity::kSide:
       case LuminaireQuantity::kCell:
         break;  // above
     }
@@ -286,6 +354,10 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
     luminaire = WithPartShares(luminaire, PartKindOf(of.second), shares);
   }
   for (const auto& [index, turn] : turns) Apply(turn, state.luminaires[static_cast<size_t>(index)]);
+  for (size_t k = 0; k < state.first_of_type.size(); ++k) {
+    const auto first = static_cast<size_t>(state.first_of_type[k]);
+    if (first != k) state.luminaires[k] = OfTypeOf(state.luminaires[first], state.luminaires[k]);
+  }
   return state;
 }
 

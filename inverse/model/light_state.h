@@ -10,6 +10,8 @@
 #define LUXFIT_INVERSE_MODEL_LIGHT_STATE_H_
 
 #include <Eigen/Core>
+#include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,15 +32,27 @@ struct Reading {
   int sensor_index = -1;  // one of several sensors of a meter, each with its own gain; -1: the only sensor
 };
 
+// Ends a fit early, from LightData::checkpoint. what() says why.
+class FitStopped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct LightData {
   std::vector<Eigen::VectorXd> dimming;  // one vector per state, by luminaire
   std::vector<Observation> observations;
   std::vector<Reading> readings;
-  std::vector<LuminaireOutline> outlines;                  // where the photos show luminaires themselves
+  std::vector<LuminaireOutline> outlines;  // where the photos show luminaires themselves
+  // Root L of the views' joint pose covariance L L^T, 6 rows for each view: rotation vector in world axes (rad),
+  // camera centre in world (m). Empty: poses are exact.
+  Eigen::MatrixXd pose_root;
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};  // of red, green and blue; they sum to 1
   // true: the observations carry their indirect light (inverse/model/internal/measured_indirect.h). No
   // radiosity is solved, and there are no readings.
   bool indirect_is_held = false;
+  // Called before each round of a fit to these data, from any thread. It ends the fit by throwing FitStopped.
+  // Empty: no calls.
+  std::function<void()> checkpoint = {};
 };
 
 // Says which quantities of one luminaire are free.
@@ -49,6 +63,7 @@ struct FreeQuantities {
   bool size = false;
   bool tilt = false;
   bool heading = false;
+  bool sides = false;  // how much of the flux goes up, of a table with two sides whose nodes are held
   // > 0: the shares of its table's nodes, or of its cells, are free; the value is the sigma of their
   // smoothness (inverse/model/internal/part_smoothness.h).
   double table_sigma = 0;
@@ -68,10 +83,17 @@ constexpr double kBodyAlbedo = 0.5, kBodyAlbedoSigma = 0.3;
 // The word of files: "none", "when_on" or "always".
 std::string ToString(BodyPresence bodies);
 
+// Bounds of a cosine power's exponent: nearly even over a half space, and a beam 6 degrees wide at half of its
+// peak, narrower than spots for rooms are made.
+constexpr double kLeastCosinePower = 0.2, kGreatestCosinePower = 500;
+
 struct LightState {
   std::vector<Luminaire> luminaires;
   std::vector<FreeQuantities> free;  // one for each luminaire
-  Eigen::VectorXd albedo;            // by material
+  // Of each luminaire the first of its type. Luminaires of a type are alike but for place and flux: the first
+  // one's parameters of distribution, size, emission and direction are those of all. Empty: each its own type.
+  std::vector<int> first_of_type = {};
+  Eigen::VectorXd albedo;  // by material
   std::vector<bool> albedo_free;
   double camera_scale = 1;  // relative luminance per cd/m2
   bool camera_scale_free = true;
@@ -88,8 +110,21 @@ struct LightState {
 // Returns the luminaires' fluxes by state: luminaires x states, lm.
 Eigen::MatrixXf LumensByState(const LightData& data, const std::vector<Luminaire>& luminaires);
 
+bool IsFirstOfType(const LightState& state, int luminaire);
+
+// Returns the luminaires of each type, in order; each for itself where there are no types.
+std::vector<std::vector<int>> TypesOf(const LightState& state);
+
+// Returns the luminaire as its type's first one is, with its own id, place and flux.
+Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire);
+
+// Returns the state with every luminaire, and what is free of it, like the first of its type.
+LightState WithLikeTypes(LightState state);
+
 // Returns the free parameters in their order, with bounds: positions within the room's bounding box (a
-// luminaire hangs inside), albedo 0.01..0.98, exponent 0.2..100, size 1 mm..half the room, tilt +-1 rad.
+// luminaire hangs inside), albedo 0.01..0.98, exponent kLeastCosinePower..kGreatestCosinePower, size 1 mm..half
+// the room. A tilt is the tangent of the angle to the frame's aim, +-1: 45 degrees a step. Recentred moves the frame,
+// so that a fit reaches any aim.
 std::vector<Parameter> FreeParameters(const Room& room, const LightState& state);
 // PackParameters reads the vector x of the parameters from a state; WithParameters writes it into one.
 //   x = PackParameters(WithParameters(state, parameters, x), parameters) for every x within the bounds

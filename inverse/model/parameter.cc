@@ -24,7 +24,7 @@ struct QuantityWords {
   const char* in_files;
   const char* for_people;
 };
-constexpr std::array<QuantityWords, 11> kQuantities{
+constexpr std::array<QuantityWords, 12> kQuantities{
     {{LuminaireQuantity::kPositionX, "position_x", "position x"},
      {LuminaireQuantity::kPositionY, "position_y", "position y"},
      {LuminaireQuantity::kPositionZ, "position_z", "position z"},
@@ -35,7 +35,8 @@ constexpr std::array<QuantityWords, 11> kQuantities{
      {LuminaireQuantity::kTiltAcross, "tilt_across", "tilt across"},
      {LuminaireQuantity::kHeading, "heading", "heading"},
      {LuminaireQuantity::kGammaNode, "gamma_node", "gamma node"},
-     {LuminaireQuantity::kCell, "cell", "cell"}}};
+     {LuminaireQuantity::kCell, "cell", "cell"},
+     {LuminaireQuantity::kSide, "side", "side"}}};
 
 const KindWords& WordsOf(ParameterKind kind) { return kKinds[static_cast<size_t>(kind)]; }
 const QuantityWords& WordsOf(LuminaireQuantity quantity) {
@@ -45,7 +46,8 @@ const QuantityWords& WordsOf(LuminaireQuantity quantity) {
 }  // namespace
 
 bool HasParts(LuminaireQuantity quantity) {
-  return quantity == LuminaireQuantity::kGammaNode || quantity == LuminaireQuantity::kCell;
+  return quantity == LuminaireQuantity::kGammaNode || quantity == LuminaireQuantity::kCell ||
+         quantity == LuminaireQuantity::kSide;
 }
 
 bool operator==(const ParameterId& a, const ParameterId& b) {

@@ -7,6 +7,7 @@
 #define LUXFIT_INVERSE_MODEL_PARAMETER_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ namespace luxfit {
 
 enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };
 
-// Returns whether the quantity is a share of one of several parts: kGammaNode and kCell.
+// Returns whether the quantity is a share of one of several parts: kGammaNode, kCell and kSide.
 bool HasParts(LuminaireQuantity quantity);
 
 struct ParameterId {
@@ -57,11 +58,16 @@ struct Parameter {
   int part = 0, reference = 0;
   // For kTiltAlong, kTiltAcross and kHeading: the luminaire's frame when the parameter was made.
   AimFrame frame = {};
+  std::vector<int> tied = {};  // other luminaires of the same type, which share the quantity
 
   ParameterId id() const { return {kind, owner, quantity, part}; }
   // Returns whether it is that quantity of that owner. `of` is compared for kLuminaire only.
   bool Is(ParameterKind of_kind, int of_index, LuminaireQuantity of) const {
     return kind == of_kind && index == of_index && (kind != ParameterKind::kLuminaire || quantity == of);
+  }
+  // Returns whether it changes that luminaire, material or sensor.
+  bool Concerns(int of_index) const {
+    return index == of_index || std::find(tied.begin(), tied.end(), of_index) != tied.end();
   }
 };
 

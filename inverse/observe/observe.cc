@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
-
-#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -173,40 +170,6 @@ std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage&
     observations.push_back({static_cast<int>(e), view, state, s.count, mean, variance, s.rgb / s.count, 0});
   }
   return observations;
-}
-
-MergedObservations MergeViews(const std::vector<Observation>& observations,
-                              const MergeViewsOptions& options) {
-  std::map<std::pair<int, int>, std::vector<Observation>> groups;  // by element, state
-  for (const Observation& o : observations) groups[{o.element, o.state}].push_back(o);
-  MergedObservations merged;
-  for (auto& [key, views] : groups) {
-    for (Observation& o : views) o.variance += std::pow(options.relative_sigma * o.relative_luminance, 2);
-    if (views.size() >= 3) {
-      std::vector<double> values;
-      for (const Observation& o : views) values.push_back(o.relative_luminance);
-      const double median = Quantile(std::move(values), 0.5);
-      const auto end = std::remove_if(views.begin(), views.end(), [&](const Observation& o) {
-        return std::abs(o.relative_luminance - median) > options.outlier_sigmas * std::sqrt(o.variance);
-      });
-      merged.outliers += static_cast<int>(views.end() - end);
-      views.erase(end, views.end());
-    }
-    Observation mean{key.first, -1, key.second, 0, 0, 0, Eigen::Vector3d::Zero(), 0};
-    double weights = 0;
-    for (const Observation& o : views) {
-      weights += 1 / o.variance;
-      mean.relative_luminance += o.relative_luminance / o.variance;
-      mean.relative_rgb += o.relative_rgb / o.variance;
-      mean.pixels += o.pixels;
-    }
-    if (weights == 0) continue;
-    mean.relative_luminance /= weights;
-    mean.relative_rgb /= weights;
-    mean.variance = 1 / weights;
-    merged.observations.push_back(mean);
-  }
-  return merged;
 }
 
 std::vector<Observation> ThinElements(const std::vector<Observation>& observations, int max_elements) {

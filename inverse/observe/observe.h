@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "calib/lens/camera.h"
@@ -69,17 +70,40 @@ struct Observation {
 // Returns the observations of one photo.
 std::vector<Observation> ObservePhoto(const PixelMap& map, const LuminanceImage& photo, int view, int state);
 
-// MergeViews returns one value for each element and state: the weighted mean of the views. Each view's
-// variance is enlarged by (relative_sigma * value)^2. Views more than outlier_sigmas from the median of three
-// or more are left out. In the result `view` is -1 and `pixels` is the sum.
+// Merges the views of one element in one state into one value: their mean, weighted by inverse variance.
+//
+//   w_v = 1 / (n_v + s^2 m^2)     y = sum_v w_v y_v / sum_v w_v     var y = 1 / sum_v w_v
+//
+// y_v, n_v: relative luminance of view v and the variance of its noise; m: the median of the y_v; s: relative
+// variance component between views (inverse/observe/internal/between_views.h). All views take m, for s^2
+// y_v^2 would favour those that are too dark. Of three views and more, those further than outlier_sigmas from
+// the median are left out.
+//
+// The merged variance holds what views tell of themselves. FitLuminaires estimates its model error from what
+// residuals show beyond that variance, so that nothing counts twice. Source: own.
+
+// Says how much views of one element disagree beyond their noise.
+struct BetweenViews {
+  // s. At least 0.001: half of the least model error of a fit, so a smaller one changes no weight that
+  // matters. The default holds where too few elements are shared: about what registration and the size of
+  // elements leave.
+  double relative_sigma = 0.01;
+  int groups = 0;             // elements and states that several views show
+  bool is_estimated = false;  // false: fewer than 30 groups, too few for s within a quarter
+};
+
 struct MergeViewsOptions {
-  double relative_sigma = 0.01;  // about the spread of registration and element-size effects between views
+  std::optional<double> relative_sigma;  // s; not given: EstimateBetweenViews
   double outlier_sigmas = 4;
+  double least_relative_sigma = 0;  // of the estimated s
 };
+
 struct MergedObservations {
-  std::vector<Observation> observations;
-  int outliers = 0;
+  std::vector<Observation> observations;  // `view` is -1, `pixels` the sum over views
+  BetweenViews between_views;             // the s that was used
+  int outliers = 0;                       // views left out
 };
+
 MergedObservations MergeViews(const std::vector<Observation>& observations,
                               const MergeViewsOptions& options = {});
 

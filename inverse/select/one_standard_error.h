@@ -53,6 +53,9 @@ struct SelectionCandidate {
   bool is_eligible = true;  // false: listed with its score, never chosen
 };
 
+// Share of the best score, for parameters that can absorb errors of others: gains, tables, cells of an emission.
+constexpr double kWorthHaving = 0.25;
+
 struct SelectionOptions {
   double standard_errors = 1;  // k
   // m: what a better candidate must gain, as a share of the best score. Errors that repeat from group to

@@ -47,7 +47,9 @@ void WholeFit(benchmark::State& state) {
     own.is_quiet = true;
     own.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
     benchmark::DoNotOptimize(FitSession(prepared.session, prepared.linearized, prepared.room,
-                                        {prepared.observations, prepared.seen, prepared.outlines}, own));
+                                        {prepared.observations, prepared.seen, prepared.outlines,
+                                         PoseErrorsOf(prepared.registered.registration)},
+                                        own));
     context = own;
   }
   state.counters["observations"] = static_cast<double>(prepared.observations.size());
@@ -68,7 +70,9 @@ const Start& Moved() {
     context.is_quiet = true;
     context.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
     const RoomFit fitted = FitSession(prepared.session, prepared.linearized, prepared.room,
-                                      {prepared.observations, prepared.seen, prepared.outlines}, context);
+                                      {prepared.observations, prepared.seen, prepared.outlines,
+                                       PoseErrorsOf(prepared.registered.registration)},
+                                      context);
     Start moved{fitted.data, fitted.fit.state, {}};
     for (size_t k = 0; k < moved.state.luminaires.size(); ++k) {
       Luminaire& luminaire = moved.state.luminaires[k];

@@ -7,6 +7,7 @@
 #     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
 #     exposures_apart   the same, and only the states that show one luminaire each: nothing ties their exposures
 #     two_cameras       every other view is of a second camera, whose exposures are stated as 0.64 of the true ones; photos unchanged
+#     survey_10mm       each tag's centre off by 10 mm (1 sigma) along each axis (another draw with SEED=2, ...)
 #     wrong_photometry  the panels given as narrow downlights (cosine power 8), the downlights as Lambertian
 # Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and compare_with_truth RESULT/result.json OFFICE/truth.json.
 set -eu
@@ -47,6 +48,15 @@ case $variant in
       !($3 in camera) { camera[$3] = n++ % 2 }
       camera[$3] { $2 = "cam1"; $5 = sprintf("%.6g", 0.64 * $5) } { print }'
     printf '\n[[camera]]\nid = "cam1"\nintrinsics = "cam0.yaml"\nresponse = "linear"\nblack_level = 0\nvignetting = "none"\n' >> session.toml ;;
+  survey_10mm)
+    # The sum of twelve even draws less 6 is nearly normal, of sigma 1. The file has one number a line.
+    rewrite tags.json awk -v seed="${SEED:-1}" '
+      function even() { x = (16807 * x) % 2147483647; return x / 2147483647 }
+      BEGIN { x = seed * 7919 + 17; for (i = 0; i < 9; i++) even() }
+      axes > 0 {
+        z = -6; for (i = 0; i < 12; i++) z += even()
+        axes--; printf "   %.6f%s\n", $1 + 0.01 * z, (axes > 0 ? "," : ""); next }
+      /"center_m"/ { axes = 3 } { print }' ;;
   wrong_photometry)
     for id in A B; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "cosine_power"\ncosine_exponent = 8\nshape = "point"\n' $id
@@ -54,5 +64,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart, two_cameras or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart, two_cameras, survey_10mm or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -16,6 +16,10 @@
 // ambient: the light of luminaire D stands in for daylight. It is added to the photos and readings of A, B
 // and C, and photographed and measured alone as the state off.
 //
+// textured: carpet on the floor, posters on the walls, wood on desks and cabinet, of the same mean reflectances
+// (tests/validation/office_texture.h). The light that reaches each surface stays that of the plain room. Shot
+// noise is multiplied as the light is. Prints the mean factor of each material.
+//
 // Then: luxfit run OUT_FOLDER/session.toml -o RESULT, and RESULT/result.json against the office's truth.json.
 #include <algorithm>
 #include <cmath>
@@ -30,6 +34,7 @@
 #include <vector>
 
 #include "tests/support/calib/camera_model.h"
+#include "tests/validation/office_texture.h"
 
 namespace {
 
@@ -86,7 +91,14 @@ std::string ReadText(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Every photo changed pixel by pixel where it is not saturated: what saturated stays so.
+// Holds where a pixel is: row and column, and the distance from the photo's middle (1: its corners).
+struct PixelPlace {
+  int v = 0, u = 0;
+  double r = 0;
+};
+
+// Every photo changed pixel by pixel where it is not saturated: what saturated stays so. `change` takes the pixel,
+// its place and the photo's row.
 template <typename Change>
 void WriteChanged(const fs::path& office, const fs::path& out, std::ofstream& table, const Change& change) {
   for (const Row& row : ReadRows(office)) {
@@ -94,7 +106,8 @@ void WriteChanged(const fs::path& office, const fs::path& out, std::ofstream& ta
     const double u0 = (photo.cols - 1) / 2.0, v0 = (photo.rows - 1) / 2.0;
     photo.forEach<cv::Vec3f>([&](cv::Vec3f& pixel, const int* at) {
       const double r = std::hypot(at[1] - u0, at[0] - v0) / (std::hypot(photo.cols, photo.rows) / 2);
-      if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f) pixel = change(pixel, r);
+      if (std::max({pixel[0], pixel[1], pixel[2]}) < 0.97f)
+        pixel = change(pixel, PixelPlace{at[0], at[1], r}, row);
     });
     Write16(out / row.file, photo);
     table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s
@@ -103,8 +116,8 @@ void WriteChanged(const fs::path& office, const fs::path& out, std::ofstream& ta
 }
 
 std::string Vignetted(const fs::path& office, const fs::path& out, std::ofstream& table) {
-  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, double r) {
-    return pixel * luxfit::support::NaturalVignetting(r, 0.5);
+  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, const PixelPlace& place, const Row&) {
+    return pixel * luxfit::support::NaturalVignetting(place.r, 0.5);
   });
   return ReadText(office / "session.toml");
 }
@@ -114,8 +127,21 @@ std::string Vignetting(const fs::path& office, const fs::path& out, std::ofstrea
 }
 
 std::string Bent(const fs::path& office, const fs::path& out, std::ofstream& table) {
-  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, double) {
+  WriteChanged(office, out, table, [](const cv::Vec3f& pixel, const PixelPlace&, const Row&) {
     return cv::Vec3f(std::pow(pixel[0], 0.9f), std::pow(pixel[1], 0.9f), std::pow(pixel[2], 0.9f));
+  });
+  return ReadText(office / "session.toml");
+}
+
+std::string Textured(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  const luxfit::OfficeTexture texture(office);
+  texture.PrintMeans();
+  std::map<std::string, cv::Mat> factors;  // by view
+  for (const Row& row : ReadRows(office)) {
+    if (factors.count(row.view) == 0) factors[row.view] = texture.FactorsIn(row.view);
+  }
+  WriteChanged(office, out, table, [&](const cv::Vec3f& pixel, const PixelPlace& place, const Row& row) {
+    return pixel * factors.at(row.view).at<float>(place.v, place.u);
   });
   return ReadText(office / "session.toml");
 }
@@ -228,12 +254,12 @@ std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& 
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
-      {"vignetting", Vignetting}, {"vignetted", Vignetted},  {"bent", Bent},
-      {"tinted", Tinted},         {"eight_bits", EightBits}, {"ambient", Ambient}};
+      {"vignetting", Vignetting}, {"vignetted", Vignetted}, {"bent", Bent},        {"tinted", Tinted},
+      {"eight_bits", EightBits},  {"ambient", Ambient},     {"textured", Textured}};
   if (argc != 4 || variants.count(argv[2]) == 0) {
     std::fprintf(stderr,
-                 "usage: office_variants OFFICE_FOLDER vignetting|vignetted|bent|tinted|eight_bits|ambient "
-                 "OUT_FOLDER\n");
+                 "usage: office_variants OFFICE_FOLDER "
+                 "vignetting|vignetted|bent|tinted|eight_bits|ambient|textured OUT_FOLDER\n");
     return 2;
   }
   const fs::path office = argv[1], out = argv[3];

@@ -47,7 +47,8 @@ Office PrepareOffice(const std::string& folder) {
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
   const SessionObservations observed{office.prepared.observations, office.prepared.seen,
-                                     office.prepared.outlines};
+                                     office.prepared.outlines,
+                                     PoseErrorsOf(office.prepared.registered.registration)};
   const LightData data = LightOf(RoomObservationsOf(office.prepared.session, office.prepared.linearized,
                                                     office.prepared.room, observed))
                              .data;

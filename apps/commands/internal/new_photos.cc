@@ -7,6 +7,7 @@
 #include <map>
 
 #include "apps/session/session_files.h"
+#include "apps/stages/register/lay_on_mesh.h"
 #include "apps/stages/register/view_tags.h"
 #include "apps/text/formats/csv_table.h"
 #include "apps/text/input_error.h"
@@ -150,8 +151,11 @@ std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, c
   if (tags.empty())
     throw std::runtime_error("--pose tags: expected a session with tags, got one without; give --view");
   const std::vector<Camera>& cameras = fitted.registered.cameras;
+  RegisterViewsOptions surveyed;
+  surveyed.surface = SurfaceOf(fitted.room.scene);
   const Registration registration = RegisterViews(
-      cameras, tags, DetectViews(session, linearized, cameras, PhotosByView(session, photos), context));
+      cameras, tags, DetectViews(session, linearized, cameras, PhotosByView(session, photos), context),
+      surveyed);
   for (const RegistrationNote& note : registration.notes)
     context.warnings.push_back({note.code, note.message, note.remedy});
   std::map<std::string, Eigen::Isometry3d> poses;

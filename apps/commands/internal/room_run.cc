@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "apps/report/report.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/albedo/stage_albedo.h"
+#include "apps/stages/fit_stop.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stage_cache.h"
@@ -49,16 +51,19 @@ struct RoomResult {
   Room room;
 };
 
-RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, RoomRun what,
+RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, RoomRun what, double budget_s,
                           RunContext& context) {
   const StageTimer total(context, "total", "");
   PreparedSession prepared = PrepareSession(read, inputs, context);
   const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen),
-                                     std::move(prepared.outlines)};
+                                     std::move(prepared.outlines),
+                                     PoseErrorsOf(prepared.registered.registration)};
   const LinearizedSession& linearized = prepared.linearized;
+  context.stop = std::make_shared<FitStop>(budget_s);
   const Session session =
       WithCountedLuminaires(std::move(prepared.session), linearized, prepared.room, observed, context);
   const RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
+  context.stop.reset();
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
   json result =
       ResultJson(session, linearized.readings, prepared.room, prepared.registered, fit, files, context);
@@ -129,7 +134,7 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
   if (!options.earlier_luminaires.empty())
     session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
-  RoomResult made = FitAndDescribe(session, inputs, what, context);
+  RoomResult made = FitAndDescribe(session, inputs, what, options.budget_s, context);
   made.result["timing_s"] = context.timing_s;
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);
@@ -139,7 +144,9 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
     report_s = MakeReport(
         context, [&] { return FittedRoomOf(context.out, std::move(made.registered), std::move(made.room)); });
   }
-  KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
+  // The next run takes up what was stopped.
+  if (!made.result.contains("stopped"))
+    KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
   const int status = Show(made.result, options, what);
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"] + report_s,
                report_s > 0 ? (context.out + "/report.html").c_str() : path.c_str());

@@ -118,7 +118,7 @@ json SharesJson(const FittedRoom& fitted, const std::vector<Gaze>& gazes, const 
   return shares;
 }
 
-std::string Table(const json& result) {
+std::string DimmingTable(const json& result) {
   std::string text = fmt::format(
       "state {}: drop at each eye up to {:g} %\n\nperson       luminaire  at the eye "
       "lx   direct  indirect  share %  in view\n",
@@ -211,7 +211,7 @@ int DimCommand(const DimCommandOptions& options) {
                                                               {"indirect_lx", "/indirect_lx"},
                                                               {"share", "/share"}}));
   WriteJson(folder + "/dim.json", result);
-  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : Table(result).c_str(), stdout);
+  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : DimmingTable(result).c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (folder + "/dim.json").c_str());
   return is_lit ? 0 : 1;
 }

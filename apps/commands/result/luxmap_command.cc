@@ -240,7 +240,7 @@ std::string ValueText(const json& value, const json& sigma) {
   return fmt::format("{:.2f} ± {:.2f}", value.get<double>(), sigma.get<double>());
 }
 
-std::string Table(const json& result) {
+std::string LuxMapTable(const json& result) {
   std::string text;
   for (const json& photo : result["photos"]) {
     text += fmt::format("{} {}: {:.0f} % of the pixels have a known illuminance\n",
@@ -299,7 +299,7 @@ int LuxmapCommand(const LuxmapCommandOptions& options) {
   WriteText(context.out + "/photos.csv", PhotosCsv(fitted, result["photos"]));
   WriteText(context.out + "/places.csv", PlacesCsv(result["photos"]));
   WriteJson(context.out + "/luxmap.json", result);
-  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : Table(result).c_str(), stdout);
+  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : LuxMapTable(result).c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (context.out + "/luxmap.json").c_str());
   return context.undetermined ? 1 : 0;
 }

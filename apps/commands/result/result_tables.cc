@@ -52,9 +52,11 @@ std::string LuminaireTable(const json& result) {
 std::string MaterialTable(const json& result) {
   std::string text = "\nmaterial         albedo            source\n";
   for (const json& m : result["materials"]) {
-    text += fmt::format("{:<16} {:<18} {}\n", m["name"].get<std::string>(),
-                        m["albedo"].is_null() ? "-" : PlusMinus(m["albedo"], m["sigma"], "{:.4f}"),
-                        m["source"].get<std::string>());
+    const bool is_known = !m["albedo"].is_null();
+    text += fmt::format("{:<16} {:<18} {}{}\n", m["name"].get<std::string>(),
+                        is_known ? PlusMinus(m["albedo"], m["sigma"], "{:.4f}") : "-",
+                        m["source"].get<std::string>(),
+                        is_known && m.value("by_indirect_light", false) ? ", by indirect light" : "");
   }
   return text;
 }

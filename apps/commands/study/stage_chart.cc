@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
 
 #include "apps/charts/chart_points.h"
+#include "apps/charts/speed_accuracy_chart.h"
+#include "apps/commands/study/internal/earlier_chart.h"
+#include "apps/commands/study/internal/forward_chart_table.h"
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
@@ -54,25 +57,6 @@ std::vector<Sensor> WorkPlane(const Session& session, const Scene& scene) {
                      "expected places to predict, got none, and the mesh holds no work plane at 0.8 m; add "
                      "[luxmeter] with a table whose illuminance_lx may be empty");
   return sensors;
-}
-
-std::string BouncesOf(const ChartPoint& point) {
-  return point.bounces ? std::to_string(*point.bounces) : "all";
-}
-
-std::string Csv(const Chart& chart) {
-  std::string text =
-      "factor,method,rays,patch_size_m,element_size_m,adaptive,bounces,solver,patches,time_s,error_percent,"
-      "estimated_error_percent,"
-      "on_front,automatic\n";
-  for (const ChartPoint& p : chart.points) {
-    text += fmt::format("{},{},{},{:g},{:g},{:d},{},{},{},{:.4g},{:.4g},{},{:d},{:d}\n", p.factor,
-                        ToString(p.method), p.rays, p.patch_size_m, p.element_size_m, p.adaptive,
-                        BouncesOf(p), ToString(p.solver), p.patches, p.time_s, p.error_percent,
-                        p.estimated_error_percent ? fmt::format("{:.4g}", *p.estimated_error_percent) : "",
-                        p.on_front, p.automatic);
-  }
-  return text;
 }
 
 json PointJson(const ChartPoint& p) {
@@ -137,9 +121,19 @@ GivenScene ReadGiven(const Session& session, RunContext& context) {
   }
 }
 
+// Returns the points of the earlier chart; none where none was named.
+std::vector<ChartPoint> PointsBefore(const Session& session, const ChartOptions& options,
+                                     RunContext& context) {
+  if (options.before.path.empty()) return {};
+  const CsvTable table = ReadEarlierChart(options.before.path, {ChartKind::kForward, session.name, ""});
+  context.provenance.inputs.push_back(table.path);
+  return ForwardPointsOf(table);
+}
+
 }  // namespace
 
 json ChartSession(const Session& session, const ChartOptions& options, RunContext& context) {
+  const std::vector<ChartPoint> before = PointsBefore(session, options, context);
   GivenScene given = ReadGiven(session, context);
   if (given.lit.sensors.empty()) given.lit.sensors = WorkPlane(session, given.lit.scene);
   Chart chart;
@@ -151,9 +145,10 @@ json ChartSession(const Session& session, const ChartOptions& options, RunContex
   }
   RecordAccuracy(chart.choice, chart.points.front().patches, options.error_percent, context);
   json artifact = Artifact(session, options, chart, given.lit.sensors.size(), context);
-  WriteText(context.out + "/chart.csv", Csv(chart));
+  WriteText(context.out + "/chart.csv", ForwardChartCsv(chart.points));
   WriteText(context.out + "/chart.svg",
-            XyChartsSvg({SpeedAccuracyChart(chart, session.name + ": speed against accuracy")}));
+            XyChartsSvg({SpeedAccuracyChart(chart, session.name + ": speed against accuracy", before,
+                                            options.before.names)}));
   WriteJson(context.out + "/stages/chart.json", artifact);
   return artifact;
 }

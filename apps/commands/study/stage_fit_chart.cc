@@ -3,16 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "apps/charts/xy_chart_svg.h"
+#include "apps/commands/study/internal/earlier_chart.h"
+#include "apps/commands/study/internal/fit_chart_points.h"
+#include "apps/commands/study/internal/fit_chart_svg.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/json_vectors.h"
@@ -21,16 +22,6 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-struct FitPoint {
-  std::string factor;
-  double value = 0;
-  int patches = 0, photos = 0, luminaires = 0, observations = 0;
-  double time_s = 0;  // processor time
-  double position_mm = NAN, flux_percent = NAN, lux_percent = NAN;
-  bool is_usable = true;
-  std::vector<EstimatedLuminaire> found;
-};
 
 double ProcessorS() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -57,7 +48,7 @@ class FitSweep {
              [](RoomOptions& o, double v) { o.form_factors.rays_per_element = static_cast<int>(v); });
     }
     OfLuminaires();
-    for (FitPoint& point : points_) Score(point);
+    for (size_t i = 0; i < points_.size(); ++i) Score(points_[i], found_[i]);
     return std::move(points_);
   }
 
@@ -72,11 +63,12 @@ class FitSweep {
     point.photos = PhotosOf(observed.observations);
     point.luminaires = static_cast<int>(session.luminaires.size());
     point.observations = static_cast<int>(observed.observations.size());
+    std::vector<EstimatedLuminaire> found;
     const double start_s = ProcessorS();
     try {
       const Refit refit = RefitSession(session, linearized, room, observed, context_);
       point.is_usable = !refit.undetermined;
-      point.found = refit.luminaires;
+      found = refit.luminaires;
       point.lux_percent = refit.mean_lux_error_percent;
     } catch (const std::runtime_error& e) {  // reported by the program instead of a result
       point.is_usable = false;
@@ -86,6 +78,7 @@ class FitSweep {
     std::fprintf(stderr, "fit chart %-16s %-6g %5.1f s of the processor\n", factor.c_str(), value,
                  point.time_s);
     points_.push_back(std::move(point));
+    found_.push_back(std::move(found));
   }
 
   // Adds to the observations what their photos show of luminaires: places in their states, and outlines.
@@ -96,7 +89,7 @@ class FitSweep {
       states.insert(o.state);
       photos.emplace(o.view, o.state);
     }
-    SessionObservations kept{std::move(observations), {}, {}};
+    SessionObservations kept{std::move(observations), {}, {}, PoseCovariance()};
     std::copy_if(prepared_.seen.begin(), prepared_.seen.end(), std::back_inserter(kept.seen),
                  [&](const SeenPlace& place) {
                    return std::any_of(place.states.begin(), place.states.end(),
@@ -108,6 +101,8 @@ class FitSweep {
                  });
     return kept;
   }
+
+  Eigen::MatrixXd PoseCovariance() const { return PoseErrorsOf(prepared_.registered.registration); }
 
   std::vector<Observation> Thinned() const { return ThinElements(prepared_.observations, elements_); }
 
@@ -121,8 +116,8 @@ class FitSweep {
     counts.push_back(std::max(1, static_cast<int>(observed.size())));
     for (const int n : counts)
       Add("elements", n, prepared_.session, prepared_.linearized, prepared_.room,
-          {ThinElements(prepared_.observations, n), prepared_.seen, prepared_.outlines}, 0);
-    if (truth_.empty()) truth_ = points_.back().found;
+          {ThinElements(prepared_.observations, n), prepared_.seen, prepared_.outlines, PoseCovariance()}, 0);
+    if (truth_.empty()) truth_ = found_.back();
   }
 
   void OfViews() {
@@ -135,7 +130,7 @@ class FitSweep {
       std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
                    [&](const Observation& o) { return o.view <= last; });
       Add("views", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
-          {kept, {}, WithSeen(kept).outlines}, 0);
+          {kept, {}, WithSeen(kept).outlines, PoseCovariance()}, 0);
     }
   }
 
@@ -208,16 +203,16 @@ class FitSweep {
     }
   }
 
-  void Score(FitPoint& point) const {
-    if (!point.is_usable || point.found.empty()) return;
+  void Score(FitPoint& point, const std::vector<EstimatedLuminaire>& found) const {
+    if (!point.is_usable || found.empty()) return;
     std::vector<EstimatedLuminaire> truth;
     for (const EstimatedLuminaire& t : truth_) {
-      const bool is_asked = point.found.size() >= truth_.size() ||
-                            std::any_of(point.found.begin(), point.found.end(),
-                                        [&](const EstimatedLuminaire& f) { return f.id == t.id; });
+      const bool is_asked =
+          found.size() >= truth_.size() ||
+          std::any_of(found.begin(), found.end(), [&](const EstimatedLuminaire& f) { return f.id == t.id; });
       if (is_asked) truth.push_back(t);
     }
-    const FitScore score = ScoreFit(point.found, truth, false);
+    const FitScore score = ScoreFit(found, truth, false);
     point.position_mm = 1e3 * score.position_error_m;
     point.flux_percent = 100 * score.flux_error;
   }
@@ -227,97 +222,46 @@ class FitSweep {
   int elements_;
   RunContext& context_;
   std::vector<FitPoint> points_;
+  std::vector<std::vector<EstimatedLuminaire>> found_;  // by point
 };
 
-std::string CellOrEmpty(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
-
-std::string Csv(const std::vector<FitPoint>& points) {
-  std::string text =
-      "factor,value,patches,photos,luminaires,observations,processor_time_s,usable,position_mm,flux_percent,"
-      "lux_percent\n";
-  for (const FitPoint& p : points)
-    text += fmt::format("{},{:g},{},{},{},{},{:.3g},{:d},{},{},{}\n", p.factor, p.value, p.patches, p.photos,
-                        p.luminaires, p.observations, p.time_s, p.is_usable, CellOrEmpty(p.position_mm),
-                        CellOrEmpty(p.flux_percent), CellOrEmpty(p.lux_percent));
-  return text;
+json PointJson(const FitPoint& p) {
+  return {{"factor", p.factor},
+          {"value", p.value},
+          {"patches", p.patches},
+          {"photos", p.photos},
+          {"luminaires", p.luminaires},
+          {"observations", p.observations},
+          {"processor_time_s", p.time_s},
+          {"usable", p.is_usable},
+          {"position_mm", NumberOrNull(p.position_mm)},
+          {"flux_percent", NumberOrNull(p.flux_percent)},
+          {"lux_percent", NumberOrNull(p.lux_percent)}};
 }
 
-std::vector<std::string> FactorsOf(const std::vector<FitPoint>& points) {
-  std::vector<std::string> factors;
-  for (const FitPoint& p : points) {
-    if (std::count(factors.begin(), factors.end(), p.factor) == 0) factors.push_back(p.factor);
-  }
-  return factors;
+json Artifact(const Session& session, const FitChartOptions& options, const std::vector<FitPoint>& points,
+              const RunContext& context) {
+  json artifact = ProvenanceJson("luxfit-fit-chart-1", context.provenance);
+  artifact["session"] = session.name;
+  artifact["elements"] = options.elements;
+  artifact["reference"] =
+      options.truth_path.empty() ? "the fit to all observed elements" : options.truth_path;
+  artifact["points"] = json::array();
+  for (const FitPoint& p : points) artifact["points"].push_back(PointJson(p));
+  artifact["slopes"] = json::object();
+  for (const auto& [name, slope] : FitSlopes(points)) artifact["slopes"][name] = NumberOrNull(slope);
+  artifact["warnings"] = WarningsJson(context);
+  return artifact;
 }
 
-std::string ErrorSvg(const std::vector<FitPoint>& points, const std::string& title, const std::string& unit,
-                     const std::function<double(const FitPoint&)>& error) {
-  XyChart chart;
-  chart.title = title;
-  chart.subtitle = "one thing varied at a time; labels: its value; the best is at the lower left";
-  chart.x = {"processor time of form factors and fit, s", true, {}, {}};
-  chart.y = {unit, true, {}, {}};
-  for (const std::string& factor : FactorsOf(points)) {
-    XySeries series{factor, {}, {}, true};
-    for (const FitPoint& p : points) {
-      if (p.factor != factor) continue;
-      series.points.push_back({p.time_s, error(p)});
-      series.labels.push_back(fmt::format("{:g}", p.value));
-    }
-    chart.series.push_back(std::move(series));
-  }
-  return XyChartsSvg({chart});
-}
-
-struct Cost {
-  std::string name, factor;
-  std::function<double(const FitPoint&)> size;
-};
-const std::vector<Cost>& Costs() {
-  static const std::vector<Cost> costs{
-      {"patches", "patch_size_m", [](const FitPoint& p) { return p.patches; }},
-      {"photos", "views", [](const FitPoint& p) { return p.photos; }},
-      {"luminaires", "luminaires", [](const FitPoint& p) { return p.luminaires; }}};
-  return costs;
-}
-
-// Returns the slope of ln time over ln size; NaN for fewer than two sizes.
-double Slope(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& p : points)
-    mean += p.array().log().matrix() / static_cast<double>(points.size());
-  double xx = 0, xy = 0;
-  for (const Eigen::Vector2d& p : points) {
-    const Eigen::Vector2d d = p.array().log().matrix() - mean;
-    xx += d.x() * d.x();
-    xy += d.x() * d.y();
-  }
-  return xx > 1e-12 ? xy / xx : NAN;
-}
-
-std::string CostSvg(const std::vector<FitPoint>& points, json& slopes) {
-  XyChart chart;
-  chart.title = "Cost of the fit";
-  chart.subtitle = "processor time over size, each relative to its largest; linear would have slope 1";
-  chart.x = {"size, of the largest", true, {}, {}};
-  chart.y = {"time, of the largest's", true, {}, {}};
-  slopes = json::object();
-  for (const Cost& cost : Costs()) {
-    std::vector<Eigen::Vector2d> sizes;
-    for (const FitPoint& p : points) {
-      if (p.factor == cost.factor && p.is_usable) sizes.emplace_back(cost.size(p), p.time_s);
-    }
-    if (sizes.size() < 2) continue;
-    const double slope = Slope(sizes);
-    slopes[cost.name] = NumberOrNull(slope);
-    const auto largest = std::max_element(sizes.begin(), sizes.end(),
-                                          [](const auto& a, const auto& b) { return a.x() < b.x(); });
-    const Eigen::Vector2d unit = *largest;
-    XySeries series{fmt::format("{}: slope {:.2f}", cost.name, slope), {}, {}, true};
-    for (const Eigen::Vector2d& p : sizes) series.points.push_back(p.cwiseQuotient(unit));
-    chart.series.push_back(std::move(series));
-  }
-  return XyChartsSvg({chart});
+// Returns the points of the earlier chart; none where none was named.
+std::vector<FitPoint> PointsBefore(const Session& session, const FitChartOptions& options,
+                                   RunContext& context) {
+  if (options.before.path.empty()) return {};
+  const CsvTable table =
+      ReadEarlierChart(options.before.path, {ChartKind::kFit, session.name, options.truth_path});
+  context.provenance.inputs.push_back(table.path);
+  return FitPointsOf(table);
 }
 
 }  // namespace
@@ -328,39 +272,15 @@ json FitChartOfSession(const Session& session, const FitChartOptions& options, R
     truth = ReadTruth(options.truth_path);
     context.provenance.inputs.push_back(options.truth_path);
   }
+  const std::vector<FitPoint> before = PointsBefore(session, options, context);
   const PreparedSession prepared = PrepareSession(session, context);
   const std::vector<FitPoint> points = FitSweep(prepared, truth, options.elements, context).Run();
-  json artifact = ProvenanceJson("luxfit-fit-chart-1", context.provenance);
-  artifact["session"] = session.name;
-  artifact["elements"] = options.elements;
-  artifact["reference"] = truth.empty() ? "the fit to all observed elements" : options.truth_path;
-  artifact["points"] = json::array();
-  for (const FitPoint& p : points)
-    artifact["points"].push_back({{"factor", p.factor},
-                                  {"value", p.value},
-                                  {"patches", p.patches},
-                                  {"photos", p.photos},
-                                  {"luminaires", p.luminaires},
-                                  {"observations", p.observations},
-                                  {"processor_time_s", p.time_s},
-                                  {"usable", p.is_usable},
-                                  {"position_mm", NumberOrNull(p.position_mm)},
-                                  {"flux_percent", NumberOrNull(p.flux_percent)},
-                                  {"lux_percent", NumberOrNull(p.lux_percent)}});
-  WriteText(context.out + "/fit.csv", Csv(points));
-  const std::string name = session.name + ": ";
-  const auto write = [&](const std::string& file, const std::string& svg) {
-    if (!svg.empty()) WriteText(context.out + "/" + file, svg);
-  };
-  write("fit_position.svg",
-        ErrorSvg(points, name + "luminaires' places against time", "median error of position, mm",
-                 [](const FitPoint& p) { return p.position_mm; }));
-  write("fit_flux.svg", ErrorSvg(points, name + "luminaires' fluxes against time", "median error of flux, %",
-                                 [](const FitPoint& p) { return p.flux_percent; }));
-  write("fit_lux.svg", ErrorSvg(points, name + "readings against time", "mean error, % of the mean reading",
-                                [](const FitPoint& p) { return p.lux_percent; }));
-  write("fit_cost.svg", CostSvg(points, artifact["slopes"]));
-  artifact["warnings"] = WarningsJson(context);
+  json artifact = Artifact(session, options, points, context);
+  WriteText(context.out + "/fit.csv", FitChartCsv(points));
+  for (const FitPicture& picture : FitPictures(points, session.name, before, options.before.names)) {
+    const std::string svg = XyChartsSvg({picture.chart});
+    if (!svg.empty()) WriteText(context.out + "/" + picture.file, svg);
+  }
   WriteJson(context.out + "/stages/fit_chart.json", artifact);
   return artifact;
 }

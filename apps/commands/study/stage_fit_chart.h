@@ -19,6 +19,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "apps/charts/before_after.h"
 #include "apps/stages/stages.h"
 
 namespace luxfit {
@@ -26,6 +27,7 @@ namespace luxfit {
 struct FitChartOptions {
   int elements = 1000;     // observed elements that each fit uses, except where their number is varied
   std::string truth_path;  // file of true luminaires; empty: the point with all elements counts as true
+  EarlierChart before;     // drawn in the same pictures
 };
 
 nlohmann::json FitChartOfSession(const Session& session, const FitChartOptions& options, RunContext& context);

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/commands/study/internal/earlier_chart.h"
 #include "apps/commands/study/internal/stability_chart.h"
 #include "apps/stages/degrade/degradations.h"
 #include "apps/text/formats/artifact.h"
@@ -164,51 +164,88 @@ std::string KeyOf(const StabilityOptions& options, const RunContext& context) {
   return HashText(made_from.dump());
 }
 
-}  // namespace
+// Returns the rows of the earlier chart; none where none was named.
+std::vector<StabilityRow> RowsBefore(const Session& session, const StabilityOptions& options,
+                                     RunContext& context) {
+  if (options.before.path.empty()) return {};
+  const CsvTable table =
+      ReadEarlierChart(options.before.path, {ChartKind::kStability, session.name, options.truth_path});
+  context.provenance.inputs.push_back(table.path);
+  return StabilityRowsOf(table);
+}
 
-json StabilityOfSession(const Session& session, const StabilityOptions& options, RunContext& context) {
-  std::vector<Degradation> asked = DegradationsNamed(options.only);
-  std::vector<EstimatedLuminaire> truth;
-  if (!options.truth_path.empty()) {
-    truth = ReadTruth(options.truth_path);
-    context.provenance.inputs.push_back(options.truth_path);
-  }
-  TrialLog log(context.out + "/stages/stability_trials.jsonl", KeyOf(options, context));
-  const PreparedSession prepared = PrepareSession(session, context);
-  std::fprintf(stderr, "stability the undegraded session\n");
-  DegradedSessions sessions(prepared, truth, options.elements, options.seed, context);
+json UndegradedJson(const DegradedSessions& sessions) {
+  return {{"success", sessions.undegraded_score().is_success},
+          {"worst_position_m", NumberOrNull(sessions.undegraded_score().worst_position_m)},
+          {"worst_flux", NumberOrNull(sessions.undegraded_score().worst_flux)},
+          {"undetermined", sessions.undegraded().undetermined},
+          {"warnings", sessions.undegraded().warnings}};
+}
+
+// Returns the artifact without its results.
+json ArtifactOf(const Session& session, const StabilityOptions& options, const DegradedSessions& sessions,
+                const RunContext& context) {
   json artifact = ProvenanceJson("luxfit-stability-1", context.provenance);
   artifact["session"] = session.name;
   artifact["seed"] = options.seed;
   artifact["trials"] = options.trials;
   artifact["elements"] = options.elements;
-  artifact["reference"] = truth.empty() ? "the undegraded fit" : options.truth_path;
+  artifact["reference"] = options.truth_path.empty() ? "the undegraded fit" : options.truth_path;
   artifact["simulated"] =
       "luminaires_together and albedo_raised are no photos: the fitted luminaires' light, traced in the "
       "session's mesh by an unbiased light tracer (no patches, no form factors, four points an element), "
       "with "
       "1 % of model error by facet and state";
-  artifact["undegraded"] = {{"success", sessions.undegraded_score().is_success},
-                            {"worst_position_m", NumberOrNull(sessions.undegraded_score().worst_position_m)},
-                            {"worst_flux", NumberOrNull(sessions.undegraded_score().worst_flux)},
-                            {"undetermined", sessions.undegraded().undetermined},
-                            {"warnings", sessions.undegraded().warnings}};
+  artifact["undegraded"] = UndegradedJson(sessions);
   artifact["skipped"] = json::array();
-  asked.erase(std::remove_if(asked.begin(), asked.end(),
-                             [&](const Degradation& d) {
-                               const std::optional<std::string> why = sessions.WhyNot(d);
-                               if (why)
-                                 artifact["skipped"].push_back({{"degradation", d.name}, {"because", *why}});
-                               return why.has_value();
-                             }),
-              asked.end());
-  const std::vector<DegradationResult> results = RunTrials(sessions, asked, options, log);
   artifact["edges"] = json::array();
-  for (const DegradationResult& result : results) {
-    artifact["edges"].push_back(EdgeJson(result));
-    WriteText(context.out + "/stability_" + result.degradation.name + ".svg",
-              StabilitySvg(result, session.name, options.trials));
+  return artifact;
+}
+
+// Returns those that the session allows; `skipped` receives the others with the reason.
+std::vector<Degradation> Allowed(const std::vector<Degradation>& asked, const DegradedSessions& sessions,
+                                 json& skipped) {
+  std::vector<Degradation> allowed;
+  for (const Degradation& d : asked) {
+    const std::optional<std::string> why = sessions.WhyNot(d);
+    if (why) {
+      skipped.push_back({{"degradation", d.name}, {"because", *why}});
+    } else {
+      allowed.push_back(d);
+    }
   }
+  return allowed;
+}
+
+void WritePictures(const std::vector<DegradationResult>& results, const std::vector<StabilityRow>& before,
+                   const std::string& session, const StabilityOptions& options, const std::string& out) {
+  for (const DegradationResult& result : results) {
+    const StabilityPicture picture{session, options.trials, before, options.before.names};
+    WriteText(out + "/stability_" + result.degradation.name + ".svg", StabilitySvg(result, picture));
+  }
+}
+
+}  // namespace
+
+json StabilityOfSession(const Session& session, const StabilityOptions& options, RunContext& context) {
+  const std::vector<Degradation> asked = DegradationsNamed(options.only);
+  std::vector<EstimatedLuminaire> truth;
+  if (!options.truth_path.empty()) {
+    truth = ReadTruth(options.truth_path);
+    context.provenance.inputs.push_back(options.truth_path);
+  }
+  // No trial depends on the earlier chart: it is an input of the artifact, and not part of the log's key.
+  const std::string key = KeyOf(options, context);
+  const std::vector<StabilityRow> before = RowsBefore(session, options, context);
+  TrialLog log(context.out + "/stages/stability_trials.jsonl", key);
+  const PreparedSession prepared = PrepareSession(session, context);
+  std::fprintf(stderr, "stability the undegraded session\n");
+  DegradedSessions sessions(prepared, truth, options.elements, options.seed, context);
+  json artifact = ArtifactOf(session, options, sessions, context);
+  const std::vector<DegradationResult> results =
+      RunTrials(sessions, Allowed(asked, sessions, artifact["skipped"]), options, log);
+  for (const DegradationResult& result : results) artifact["edges"].push_back(EdgeJson(result));
+  WritePictures(results, before, session.name, options, context.out);
   WriteText(context.out + "/stability.csv", StabilityCsv(results));
   context.undetermined = sessions.undegraded().undetermined;
   artifact["warnings"] = WarningsJson(context);

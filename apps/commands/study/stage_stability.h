@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/charts/before_after.h"
 #include "apps/stages/stages.h"
 
 namespace luxfit {
@@ -26,6 +27,7 @@ struct StabilityOptions {
   int elements = 1000;     // observed elements that each fit uses; the whole office takes ten times as long
   std::string truth_path;  // file of true luminaires; empty: the undegraded fit counts as true
   std::vector<std::string> only;  // degradations; empty: all
+  EarlierChart before;            // drawn in the same pictures
 };
 
 nlohmann::json StabilityOfSession(const Session& session, const StabilityOptions& options,

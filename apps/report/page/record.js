@@ -12,7 +12,7 @@ export function reflectances(data) {
     { title: 'Material', text: true, of: (m) => m.name },
     { title: 'Reflectance, 95 %', of: (m) => (isNumber(m.albedo) ? plusMinus(m.albedo, m.sigma, 3) : kNone) },
     { title: 'Red, green, blue', of: (m) => (Array.isArray(m.albedo_rgb) && m.albedo_rgb.every(isNumber) ? m.albedo_rgb.map((x) => fixed(x, 2)).join(', ') : '\u2013') },
-    { title: 'Source', text: true, of: (m) => kSources[m.source] || m.source },
+    { title: 'Source', text: true, of: (m) => (kSources[m.source] || m.source) + (m.by_indirect_light && isNumber(m.albedo) ? ', by indirect light' : '') },
   ], data.result.materials);
 }
 

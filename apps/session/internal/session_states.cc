@@ -1,11 +1,77 @@
 #include "apps/session/internal/session_states.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "apps/text/suggest.h"
 
 namespace luxfit {
+namespace {
+
+const SessionGroup* FindGroup(const std::vector<SessionGroup>& groups, const std::string& name) {
+  const auto found =
+      std::find_if(groups.begin(), groups.end(), [&](const SessionGroup& one) { return one.name == name; });
+  return found == groups.end() ? nullptr : &*found;
+}
+
+double ReadDimming(const TomlCursor& value) {
+  const double dimming = value.Number("a dimming in 0..1");
+  if (dimming < 0 || dimming > 1)
+    throw value.Error("expected a dimming in 0..1, got " + value.Shown() + "; 30 % is written 0.3");
+  return dimming;
+}
+
+// Reads one state. Its groups and luminaires may overlap where they say the same.
+SessionState ReadState(const TomlCursor::Member& member, const std::vector<SessionGroup>& groups) {
+  SessionState state{member.name, {}};
+  std::map<std::string, std::string> said_by;  // luminaire -> group or luminaire, as the file has it
+  for (const auto& [name, value] : member.value.Members()) {
+    const double dimming = ReadDimming(value);
+    const SessionGroup* const group = FindGroup(groups, name);
+    for (const std::string& id : group ? group->luminaires : std::vector<std::string>{name}) {
+      if (state.dimming.emplace(id, dimming).second) {
+        said_by[id] = name;
+      } else if (state.dimming[id] != dimming) {
+        throw value.Error("expected one dimming of " + Quoted(id) + ", got " + value.Shown() +
+                          " beside that of " + Quoted(said_by[id]) +
+                          "; give both the same, or name the luminaires one by one");
+      }
+    }
+  }
+  return state;
+}
+
+}  // namespace
+
+std::vector<SessionState> ReadStates(const TomlCursor& section, const std::vector<SessionGroup>& groups) {
+  std::vector<SessionState> states;
+  for (const TomlCursor::Member& member : section.Members()) states.push_back(ReadState(member, groups));
+  if (states.empty())
+    throw section.Error("expected at least one state, got none; write A = { A = 1.0 } or remove the section");
+  return states;
+}
+
+std::vector<std::string> LuminairesOfStates(const TomlCursor& section,
+                                            const std::vector<SessionGroup>& groups,
+                                            const std::vector<std::string>& known) {
+  std::vector<std::string> names = known;
+  for (const SessionGroup& group : groups) names.push_back(group.name);
+  std::vector<std::string> ids;
+  for (const TomlCursor::Member& state : section.Members()) {
+    for (const auto& [name, value] : state.value.Members()) {
+      if (FindGroup(groups, name) != nullptr) continue;
+      if (!groups.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
+        const std::string nearest = DidYouMean(name, names);
+        throw value.Error("expected a group or a luminaire that [[luminaire]] or [groups] names (" +
+                          ListNames(names) + "), got " + Quoted(name) +
+                          (nearest.empty() ? "; add it to one of them, or correct it" : nearest));
+      }
+      ids.push_back(name);
+    }
+  }
+  return ids;
+}
 
 std::string StateOfRow(const CsvTable& table, const CsvRow& row, const std::vector<SessionState>& states) {
   const std::string& id = CsvText(table, row, "state");

@@ -57,8 +57,8 @@ DegradedSessions::DegradedSessions(const PreparedSession& prepared, std::vector<
              {}},
       seed_(seed),
       context_(context) {
-  whole_.refit =
-      RefitSession(prepared.session, prepared.linearized, prepared.room, {whole_.thinned, {}, {}}, context);
+  whole_.refit = RefitSession(prepared.session, prepared.linearized, prepared.room,
+                              {whole_.thinned, {}, {}, {}}, context);
   const Refit& refit = whole_.refit;
   if (whole_.truth.empty()) whole_.truth = refit.luminaires;
   known_warnings_ = refit.warnings;
@@ -86,7 +86,7 @@ DegradedFit DegradedSessions::Fit(const Degradation& degradation, double level, 
     c.context.out = context_.out;
     c.context.is_quiet = true;
     degradation.apply(whole_, level, rng, c);
-    result.refit = RefitSession(c.session, c.linearized, *c.room, {c.observations, {}, {}}, context_);
+    result.refit = RefitSession(c.session, c.linearized, *c.room, {c.observations, {}, {}, {}}, context_);
     for (const Warning& warning : c.context.warnings) result.refit.warnings.push_back(warning.code);
     for (const std::string& code : result.refit.warnings) {
       if (std::count(known_warnings_.begin(), known_warnings_.end(), code) == 0)

@@ -1,6 +1,7 @@
 #include <stdexcept>
 
 #include "apps/stages/degrade/degradation_rows.h"
+#include "apps/stages/register/lay_on_mesh.h"
 #include "inverse/study/degrade.h"
 
 namespace luxfit {
@@ -24,7 +25,9 @@ void MoveTags(UndegradedSession& whole, double sigma_mm, std::mt19937_64& rng, D
   c.session.tags.survey = WithMovedTags(c.session.tags.survey, sigma_mm / 1000, rng);
   RegisteredSession registered;
   registered.cameras = cameras;
-  registered.registration = RegisterViews(cameras, c.session.tags.survey, *whole.detections);
+  RegisterViewsOptions options;
+  options.surface = SurfaceOf(c.room->scene);
+  registered.registration = RegisterViews(cameras, c.session.tags.survey, *whole.detections, options);
   for (const RegistrationNote& note : registered.registration.notes)
     c.context.warnings.push_back({note.code, note.message, note.remedy});
   if (!registered.registration.IsUsable())

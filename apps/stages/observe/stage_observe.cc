@@ -141,9 +141,9 @@ SessionObservations ObserveSession(const Session& session, const LinearizedPhoto
   observations = WithSelfCalibration(session, photos, registered, room.patches,
                                      InOneUnit(std::move(observations), photos, views), context, artifact);
   const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs));
-  SessionObservations observed{std::move(observations),
-                               FindSeenLuminaires(room, registered.cameras, views, seen),
-                               FindSeenOutlines(registered.cameras, views, seen)};
+  SessionObservations observed{
+      std::move(observations), FindSeenLuminaires(room, registered.cameras, views, seen),
+      FindSeenOutlines(registered.cameras, views, seen), PoseErrorsOf(registered.registration)};
   artifact["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", artifact);
   return observed;

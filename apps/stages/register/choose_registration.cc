@@ -61,7 +61,11 @@ class RegistrationJob {
  private:
   RegisterViewsOptions Options() const {
     RegisterViewsOptions options;
-    if (session_.tags.survey.empty()) options.tag_size_m = session_.tags.size_m;
+    if (session_.tags.survey.empty()) {
+      options.tag_size_m = session_.tags.size_m;
+    } else if (session_.scene) {
+      options.surface = SurfaceOf(ReadScene(session_.scene->mesh, session_.scene->metres_per_unit));
+    }
     return options;
   }
 
@@ -132,19 +136,19 @@ void LeaveOutPoorlyPlaced(const Registration& tags, Registration& both) {
   double worst_by_tags_m = 0;
   for (const RegisteredView& view : tags.views)
     worst_by_tags_m = std::max(worst_by_tags_m, view.position_sigma_m.norm());
-  std::vector<RegisteredView> kept;
+  std::vector<bool> is_kept;
+  is_kept.reserve(both.views.size());
   for (const RegisteredView& view : both.views) {
-    if (HasView(tags, view.view) || view.position_sigma_m.norm() <= kMaxSigmaOfWorst * worst_by_tags_m) {
-      kept.push_back(view);
-      continue;
-    }
+    is_kept.push_back(HasView(tags, view.view) ||
+                      view.position_sigma_m.norm() <= kMaxSigmaOfWorst * worst_by_tags_m);
+    if (is_kept.back()) continue;
     both.notes.push_back(
         {view.view, -1, "pose_uncertain",
          fmt::format("Features leave the place of view {} uncertain by {:.0f} mm; it is left out.", view.view,
                      1000 * view.position_sigma_m.norm()),
          "Show the view more tags, or take photos that overlap more with it."});
   }
-  both.views = kept;
+  KeepViews(is_kept, both);
 }
 
 Registration Auto(const RegistrationJob& job) {

@@ -80,6 +80,29 @@ RegisteredView ViewFromJson(const json& entry) {
   return view;
 }
 
+// Writes the lower triangle of a symmetric matrix, row by row.
+json TriangleJson(const Eigen::MatrixXd& matrix) {
+  json list = json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column) list.push_back(NumberOrNull(matrix(row, column)));
+  }
+  return list;
+}
+
+// Reads a symmetric matrix of `rows` rows; nlohmann::json::out_of_range where there are too few numbers.
+Eigen::MatrixXd MatrixFromTriangle(const json& list, Eigen::Index rows) {
+  Eigen::MatrixXd matrix(rows, rows);
+  size_t next = 0;
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    for (Eigen::Index column = 0; column <= row; ++column) {
+      const json& value = list.at(next++);
+      matrix(row, column) = matrix(column, row) =
+          value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+    }
+  }
+  return matrix;
+}
+
 json TagJson(const SurveyedTag& tag) {
   return {{"id", tag.id},
           {"size_m", tag.size_m},
@@ -114,6 +137,7 @@ json RegistrationJson(const Session& session, const RegisteredSession& registere
               {"message", r.message},
               {"reprojection_rms_px", r.reprojection_rms_px},
               {"frame", r.frame},
+              {"survey_sigma_m", r.survey_sigma_m},
               {"tag_size_error", r.tag_size_error},
               {"tag_size_error_sigma", r.tag_size_error_sigma},
               {"focal_scale", r.focal_scale},
@@ -122,6 +146,7 @@ json RegistrationJson(const Session& session, const RegisteredSession& registere
               {"point_sigma_px", r.point_sigma_px},
               {"cameras", json::array()},
               {"views", json::array()},
+              {"pose_covariance", TriangleJson(r.pose_covariance)},
               {"placed_tags", json::array()},
               {"notes", json::array()}};
   for (size_t c = 0; c < registered.cameras.size(); ++c)
@@ -139,6 +164,7 @@ RegisteredSession RegistrationFromJson(const json& in) {
   r.message = in.at("message");
   r.reprojection_rms_px = in.at("reprojection_rms_px");
   r.frame = in.at("frame");
+  r.survey_sigma_m = in.at("survey_sigma_m");
   r.tag_size_error = in.at("tag_size_error");
   r.tag_size_error_sigma = in.at("tag_size_error_sigma");
   r.focal_scale = in.at("focal_scale").get<std::vector<double>>();
@@ -147,6 +173,8 @@ RegisteredSession RegistrationFromJson(const json& in) {
   r.point_sigma_px = in.at("point_sigma_px");
   for (const json& camera : in.at("cameras")) registered.cameras.push_back(CameraFromJson(camera));
   for (const json& view : in.at("views")) r.views.push_back(ViewFromJson(view));
+  r.pose_covariance =
+      MatrixFromTriangle(in.at("pose_covariance"), static_cast<Eigen::Index>(6 * r.views.size()));
   for (const json& tag : in.at("placed_tags")) r.placed_tags.push_back(TagFromJson(tag));
   for (const json& note : in.at("notes"))
     r.notes.push_back(

@@ -3,7 +3,8 @@
 //
 // Everything is kept except what only the registration itself needs (`notes` return as they were written). A
 // camera is {"id", "width_px", ..., "distortion", "lens", "spline"}. A pose `cam_from_world` is the twelve
-// numbers of a 3 x 4 matrix, row by row. Sigmas that are not known are NaN and are written as null.
+// numbers of a 3 x 4 matrix, row by row. `pose_covariance` is the lower triangle of the covariance of all poses,
+// row by row in one list. Sigmas that are not known are NaN and are written as null.
 //
 // Reading throws nlohmann::json::exception where a key is missing or has another type.
 #ifndef LUXFIT_APPS_STAGES_REGISTER_REGISTRATION_JSON_H_

@@ -16,7 +16,7 @@ namespace luxfit {
 namespace {
 
 void WriteArtifact(const Session& session, const RegisteredSession& registered, const RunContext& context) {
-  nlohmann::json artifact = ProvenanceJson("luxfit-register-1", context.provenance);
+  nlohmann::json artifact = ProvenanceJson("luxfit-register-2", context.provenance);
   artifact.update(RegistrationJson(session, registered));
   artifact["choices"] = ChoicesJson(context);
   WriteJson(context.out + "/stages/register.json", artifact);
@@ -45,6 +45,29 @@ void TakeFocalLengths(const Session& session, RegisteredSession& registered, Run
   }
 }
 
+// Records the sigma of the survey with which the poses were found, and why.
+void RecordSurveySigma(const Session& session, const Registration& registration, RunContext& context) {
+  const double given_m = RegisterViewsOptions().survey_sigma_m;
+  if (session.tags.survey.empty() || !(registration.survey_sigma_m > 0)) return;
+  const bool is_larger = registration.survey_sigma_m > given_m;
+  context.choices.push_back(
+      {"survey sigma",
+       fmt::format("{:.2g} mm", 1000 * registration.survey_sigma_m),
+       {fmt::format("{:.2g} mm as given", 1000 * given_m), "estimated from the tags' displacements"},
+       is_larger
+           ? "the tags hang further off their places than the given sigma allows, and no single moved tag "
+             "explains it"
+           : "the tags do not contradict it (chi-square test of their displacements, 99 %)"});
+}
+
+// Records whether the tags count as lying on the mesh's surfaces, and why.
+void RecordTagsOnSurfaces(const TagsOnSurfaces& laid, RunContext& context) {
+  if (laid.reason.empty()) return;
+  const auto tags = [&laid](int count) { return fmt::format("{} of {}", count, laid.seen); };
+  context.choices.push_back(
+      {"tags on surfaces", tags(laid.used), {tags(0), "up to " + tags(laid.candidates)}, laid.reason});
+}
+
 }  // namespace
 
 std::string MethodOf(const RegisteredView& view) {
@@ -69,6 +92,8 @@ RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos
         fmt::format("{}: registration: expected at least one view with a pose, got none; {}", session.path,
                     registered.registration.message));
   }
+  RecordSurveySigma(session, registered.registration, context);
+  RecordTagsOnSurfaces(registered.registration.tags_on_surfaces, context);
   TakeFocalLengths(session, registered, context);
   WriteArtifact(session, registered, context);
   return registered;

@@ -65,10 +65,12 @@ Targets TargetsOn(const Luminaire& luminaire, int order) {
   return targets;
 }
 
+constexpr int kPartsASide = 4, kShadowProbes = kPartsASide * kPartsASide;
+
 // Returns the mean over the probes of the share that each sees.
 float ProbedShare(const RayScene& rays, const std::vector<Eigen::Vector3d>& probes,
                   const Eigen::Vector3d& normal, const Targets& targets) {
-  std::array<float, 4> seen{}, in_front{};
+  std::array<float, kShadowProbes> seen{}, in_front{};
   RayPacket packet;
   std::array<std::pair<size_t, float>, RayPacket::kSize> of_ray;
   const auto cast = [&] {
@@ -123,6 +125,23 @@ Eigen::Array<Sight, Eigen::Dynamic, Eigen::Dynamic> SightOfPatches(const Patches
 
 }  // namespace
 
+std::vector<Eigen::Vector3d> ShadowProbesOf(const Element& element, bool triangle) {
+  if (!element.is_whole) return ProbesOf(element, triangle);
+  std::vector<Eigen::Vector3d> probes;
+  probes.reserve(kShadowProbes);
+  const auto add = [&](double i, double j) {
+    probes.push_back(element.origin + i / kPartsASide * element.edge_u + j / kPartsASide * element.edge_v);
+  };
+  for (int i = 0; i < kPartsASide; ++i) {
+    for (int j = 0; j < kPartsASide; ++j) {
+      if (!triangle) add(i + 0.5, j + 0.5);
+      if (triangle && i + j < kPartsASide) add(i + 1.0 / 3, j + 1.0 / 3);
+      if (triangle && i + j < kPartsASide - 1) add(i + 2.0 / 3, j + 2.0 / 3);
+    }
+  }
+  return probes;
+}
+
 Sight PatchSightOf(const Patches& patches, int patch, const Luminaire& luminaire,
                    const std::vector<Blocker>& blockers) {
   const Patch& of = patches.patches[static_cast<size_t>(patch)];
@@ -160,7 +179,7 @@ Eigen::MatrixXf ElementVisibility(const RayScene& rays, const Patches& patches,
                         static_cast<Eigen::Index>(luminaires.size()));
   tbb::parallel_for(size_t{0}, elements.size(), [&](size_t i) {
     const Element& element = patches.elements[static_cast<size_t>(elements[i])];
-    const std::vector<Eigen::Vector3d> probes = ProbesOf(element, patches.IsTriangle(element.patch));
+    const std::vector<Eigen::Vector3d> probes = ShadowProbesOf(element, patches.IsTriangle(element.patch));
     for (size_t k = 0; k < luminaires.size(); ++k) {
       const auto lamp = static_cast<Eigen::Index>(k);
       float& of = share(static_cast<Eigen::Index>(i), lamp);

@@ -19,23 +19,23 @@ PartLight::PartLight(const Luminaire& luminaire, PartKind kind) : whole_(luminai
     one.emission.setConstant(1 / one.flux_lm);  // cells without light are parts too
   } else {
     node_flux_ = NodeFlux(luminaire.table->gamma_rad);
+    if (kind == PartKind::kSide) nodes_of_sides_ = NodesOfSides(luminaire);
   }
   for (LuminaireCell& cell : CellsOf(one)) cells_.push_back(std::move(cell.luminaire));
 }
 
 Eigen::VectorXd PartLight::At(const Sensor& place) const {
-  const Eigen::Index parts =
-      kind_ == PartKind::kCell ? static_cast<Eigen::Index>(cells_.size()) : node_flux_.size();
-  Eigen::VectorXd light = Eigen::VectorXd::Zero(parts);
-  if (kind_ == PartKind::kCell) {
-    for (Eigen::Index c = 0; c < parts; ++c)
-      light[c] = SensorIlluminancePerLumen(cells_[static_cast<size_t>(c)], place).lx_per_lm;
-  } else if (place.response.kind == ResponseKind::kCosine) {
+  if (kind_ != PartKind::kCell && place.response.kind == ResponseKind::kCosine) {
+    Eigen::VectorXd light = Eigen::VectorXd::Zero(node_flux_.size());
     for (const Luminaire& cell : cells_) AddNodes(cell, place.position, place.normal, light);
     light = light.cwiseQuotient(node_flux_);
-  } else {
-    for (Eigen::Index j = 0; j < parts; ++j)
-      light[j] = SensorIlluminancePerLumen(PartOf(whole_, kind_, static_cast<int>(j)), place).lx_per_lm;
+    return kind_ == PartKind::kSide ? (nodes_of_sides_ * light).eval() : light;
+  }
+  Eigen::VectorXd light = PartShares(whole_, kind_);
+  for (Eigen::Index j = 0; j < light.size(); ++j) {
+    light[j] = kind_ == PartKind::kCell
+                   ? SensorIlluminancePerLumen(cells_[static_cast<size_t>(j)], place).lx_per_lm
+                   : SensorIlluminancePerLumen(PartOf(whole_, kind_, static_cast<int>(j)), place).lx_per_lm;
   }
   return light;
 }

@@ -26,8 +26,9 @@ class PartLight {
 
   Luminaire whole_;
   PartKind kind_;
-  std::vector<Luminaire> cells_;  // kCell: each with 1 lm; kGammaNode: each with its share as flux
+  std::vector<Luminaire> cells_;  // kCell: each with 1 lm; else each with its share as flux
   Eigen::VectorXd node_flux_;
+  Eigen::MatrixXd nodes_of_sides_;  // kSide only
 };
 
 }  // namespace luxfit

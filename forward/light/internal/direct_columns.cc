@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "forward/direct/direct_light.h"
@@ -35,10 +36,18 @@ double DerivativeOf(const DirectIlluminance& direct, LuminaireQuantity quantity)
     case LuminaireQuantity::kHeading:
       return direct.d_heading;
     case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kSide:
     case LuminaireQuantity::kCell:
       break;  // light of a part, no derivative of the whole
   }
   return 0;
+}
+
+std::optional<PartKind> PartKindOf(LuminaireQuantity quantity) {
+  if (quantity == LuminaireQuantity::kGammaNode) return PartKind::kGammaNode;
+  if (quantity == LuminaireQuantity::kSide) return PartKind::kSide;
+  if (quantity == LuminaireQuantity::kCell) return PartKind::kCell;
+  return {};
 }
 
 // Describes one place. Its light is measured at `place`, its shadows at the probes of `element`, if it is
@@ -55,11 +64,10 @@ class ColumnFiller {
                const DerivativeRequest& derivatives)
       : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
     for (const LuminaireParameter& parameter : derivatives.parameters) {
-      const bool is_cell = parameter.quantity == LuminaireQuantity::kCell;
-      if (!is_cell && parameter.quantity != LuminaireQuantity::kGammaNode) continue;
+      const std::optional<PartKind> kind = PartKindOf(parameter.quantity);
+      if (!kind) continue;
       parts_.try_emplace({parameter.luminaire, parameter.quantity},
-                         luminaires[static_cast<size_t>(parameter.luminaire)],
-                         is_cell ? PartKind::kCell : PartKind::kGammaNode);
+                         luminaires[static_cast<size_t>(parameter.luminaire)], *kind);
     }
   }
 

@@ -13,8 +13,9 @@
 
 namespace luxfit {
 
-// Returns the reflectance of every element, from that of materials.
-Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo);
+// Returns the reflectance of every element, from that of materials and the factor of its patch (Transport).
+Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo,
+                              const Eigen::VectorXd& patch_factor = {});
 
 // Returns receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,

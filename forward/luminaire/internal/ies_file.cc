@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <functional>
 #include <map>
 
+#include "forward/luminaire/internal/ies_dialect.h"
 #include "forward/luminaire/internal/photometry_text.h"
+#include "forward/luminaire/internal/text_encoding.h"
 
 namespace luxfit {
 namespace {
@@ -69,7 +72,10 @@ std::string ReadHeader(PhotometryText& text, IesFile& file) {
                        "the end of the file; is this an IES LM-63 file?");
     const std::string line = text.Line("header");
     const std::string_view trimmed = Trimmed(line);
-    if (Upper(trimmed.substr(0, 5)) == "TILT=") return std::string(Trimmed(trimmed.substr(5)));
+    if (Upper(trimmed.substr(0, 4)) == "TILT") {
+      const std::string_view after = Trimmed(trimmed.substr(4));
+      if (after.substr(0, 1) == "=") return std::string(Trimmed(after.substr(1)));
+    }
     if (is_first) file.version = VersionOf(line);
     if (!is_first || file.version == IesVersion::k1986) file.keywords.push_back(KeywordOf(line));
   }
@@ -121,6 +127,75 @@ void ReadCandela(PhotometryText& text, IesFile& file) {
   file.candela = text.Numbers("candela values", vertical * horizontal, 0);
   if (*std::max_element(file.candela.begin(), file.candela.end()) <= 0)
     throw text.Error("candela values", "expected light in some direction, got 0 everywhere");
+  const size_t surplus = text.NumbersAhead();
+  if (surplus > 0) {
+    text.Number("candela values");  // the line of the first
+    throw text.Error("candela values",
+                     "expected the end after " + std::to_string(vertical) + " x " +
+                         std::to_string(horizontal) + " numbers, got " + std::to_string(surplus) +
+                         " more; correct the numbers of angles, or remove what is too much");
+  }
+  if (!text.AtEnd()) file.notes.push_back("what follows the last candela value was ignored");
+}
+
+// The line of the lamps.
+struct AngleCounts {
+  size_t vertical, horizontal;
+};
+AngleCounts ReadMeasures(PhotometryText& text, IesFile& file) {
+  AngleCounts counts{};
+  file.lamps = text.Count("number of lamps", 1, kMostCounted);
+  file.lumens_per_lamp = text.Number("lumens per lamp");
+  if (file.lumens_per_lamp != -1 && !(file.lumens_per_lamp > 0))
+    throw text.Error("lumens per lamp", "expected > 0, or -1 for absolute photometry, got " +
+                                            NumberText(file.lumens_per_lamp) + "; correct it");
+  file.multiplier = text.NumberWithin("candela multiplier", kLeastFactor, kLargestFactor);
+  counts.vertical = static_cast<size_t>(text.Count("number of vertical angles", 2, kMostCounted));
+  counts.horizontal = static_cast<size_t>(text.Count("number of horizontal angles", 1, kMostCounted));
+  file.type = static_cast<IesType>(text.Count("photometric type (1 C, 2 B, 3 A)", 1, 3));
+  file.in_feet = text.Count("units (1 feet, 2 metres)", 1, 2) == 1;
+  file.width = text.NumberWithin("width", -kLargestFactor, kLargestFactor);
+  file.length = text.NumberWithin("length", -kLargestFactor, kLargestFactor);
+  file.height = text.NumberWithin("height", -kLargestFactor, kLargestFactor);
+  return counts;
+}
+
+void ReadBallastLine(PhotometryText& text, IesFile& file) {
+  file.ballast_factor = text.NumberWithin("ballast factor", kLeastFactor, kLargestFactor);
+  file.third_factor = file.version <= IesVersion::k1991
+                          ? text.NumberWithin("ballast-lamp photometric factor", kLeastFactor, kLargestFactor)
+                          : text.Number("number after the ballast factor");
+  file.input_w = text.Number("input watts");
+}
+
+// All that follows the line TILT=...
+void ReadNumbers(PhotometryText& text, IesFile& file) {
+  if (file.tilt.source == "INCLUDE") file.tilt = ReadTiltData(text, file.tilt.source);
+  const AngleCounts counts = ReadMeasures(text, file);
+  if (IesNumbersAhead(text, counts.vertical, counts.horizontal) == IesNumbers::kWithoutBallastLine)
+    file.notes.push_back("the line of ballast factor and watts is missing: the factor was taken as 1");
+  else
+    ReadBallastLine(text, file);
+  const Limits v = VerticalLimits(file.type), h = HorizontalLimits(file.type);
+  file.vertical_deg = text.Rising("vertical angles", counts.vertical, v.least, v.most);
+  file.horizontal_deg = text.Rising("horizontal angles", counts.horizontal, h.least, h.most);
+  ExpectHorizontal(text, file);
+  ReadCandela(text, file);
+}
+
+// Calls `read` once it is known what commas are; returns whether they separate numbers without a blank.
+template <typename Read>
+bool ReadWithCommas(PhotometryText& text, const std::function<bool(PhotometryText&)>& fits,
+                    const Read& read) {
+  const IesCommas commas = CommasInNumbers(text, fits);
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    if (commas != IesCommas::kUnclear) throw;
+    throw std::runtime_error(std::string(error.what()) +
+                             "; commas separate numbers in .ies: if they are decimal ones, write points");
+  }
+  return commas == IesCommas::kSeparate;
 }
 
 void AppendNumbers(std::string& out, const std::vector<double>& values) {
@@ -143,7 +218,8 @@ void AppendNumbers(std::string& out, const std::vector<double>& values) {
 }  // namespace
 
 IesFile ParseIes(const std::string& bytes, const std::string& name) {
-  PhotometryText text(bytes, name, PhotometryText::Comma::kSeparates);
+  const std::string utf8 = Utf8Text(bytes);
+  PhotometryText text(utf8, name, PhotometryText::Comma::kSeparates);
   IesFile file;
   file.name = name;
   file.tilt.source = ReadHeader(text, file);
@@ -151,33 +227,14 @@ IesFile ParseIes(const std::string& bytes, const std::string& name) {
   if (source.empty())
     throw text.Error("TILT", "expected NONE, INCLUDE or the name of a file after TILT=, got nothing");
   if (source == "NONE" || source == "INCLUDE") file.tilt.source = source;
-  if (source == "INCLUDE") file.tilt = ReadTiltData(text, source);
-  file.lamps = text.Count("number of lamps", 1, kMostCounted);
-  file.lumens_per_lamp = text.Number("lumens per lamp");
-  if (file.lumens_per_lamp != -1 && !(file.lumens_per_lamp > 0))
-    throw text.Error("lumens per lamp", "expected > 0, or -1 for absolute photometry, got " +
-                                            NumberText(file.lumens_per_lamp) + "; correct it");
-  file.multiplier = text.NumberWithin("candela multiplier", kLeastFactor, kLargestFactor);
-  const auto vertical = static_cast<size_t>(text.Count("number of vertical angles", 2, kMostCounted));
-  const auto horizontal = static_cast<size_t>(text.Count("number of horizontal angles", 1, kMostCounted));
-  file.type = static_cast<IesType>(text.Count("photometric type (1 C, 2 B, 3 A)", 1, 3));
-  file.in_feet = text.Count("units (1 feet, 2 metres)", 1, 2) == 1;
-  file.width = text.NumberWithin("width", -kLargestFactor, kLargestFactor);
-  file.length = text.NumberWithin("length", -kLargestFactor, kLargestFactor);
-  file.height = text.NumberWithin("height", -kLargestFactor, kLargestFactor);
-  file.ballast_factor = text.NumberWithin("ballast factor", kLeastFactor, kLargestFactor);
-  file.third_factor = file.version <= IesVersion::k1991
-                          ? text.NumberWithin("ballast-lamp photometric factor", kLeastFactor, kLargestFactor)
-                          : text.Number("number after the ballast factor");
-  file.input_w = text.Number("input watts");
-  const Limits v = VerticalLimits(file.type), h = HorizontalLimits(file.type);
-  file.vertical_deg = text.Rising("vertical angles", vertical, v.least, v.most);
-  file.horizontal_deg = text.Rising("horizontal angles", horizontal, h.least, h.most);
-  ExpectHorizontal(text, file);
-  ReadCandela(text, file);
-  if (!text.AtEnd())
-    file.notes.push_back(
-        "what follows the last candela value was ignored: a count in the file may be too small");
+  const auto fits = [&file](PhotometryText& numbers) {
+    IesFile scratch = file;
+    if (scratch.tilt.source == "INCLUDE") ReadTiltData(numbers, scratch.tilt.source);
+    const AngleCounts counts = ReadMeasures(numbers, scratch);
+    return IesNumbersAhead(numbers, counts.vertical, counts.horizontal) != IesNumbers::kDoNotFit;
+  };
+  if (ReadWithCommas(text, fits, [&] { ReadNumbers(text, file); }))
+    file.notes.push_back("commas were read as separators: as decimal commas they would not fit the counts");
   return file;
 }
 
@@ -192,9 +249,19 @@ IesFile ReadIes(const std::string& path) {
   if (!std::filesystem::is_regular_file(tilt_path))
     throw std::runtime_error(path + ": TILT: expected the file " + tilt_path.string() +
                              ", found none; put it there, or write TILT=NONE");
-  const std::string bytes = FileBytes(tilt_path.string());
-  PhotometryText text(bytes, tilt_path.string(), PhotometryText::Comma::kSeparates);
-  file.tilt = ReadTiltData(text, file.tilt.source);
+  const std::string utf8 = Utf8Text(FileBytes(tilt_path.string()));
+  PhotometryText text(utf8, tilt_path.string(), PhotometryText::Comma::kSeparates);
+  const auto fits = [](PhotometryText& numbers) {
+    ReadTiltData(numbers, "");
+    return numbers.NumbersAhead() == 0;
+  };
+  ReadWithCommas(text, fits, [&] {
+    file.tilt = ReadTiltData(text, file.tilt.source);
+    if (text.NumbersAhead() > 0) {
+      text.Number("tilt factors");  // the line of the first
+      throw text.Error("tilt factors", "expected the end after them, got more numbers; correct their number");
+    }
+  });
   return file;
 }
 

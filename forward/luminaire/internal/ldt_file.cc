@@ -6,6 +6,7 @@
 #include "forward/luminaire/internal/flux_share.h"
 #include "forward/luminaire/internal/photometry_planes.h"
 #include "forward/luminaire/internal/photometry_text.h"
+#include "forward/luminaire/internal/text_encoding.h"
 
 namespace luxfit {
 namespace {
@@ -78,6 +79,16 @@ void ReadTable(PhotometryText& text, LdtFile& file, size_t gammas) {
     throw text.Error("luminous intensities", "expected light in some direction, got 0 everywhere");
 }
 
+// Unlike in .ies, surplus numbers are no error: makers' files have them whose flux is as stated.
+void NoteWhatFollows(const PhotometryText& text, LdtFile& file) {
+  if (text.AtEnd()) return;
+  const size_t surplus = text.NumbersAhead();
+  const std::string what =
+      surplus == 0 ? "what follows"
+                   : std::to_string(surplus) + (surplus == 1 ? " number after" : " numbers after");
+  file.notes.push_back(what + " the last intensity was ignored: a count in the file may be too small");
+}
+
 // Symmetry and number of planes, which must go together.
 void ReadSymmetry(PhotometryText& text, LdtFile& file) {
   file.symmetry = text.LineCount("Isym", 0, 4);
@@ -103,7 +114,8 @@ std::vector<size_t> StoredPlanes(int symmetry, size_t planes) {
 }
 
 LdtFile ParseLdt(const std::string& bytes, const std::string& name) {
-  PhotometryText text(bytes, name, PhotometryText::Comma::kDecimal);
+  const std::string utf8 = Utf8Text(bytes);
+  PhotometryText text(utf8, name, PhotometryText::Comma::kDecimal);
   if (text.AtEnd()) throw text.ErrorAt(1, "file", "expected an EULUMDAT file, got nothing");
   LdtFile file;
   file.name = name;
@@ -129,8 +141,7 @@ LdtFile ParseLdt(const std::string& bytes, const std::string& name) {
   file.lamps = ReadLamps(text);
   for (double& ratio : file.direct_ratio) ratio = text.LineNumber("direct ratio");
   ReadTable(text, file, gammas);
-  if (!text.AtEnd())
-    file.notes.push_back("what follows the last intensity was ignored: a count in the file may be too small");
+  NoteWhatFollows(text, file);
   if (text.decimal_commas() > 0)
     file.notes.push_back(std::to_string(text.decimal_commas()) + " decimal commas were read as points");
   return file;
@@ -179,6 +190,7 @@ PhotometryFile PhotometryOf(const LdtFile& file) {
   photometry.notes = file.notes;
   const LdtLamps& lamps = file.lamps.front();
   if (lamps.count >= 0) photometry.lamp_flux_lm = lamps.flux_lm;
+  photometry.factor = file.conversion_factor;
   photometry.stated_flux_lm = lamps.flux_lm * file.light_output_percent / 100;
   if (file.lamps.size() > 1)
     photometry.notes.push_back("the first of " + std::to_string(file.lamps.size()) + " lamp sets was used");

@@ -7,7 +7,7 @@
 // C270 through C0 to C90. EULUMDAT's C0 plane lies across a linear luminaire, so the length of the luminous
 // area runs along C90 and its width along C0.
 //
-// A decimal comma is read as a point, with a note. Text is kept byte for byte.
+// A decimal comma is read as a point, with a note. Text becomes UTF-8 (text_encoding.h).
 // Sources: Stockmar (1990), "EULUMDAT - ein Leuchtendatenformat fuer den europaeischen Beleuchtungsplaner";
 // Stockmar (1998), "EULUMDAT/2".
 #ifndef LUXFIT_FORWARD_LUMINAIRE_INTERNAL_LDT_FILE_H_

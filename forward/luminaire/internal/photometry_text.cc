@@ -14,6 +14,10 @@ constexpr double kLeastStep = 1e-6;
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\0' || c == '\x1a'; }
 bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+bool IsDecimalComma(std::string_view text, size_t at) {
+  return text[at] == ',' && IsDigit(text[at - 1]) && IsDigit(text[at + 1]);
+}
 
 // A token as it can stand in a message: printable, short.
 std::string Shown(std::string_view token) {
@@ -26,16 +30,44 @@ std::string Shown(std::string_view token) {
 }  // namespace
 
 PhotometryText::PhotometryText(std::string_view text, std::string name, Comma comma)
-    : text_(text), name_(std::move(name)), comma_(comma) {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  while (text_.substr(0, kMark.size()) == kMark) text_.remove_prefix(kMark.size());
-}
+    : text_(text), name_(std::move(name)), comma_(comma) {}
 
-bool PhotometryText::AtEnd() {
+bool PhotometryText::AtEnd() const {
   for (const char c : text_) {
     if (!IsBlank(c) && !IsLineEnd(c)) return false;
   }
   return true;
+}
+
+size_t PhotometryText::NumbersAhead() const {
+  PhotometryText ahead = *this;
+  size_t count = 0;
+  try {
+    for (;; ++count) ahead.Number("");
+  } catch (const std::runtime_error&) {  // also at the end
+    return count;
+  }
+}
+
+std::optional<CommaInNumber> PhotometryText::FirstCommaInNumber() const {
+  PhotometryText ahead = *this;
+  ahead.comma_ = Comma::kDecimal;
+  while (!ahead.AtEnd()) {
+    const std::string_view token = ahead.Token("");
+    if (token.find_first_not_of("0123456789+-.,eE") != std::string_view::npos) break;
+    for (size_t i = 1; i + 1 < token.size(); ++i) {
+      if (IsDecimalComma(token, i)) return CommaInNumber{ahead.line_, Shown(token)};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string PhotometryText::RestWithDecimalPoints() const {
+  std::string rest(text_);
+  for (size_t i = 1; i + 1 < rest.size(); ++i) {
+    if (IsDecimalComma(text_, i)) rest[i] = '.';
+  }
+  return rest;
 }
 
 std::runtime_error PhotometryText::Error(const std::string& field, const std::string& message) const {

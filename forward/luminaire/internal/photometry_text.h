@@ -1,11 +1,12 @@
 // The text of a photometric file, read line by line and then number by number, with line numbers for errors.
 //
-// Lines end in LF, CRLF or CR; a byte-order mark and the ^Z of DOS are dropped. Every number is finite and at
+// Text is UTF-8 without a byte-order mark (text_encoding.h). Lines end in LF, CRLF or CR; the ^Z of DOS is dropped. Every number is finite and at
 // most 1e9 in magnitude. Counts are held against what is left of the text before anything is allocated.
 // Throws std::runtime_error("FILE:LINE: field: expected X, got Y; remedy").
 #ifndef LUXFIT_FORWARD_LUMINAIRE_INTERNAL_PHOTOMETRY_TEXT_H_
 #define LUXFIT_FORWARD_LUMINAIRE_INTERNAL_PHOTOMETRY_TEXT_H_
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,6 +17,11 @@ namespace luxfit {
 // Of anything that a file counts: what is left of its text bounds it further.
 inline constexpr int kMostCounted = 1000000;
 
+struct CommaInNumber {
+  int line = 0;
+  std::string shown;  // what it stands in, as a message shows it
+};
+
 class PhotometryText {
  public:
   // Commas separate numbers in .ies and stand for the decimal point in .ldt.
@@ -24,7 +30,14 @@ class PhotometryText {
 
   int line() const { return line_; }  // of what was read last
   int decimal_commas() const { return decimal_commas_; }
-  bool AtEnd();  // nothing but blanks is left
+  bool AtEnd() const;  // nothing but blanks is left
+
+  // How many numbers are left, up to the end or the first that is none.
+  size_t NumbersAhead() const;
+
+  // The first comma between two digits of the numbers ahead, and the text that is left with such commas as points.
+  std::optional<CommaInNumber> FirstCommaInNumber() const;
+  std::string RestWithDecimalPoints() const;
 
   std::runtime_error Error(const std::string& field, const std::string& message) const;
   std::runtime_error ErrorAt(int line, const std::string& field, const std::string& message) const;

@@ -5,6 +5,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "forward/factors/form_factors.h"
@@ -25,14 +26,66 @@ void KeepBlasOnCallingThread() {
 
 constexpr Eigen::Index kRowsPerTask = 512, kRowsPerVectorTask = 64, kColumnsPerTask = 8;
 
+// Holds rows and columns of a column-major matrix, with its leading dimension.
+struct Tile {
+  float* data = nullptr;
+  int rows = 0, columns = 0, stride = 0;
+};
+Tile TileOf(Eigen::MatrixXf& matrix, Eigen::Index row, Eigen::Index column, Eigen::Index rows,
+            Eigen::Index columns) {
+  return {&matrix(row, column), static_cast<int>(rows), static_cast<int>(columns),
+          static_cast<int>(matrix.rows())};
+}
+
+// Factors the columns of a panel: its diagonal block, then the rows below.
+bool FactorPanel(Eigen::MatrixXf& lower, Eigen::Index first, Eigen::Index width) {
+  const lapack_int order = static_cast<lapack_int>(width), stride = static_cast<lapack_int>(lower.rows());
+  lapack_int info = 0;
+  LAPACK_spotrf("L", &order, &lower(first, first), &stride, &info);
+  if (info != 0) return false;
+  tbb::parallel_for(
+      tbb::blocked_range<Eigen::Index>(first + width, lower.rows(), kRowsPerTask),
+      [&](const tbb::blocked_range<Eigen::Index>& rows) {
+        const Tile below = TileOf(lower, rows.begin(), first, static_cast<Eigen::Index>(rows.size()), width);
+        cblas_strsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, below.rows,
+                    below.columns, 1.0f, &lower(first, first), below.stride, below.data, below.stride);
+      });
+  return true;
+}
+
+// Subtracts the panel's product with its transpose from what is right of it and below.
+void SubtractPanel(Eigen::MatrixXf& lower, Eigen::Index first, Eigen::Index width) {
+  constexpr Eigen::Index kTile = 384;
+  const Eigen::Index start = first + width, left = lower.rows() - start;
+  const Eigen::Index tiles = (left + kTile - 1) / kTile;
+  tbb::parallel_for(Eigen::Index{0}, tiles * tiles, [&](Eigen::Index index) {
+    const Eigen::Index i = start + index / tiles * kTile, j = start + index % tiles * kTile;
+    if (i < j) return;
+    const Eigen::Index rows = std::min(kTile, lower.rows() - i), columns = std::min(kTile, lower.rows() - j);
+    const Tile of_i = TileOf(lower, i, first, rows, width), of_j = TileOf(lower, j, first, columns, width);
+    const Tile to = TileOf(lower, i, j, rows, columns);
+    if (i == j) {
+      cblas_ssyrk(CblasColMajor, CblasLower, CblasNoTrans, to.rows, of_i.columns, -1.0f, of_i.data,
+                  of_i.stride, 1.0f, to.data, to.stride);
+    } else {
+      cblas_sgemm(CblasColMajor, CblasNoTrans, CblasTrans, to.rows, to.columns, of_i.columns, -1.0f,
+                  of_i.data, of_i.stride, of_j.data, of_j.stride, 1.0f, to.data, to.stride);
+    }
+  });
+}
+
 }  // namespace
 
+// Right-looking by panels. Source: Golub, Van Loan (2013), "Matrix Computations", alg. 4.2.3.
 bool CholeskyInPlace(Eigen::MatrixXf& lower) {
   KeepBlasOnCallingThread();
-  const lapack_int n = static_cast<lapack_int>(lower.rows());
-  lapack_int info = 0;
-  LAPACK_spotrf("L", &n, lower.data(), &n, &info);
-  return info == 0;
+  constexpr Eigen::Index kPanel = 256;
+  for (Eigen::Index first = 0; first < lower.rows(); first += kPanel) {
+    const Eigen::Index width = std::min(kPanel, lower.rows() - first);
+    if (!FactorPanel(lower, first, width)) return false;
+    SubtractPanel(lower, first, width);
+  }
+  return true;
 }
 
 void CholeskySolveInPlace(const Eigen::MatrixXf& lower, Eigen::MatrixXf& right) {

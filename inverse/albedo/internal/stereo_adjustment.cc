@@ -8,18 +8,18 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "inverse/albedo/internal/pixel_elimination.h"
 #include "inverse/albedo/internal/stereo_terms.h"
+#include "inverse/model/internal/condensed_problem.h"
+#include "inverse/model/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kCauchySigmas = 2.385;  // 95 % efficient where errors are normal
-constexpr size_t kChunk = 256;           // pixels summed together: the same result on any number of cores
-constexpr double kGauge = 1e6;           // weight that holds a shared direction, over the mean weight
 
 // Returns the robust sigma of the used observations, corrected for the unknowns' degrees of freedom.
-double RobustSigma(const StereoProblem& problem, const StereoState& state) {
-  const Eigen::MatrixXd residuals = StereoResiduals(problem, state);
+double RobustSigma(const StereoProblem& problem, const StereoState& state, const Eigen::MatrixXd& residuals) {
   std::vector<double> size;
   size.reserve(static_cast<size_t>(residuals.size()));
   Eigen::Index unknowns = SharedUnknowns(problem, state).count();
@@ -34,180 +34,56 @@ double RobustSigma(const StereoProblem& problem, const StereoState& state) {
   const double n = static_cast<double>(size.size());
   const double freedom = std::max(1.0, n - static_cast<double>(unknowns));
   // Values are about 1 in size: noise below this is rounding.
-  return std::max(1.4826 * Quantile(std::move(size), 0.5) * std::sqrt(n / freedom), 1e-6);
+  return std::max(kSigmaPerMad * Quantile(std::move(size), 0.5) * std::sqrt(n / freedom), 1e-6);
 }
 
-// Holds one pixel's part of the normal equations.
-struct PixelBlock {
-  Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  Eigen::Matrix3Xd coupling;  // to the shared unknowns
-  bool is_used = false;
-};
-
-Eigen::Matrix3d Damped(const PixelBlock& block, double damping) {
-  Eigen::Matrix3d h = block.h;
-  h.diagonal() *= 1 + damping;
-  h.diagonal().array() += 1e-12 * (1 + h.trace());
-  return h;
+// Returns the weights of the used observations by Cauchy's loss, 0 of the others.
+Eigen::MatrixXd WeightsOf(const StereoProblem& problem, const Eigen::MatrixXd& residuals, double sigma) {
+  Eigen::MatrixXd weight = Eigen::MatrixXd::Zero(residuals.rows(), residuals.cols());
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    const double r = residuals.data()[i];
+    if (!problem.used.data()[i] || !std::isfinite(r)) continue;
+    weight.data()[i] = (problem.robust ? CauchyWeight(r / sigma, kCauchySigmas) : 1) / (sigma * sigma);
+  }
+  return weight;
 }
 
-struct NormalEquations {
-  std::vector<PixelBlock> pixels;
-  Eigen::MatrixXd h;
-  Eigen::VectorXd g;
-};
-
-// Linearizes the adjustment at one state: everything that a step needs.
-class Linearization {
- public:
-  Linearization(const StereoProblem& problem, const StereoState& state, double sigma)
-      : problem_(problem), state_(state), sigma_(sigma), shared_(problem, state) {}
-
-  NormalEquations Equations() const {
-    const size_t pixels = static_cast<size_t>(state_.b.cols());
-    NormalEquations all{std::vector<PixelBlock>(pixels), {}, {}};
-    std::vector<NormalEquations> parts((pixels + kChunk - 1) / kChunk);
-    tbb::parallel_for(size_t{0}, parts.size(), [&](size_t chunk) {
-      NormalEquations& part = parts[chunk];
-      part.h.setZero(shared_.count(), shared_.count());
-      part.g.setZero(shared_.count());
-      for (size_t i = chunk * kChunk; i < std::min(pixels, (chunk + 1) * kChunk); ++i)
-        AddPixel(static_cast<Eigen::Index>(i), all.pixels[i], part);
-    });
-    all.h = shared_.PriorWeights().asDiagonal();
-    all.g = shared_.PriorWeights().cwiseProduct(shared_.PriorDeviation());
-    for (const NormalEquations& part : parts) {
-      all.h += part.h;
-      all.g += part.g;
-    }
-    return all;
-  }
-
-  // Returns gradients by the shared unknowns, shared x images, for each image's observations, pixels
-  // eliminated.
-  Eigen::MatrixXd ImageScores(const NormalEquations& equations) const {
-    Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(shared_.count(), problem_.value.rows());
-    for (Eigen::Index i = 0; i < state_.b.cols(); ++i) {
-      const PixelBlock& block = equations.pixels[static_cast<size_t>(i)];
-      if (!block.is_used) continue;
-      const Eigen::Matrix3Xd by_shared = Damped(block, 0).inverse() * block.coupling;
-      const StereoPixel pixel(state_, i);
-      for (Eigen::Index k = 0; k < problem_.value.rows(); ++k) {
-        if (!problem_.used(k, i)) continue;
-        const StereoTerm term = pixel.Term(k);
-        const double r = problem_.value(k, i) - term.value;
-        const double pull = Weight(r) * r;
-        shared_.Row(term, k, [&](Eigen::Index column, double slope) { scores(column, k) += pull * slope; });
-        scores.col(k) -= pull * by_shared.transpose() * term.d_b;
-      }
-    }
-    return scores;
-  }
-
-  const SharedUnknowns& shared() const { return shared_; }
-
- private:
-  double Weight(double residual) const {
-    const double z = residual / (kCauchySigmas * sigma_);
-    return (problem_.robust ? 1 / (1 + z * z) : 1) / (sigma_ * sigma_);
-  }
-
-  void AddPixel(Eigen::Index i, PixelBlock& block, NormalEquations& part) const {
-    block.is_used = state_.b.col(i).squaredNorm() > 0;
-    if (!block.is_used) return;
-    block.coupling.setZero(3, shared_.count());
-    const StereoPixel pixel(state_, i);
-    for (Eigen::Index k = 0; k < problem_.value.rows(); ++k) {
-      if (!problem_.used(k, i)) continue;
-      const StereoTerm term = pixel.Term(k);
-      const double r = problem_.value(k, i) - term.value;
-      const double w = Weight(r);
-      block.h += w * term.d_b * term.d_b.transpose();
-      block.g += w * r * term.d_b;
-      shared_.Row(term, k, [&](Eigen::Index column, double slope) {
-        part.g[column] += w * r * slope;
-        block.coupling.col(column) += w * slope * term.d_b;
-        shared_.Row(term, k, [&](Eigen::Index other, double other_slope) {
-          part.h(column, other) += w * slope * other_slope;
-        });
-      });
-    }
-  }
-
-  const StereoProblem& problem_;
-  const StereoState& state_;
-  double sigma_;
-  SharedUnknowns shared_;
-};
-
-// Holds the equations of the shared unknowns after the pixels are eliminated.
-struct Reduced {
-  Eigen::MatrixXd h;
-  Eigen::VectorXd g;
-};
-
-Reduced Reduce(const NormalEquations& equations, const SharedUnknowns& shared, double damping) {
-  Reduced reduced{equations.h, equations.g};
-  reduced.h.diagonal() *= 1 + damping;
-  const Eigen::Index count = shared.count();
-  if (count == 0) return reduced;
-  const size_t pixels = equations.pixels.size();
-  std::vector<Reduced> parts((pixels + kChunk - 1) / kChunk);
-  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t chunk) {
-    Reduced& part = parts[chunk];
-    part = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
-    Eigen::Matrix3Xd by_shared(3, count);
-    for (size_t i = chunk * kChunk; i < std::min(pixels, (chunk + 1) * kChunk); ++i) {
-      const PixelBlock& block = equations.pixels[i];
-      if (!block.is_used) continue;
-      const Eigen::Matrix3d inverse = Damped(block, damping).inverse();
-      by_shared.noalias() = inverse * block.coupling;
-      part.h.noalias() += block.coupling.transpose() * by_shared;
-      part.g.noalias() += by_shared.transpose() * block.g;
-    }
-  });
-  for (const Reduced& part : parts) {
-    reduced.h -= part.h;
-    reduced.g -= part.g;
-  }
-  const double mean_weight = std::max(equations.h.diagonal().mean(), 1e-12);
-  for (const Eigen::VectorXd& held : shared.HeldDirections())
-    reduced.h += kGauge * mean_weight * held * held.transpose();
-  return reduced;
-}
-
-StereoState Stepped(const StereoState& state, const NormalEquations& equations, const SharedUnknowns& shared,
-                    double damping) {
-  const Reduced reduced = Reduce(equations, shared, damping);
-  Eigen::VectorXd dx = Eigen::VectorXd::Zero(shared.count());
-  if (shared.count() > 0) dx = reduced.h.ldlt().solve(reduced.g);
-  StereoState next = shared.Applied(state, dx);
-  for (Eigen::Index i = 0; i < next.b.cols(); ++i) {
-    const PixelBlock& block = equations.pixels[static_cast<size_t>(i)];
-    if (!block.is_used) continue;
-    Eigen::Vector3d db = Damped(block, damping).inverse() * (block.g - block.coupling * dx);
-    // A pixel with few lights must not jump to another branch.
-    const double longest = 0.4 * state.b.col(i).norm();
-    if (db.norm() > longest) db *= longest / db.norm();
-    next.b.col(i) += db;
-  }
-  return next;
-}
-
-double Cost(const StereoProblem& problem, const StereoState& state, double sigma) {
-  const Eigen::MatrixXd residuals = StereoResiduals(problem, state);
+double Cost(const StereoProblem& problem, const StereoState& state, const Eigen::MatrixXd& residuals,
+            double sigma) {
   double cost = 0;
-  for (Eigen::Index i = 0; i < residuals.cols(); ++i) {
-    for (Eigen::Index k = 0; k < residuals.rows(); ++k) {
-      if (!problem.used(k, i) || !std::isfinite(residuals(k, i))) continue;
-      const double z = residuals(k, i) / sigma;
-      const double c2 = kCauchySigmas * kCauchySigmas;
-      cost += problem.robust ? c2 * std::log1p(z * z / c2) : z * z;
-    }
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    const double z = residuals.data()[i] / sigma;
+    if (!problem.used.data()[i] || !std::isfinite(z)) continue;
+    cost += problem.robust ? CauchyLoss(z, kCauchySigmas) : z * z;
   }
   const SharedUnknowns shared(problem, state);
-  return cost + shared.PriorWeights().dot(shared.PriorDeviation().cwiseAbs2());
+  NormalEquations priors(shared.count());
+  shared.AddPriors(Eigen::VectorXd::Zero(shared.count()), priors);
+  return cost + priors.squares;
+}
+
+// Scales strengths to the geometric mean of the given ones, and the albedos inversely. No prediction changes.
+void KeepMeanStrength(const Eigen::VectorXd& given, StereoState& state) {
+  const double factor = std::exp((given.array() / state.strength.array()).log().mean());
+  state.strength *= factor;
+  state.b /= factor;
+}
+
+// Returns the state after one step of the shared unknowns, with every pixel at its best. Updates the radius
+// of the trust region.
+StereoState Stepped(const StereoProblem& problem, const Eigen::MatrixXd& weight, const StereoState& state,
+                    double& radius) {
+  PixelElimination pixels(problem, weight, state);
+  CondensedProblem condensed;
+  condensed.equations = [&](const Eigen::VectorXd& x) { return pixels.EquationsAt(x); };
+  condensed.lower = pixels.shared().lower();
+  condensed.upper = pixels.shared().upper();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(pixels.shared().count());
+  InnerSolveOptions options;
+  options.is_near = true;  // the weights are due again after every step
+  options.near_radius = radius;
+  radius = SolveCondensed(condensed, options, x);
+  return pixels.StateAt(x);
 }
 
 }  // namespace
@@ -246,56 +122,50 @@ Eigen::MatrixXd StereoResiduals(const StereoProblem& problem, const StereoState&
 }
 
 StereoAdjustment AdjustStereo(const StereoProblem& problem, const StereoState& start, int max_iterations) {
-  StereoAdjustment result{start, RobustSigma(problem, start), 0, false};
-  double damping = 1e-3;
+  constexpr double kSmallGain = 1e-5, kFirstRadius = 1e3;
+  Eigen::MatrixXd residuals = StereoResiduals(problem, start);
+  double radius = kFirstRadius;
+  StereoAdjustment result{start, RobustSigma(problem, start, residuals), 0, false};
   for (; result.iterations < max_iterations && !result.converged; ++result.iterations) {
-    const Linearization here(problem, result.state, result.residual_sigma);
-    const NormalEquations equations = here.Equations();
-    const double cost = Cost(problem, result.state, result.residual_sigma);
-    double next_cost = cost;
-    StereoState next;
-    for (int attempt = 0; attempt < 8; ++attempt) {
-      next = Stepped(result.state, equations, here.shared(), damping);
-      next_cost = Cost(problem, next, result.residual_sigma);
-      if (next_cost < cost) break;
-      damping *= 6;
-    }
-    // No step lowers the cost: the minimum is reached.
-    if (!(next_cost < cost)) {
-      result.converged = true;
-      break;
-    }
+    const double sigma = result.residual_sigma;
+    StereoState next = Stepped(problem, WeightsOf(problem, residuals, sigma), result.state, radius);
+    const double cost = Cost(problem, result.state, residuals, sigma);
+    Eigen::MatrixXd next_residuals = StereoResiduals(problem, next);
+    const double next_cost = Cost(problem, next, next_residuals, sigma);
+    result.converged = !(cost - next_cost > kSmallGain * cost);
+    if (!(next_cost < cost)) break;
     result.state = std::move(next);
-    damping = std::max(damping / 6, 1e-9);
-    result.residual_sigma = RobustSigma(problem, result.state);
-    result.converged = cost - next_cost < 1e-5 * cost;
+    residuals = std::move(next_residuals);
+    result.residual_sigma = RobustSigma(problem, result.state, residuals);
   }
+  if (problem.strengths_free) KeepMeanStrength(start.strength, result.state);
   return result;
 }
 
 std::vector<Eigen::Matrix3d> StereoCovariance(const StereoProblem& problem,
                                               const StereoAdjustment& adjustment) {
-  const Linearization here(problem, adjustment.state, adjustment.residual_sigma);
-  const NormalEquations equations = here.Equations();
-  const Eigen::Index shared = here.shared().count();
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(shared, shared);
-  if (shared > 0) {
+  const StereoState& state = adjustment.state;
+  const Eigen::MatrixXd weight =
+      WeightsOf(problem, StereoResiduals(problem, state), adjustment.residual_sigma);
+  const SharedUnknowns shared(problem, state);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(shared.count(), shared.count());
+  if (shared.count() > 0) {
+    const StereoEquations equations = ReducedEquations(problem, weight, state);
+    // What is held has no sigma: the albedo is known up to that factor.
+    const Eigen::MatrixXd determined =
+        Eigen::MatrixXd::Identity(shared.count(), shared.count()) - shared.held() * shared.held().transpose();
     const Eigen::MatrixXd inverse =
-        Reduce(equations, here.shared(), 0).h.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::MatrixXd scores = here.ImageScores(equations);
-    const double images = static_cast<double>(scores.cols());
-    covariance = inverse + images / (images - 1) * inverse * scores * scores.transpose() * inverse;
+        determined * equations.reduced.matrix.completeOrthogonalDecomposition().pseudoInverse() * determined;
+    const Eigen::MatrixXd pull = inverse * equations.scores;
+    const double images = static_cast<double>(pull.cols());
+    covariance = inverse + images / (images - 1) * pull * pull.transpose();
   }
-  std::vector<Eigen::Matrix3d> result(equations.pixels.size(), Eigen::Matrix3d::Constant(NAN));
-  tbb::parallel_for(size_t{0}, result.size(), [&](size_t i) {
-    const PixelBlock& block = equations.pixels[i];
-    if (!block.is_used) return;
-    const Eigen::Matrix3d own = Damped(block, 0).inverse();
-    result[i] = own;
-    if (shared > 0) {
-      const Eigen::Matrix3Xd by_shared = own * block.coupling;
-      result[i] += by_shared * covariance * by_shared.transpose();
-    }
+  std::vector<Eigen::Matrix3d> result(static_cast<size_t>(state.b.cols()), Eigen::Matrix3d::Constant(NAN));
+  tbb::parallel_for(Eigen::Index{0}, state.b.cols(), [&](Eigen::Index i) {
+    if (!(state.b.col(i).squaredNorm() > 0)) return;
+    const PixelRows rows(problem, weight, state, i);
+    const Eigen::Matrix3Xd by_shared = rows.Covariance() * rows.Coupling(shared);
+    result[static_cast<size_t>(i)] = rows.Covariance() + by_shared * covariance * by_shared.transpose();
   });
   return result;
 }

@@ -4,15 +4,15 @@
 //       + sum_k N_k angle(l_k, given)^2 / sigma_k^2
 //
 // b_i: albedo * normal of pixel i, l_k: direction to the light of image k, s_k: its strength. f, a: the
-// reflectance curve, rho: Cauchy's loss. Levenberg-Marquardt eliminates the pixels' 3 x 3 blocks (Schur). A
-// step costs one pass over the observations and a solve of the few shared unknowns. sigma is refreshed from
-// the median absolute residual.
+// reflectance curve, rho: Cauchy's loss. Ceres takes one step of the few shared unknowns, from which the
+// pixels are eliminated (pixel_elimination.h). Then the robust weights and sigma are refreshed (IRLS), as in
+// the fit of a room. sigma follows from the median absolute residual.
 //
 // The residuals of one image share their model error. N_k, the number of its observations, makes them count
 // as one observation against the given direction of its light.
 //
 // Strengths are free up to one factor, which the albedo absorbs: the mean of their logarithms stays.
-// Source: Triggs et al. (2000), "Bundle adjustment", sec. 4 and 6.
+// Sources: Triggs et al. (2000), "Bundle adjustment", sec. 4 and 6; Golub and Pereyra (1973).
 #ifndef LUXFIT_INVERSE_ALBEDO_INTERNAL_STEREO_ADJUSTMENT_H_
 #define LUXFIT_INVERSE_ALBEDO_INTERNAL_STEREO_ADJUSTMENT_H_
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "inverse/albedo/internal/stereo_adjustment.h"
+#include "inverse/model/internal/condensed_problem.h"
 
 namespace luxfit {
 
@@ -31,17 +32,23 @@ class StereoPixel {
   Eigen::Vector3d normal_;
 };
 
+// Unknowns x are steps from the state: of the curve's parameters, along the tangents of a direction, and of
+// the logarithm of a strength.
 class SharedUnknowns {
  public:
   SharedUnknowns(const StereoProblem& problem, const StereoState& state);
 
   Eigen::Index count() const { return count_; }
-  // The weights of the priors, and the state's deviation from them, in the order of the unknowns.
-  const Eigen::VectorXd& PriorWeights() const { return prior_weights_; }
-  const Eigen::VectorXd& PriorDeviation() const { return prior_deviation_; }
-  // Returns unit directions that nothing determines and that are held: the common factor of all strengths.
-  std::vector<Eigen::VectorXd> HeldDirections() const;
-  StereoState Applied(StereoState state, const Eigen::VectorXd& step) const;
+  // Bounds of x: the curve's own, and what is too far for one linearization.
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+  StereoState Applied(StereoState state, const Eigen::VectorXd& x) const;
+  // Returns the same unknowns, with slopes as they are at x.
+  SharedUnknowns At(const Eigen::VectorXd& x) const;
+  // Returns the unit direction that nothing determines: the common factor of all strengths. 0: there is none.
+  const Eigen::VectorXd& held() const { return held_; }
+  // Adds the directions' priors at x, and a prior that keeps x from going along held().
+  void AddPriors(const Eigen::VectorXd& x, NormalEquations& equations) const;
 
   // Calls add(index, slope) for every shared unknown that an observation of `image` depends on.
   template <typename Add>
@@ -56,10 +63,15 @@ class SharedUnknowns {
   }
 
  private:
+  void SetBounds(const ReflectanceCurve& curve);
+
   Eigen::Index count_ = 0, curve_count_ = 0, strength_at_ = -1;
-  std::vector<Eigen::Index> direction_at_;  // one for each image, -1: held
-  std::vector<Eigen::Matrix<double, 3, 2>> tangents_;
-  Eigen::VectorXd prior_weights_, prior_deviation_;
+  std::vector<Eigen::Index> direction_at_;             // one for each image, -1: held
+  std::vector<Eigen::Vector3d> directions_;            // of the state, where free
+  std::vector<Eigen::Matrix<double, 3, 2>> tangents_;  // derivatives of the direction by its steps
+  double held_weight_ = 0;
+  Eigen::VectorXd held_;
+  Eigen::VectorXd lower_, upper_, prior_weight_, prior_x_;  // prior: weight (x - prior_x)^2
 };
 
 }  // namespace luxfit

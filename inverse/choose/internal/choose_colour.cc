@@ -1,11 +1,12 @@
 #include "inverse/choose/internal/choose_colour.h"
 
-#include <cmath>
+#include <utility>
+
+#include "inverse/model/internal/parameter_shift.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kWorthSigmas = 0.1;
 constexpr double kGreyTint = 0.01;  // a smaller one is the noise of its estimate
 
 // Returns no tints where all surfaces are grey.
@@ -34,18 +35,16 @@ ColourChoice ChooseColour(const Room& room, const LightData& data, const Luminai
   options.subtracts_discretisation = false;
   options.photo_design_effect = fit.photo_design_effect;
   options.initial_relative_sigma = fit.relative_sigma;
+  options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`
   LuminaireFit coloured = FitLuminaires(room, data, state, priors, options);
   if (!coloured.IsUsable()) return choice;
   choice.is_compared = true;
   // Tilts and headings count from where the luminaires of `fit` point.
   const Eigen::VectorXd moved =
       PackParameters(coloured.state, fit.parameters) - PackParameters(fit.state, fit.parameters);
-  for (Eigen::Index i = 0; i < moved.size(); ++i) {
-    const double sigma = std::sqrt(fit.covariance(i, i));
-    if (!(sigma > 0) || std::abs(moved[i]) / sigma <= choice.effect_sigmas) continue;
-    choice.effect_sigmas = std::abs(moved[i]) / sigma;
-    choice.moved_most = fit.parameters[static_cast<size_t>(i)].id();
-  }
+  const LargestShift largest = LargestShiftOf(fit, moved);
+  choice.effect_sigmas = largest.sigmas;
+  choice.moved_most = largest.parameter;
   choice.is_used = choice.effect_sigmas > kWorthSigmas;
   if (choice.is_used) choice.fit = std::move(coloured);
   return choice;

@@ -108,7 +108,7 @@ std::optional<Trial> Try(const Room& room, const SubProblem& problem, const Ligh
   LightModel model(room, all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);
   LeftOutPrediction left_out{model.Predict(fit.state, {}, false).value, model.InPenumbra(),
-                             fit.relative_sigma};
+                             fit.relative_sigma, fit.material_texture_sigma};
   left_out.is_smooth.flip();
   for (size_t i = 0; i < left_out.is_smooth.size(); ++i)
     left_out.is_smooth[i] = left_out.is_smooth[i] && problem.fold_of_row[i] == kJudgingFold;
@@ -152,14 +152,19 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
     found.sources.back().luminaire.position = *place;
     found.sources.back().is_held = true;
   }
-  for (int count = least; count <= options.max_count; ++count) {
-    found = search.Find(0, count, found.sources);
-    if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
-      break;
-    const std::optional<Trial> trial = Try(room, problem, seen, state, found, options);
-    if (!trial) break;
-    trials.push_back(*trial);
-    if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;
+  try {
+    for (int count = least; count <= options.max_count; ++count) {
+      if (data.checkpoint) data.checkpoint();
+      found = search.Find(0, count, found.sources);
+      if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
+        break;
+      const std::optional<Trial> trial = Try(room, problem, seen, state, found, options);
+      if (!trial) break;
+      trials.push_back(*trial);
+      if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;
+    }
+  } catch (const FitStopped& stop) {
+    choice.stopped = stop.what();
   }
   if (trials.empty()) return choice;
   Selection selection = Select(problem, trials);

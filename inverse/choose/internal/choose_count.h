@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "inverse/model/light_state.h"
@@ -36,10 +37,12 @@ struct CountChoice {
   std::vector<double> standard_error;  // standard error of the difference from the best
   int chosen = 0;                      // luminaires; 0: too little light was seen to place one
   bool reached_max = false;            // the best was the largest allowed
+  std::string stopped;                 // why it ended before that was known; empty: it did not
 };
 
 // `data`: with measured indirect light, or readings alone; only one dimming per state counts. `state`: gives
-// known reflectances (albedo, albedo_free). `known_positions`: places of luminaires that certainly exist.
+// known reflectances (albedo, albedo_free). LightData::checkpoint may end the count: the choice is then among the
+// numbers tried so far. `known_positions`: places of luminaires that certainly exist.
 CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
                                  const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
                                  const ChooseCountOptions& options = {});

@@ -12,14 +12,16 @@
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/choose/internal/left_out.h"
+#include "inverse/choose/internal/luminaire_types.h"
 #include "inverse/choose/internal/refine_luminaire.h"
+#include "inverse/choose/internal/two_sides.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 namespace {
 
-// Returns the candidates shape by shape, with one parameter for every length, one for an exponent and one for
-// a heading. A disc or rectangle has an aim; it cannot be isotropic. Turned rectangles come last.
+// Returns the candidates shape by shape, with one parameter for every length, one for an exponent or a share up and
+// one for a heading. A disc or rectangle has an aim; it cannot be isotropic. Turned rectangles come last.
 std::vector<ModelCandidate> MakeCandidates() {
   const std::array<LuminaireShape, 3> shapes{LuminaireShape::kPoint, LuminaireShape::kDisc,
                                              LuminaireShape::kRectangle};
@@ -31,11 +33,13 @@ std::vector<ModelCandidate> MakeCandidates() {
                             static_cast<int>(lengths) + (ops.has_exponent ? 1 : 0),
                             std::string(ops.name) + " " + ToString(shapes[lengths])});
     }
+    candidates.push_back({Distribution::kMeasured, shapes[lengths], false, static_cast<int>(lengths) + 1,
+                          "two_sided " + ToString(shapes[lengths]), true});
   }
   for (const ModelCandidate& straight : std::vector<ModelCandidate>(candidates)) {
     if (straight.shape != LuminaireShape::kRectangle) continue;
-    candidates.push_back(
-        {straight.distribution, straight.shape, true, straight.parameters + 1, straight.name + ", turned"});
+    candidates.push_back({straight.distribution, straight.shape, true, straight.parameters + 1,
+                          straight.name + ", turned", straight.is_two_sided});
   }
   return candidates;
 }
@@ -46,8 +50,9 @@ const std::vector<ModelCandidate>& AllCandidates() {
 }
 
 bool Allowed(const ModelCandidate& candidate, const Luminaire& luminaire, const OpenChoice& open) {
-  return (open.distribution || candidate.distribution == luminaire.distribution) &&
-         (open.shape || candidate.shape == luminaire.shape) && (open.heading || !candidate.is_turned);
+  const bool is_given = candidate.distribution == luminaire.distribution && !candidate.is_two_sided;
+  return (open.distribution || is_given) && (open.shape || candidate.shape == luminaire.shape) &&
+         (open.heading || !candidate.is_turned);
 }
 
 // Returns whether turning the candidate changes its light. An isotropic point has no aim.
@@ -57,6 +62,8 @@ bool HasAim(const ModelCandidate& candidate) {
 
 void Apply(const ModelCandidate& candidate, bool aim_is_free, Luminaire& luminaire, FreeQuantities& free) {
   const bool grows = candidate.shape != LuminaireShape::kPoint && luminaire.shape == LuminaireShape::kPoint;
+  if (candidate.is_two_sided && luminaire.distribution != candidate.distribution)
+    luminaire = LitOnBothSides(std::move(luminaire));
   luminaire.distribution = candidate.distribution;
   luminaire.shape = candidate.shape;
   if (grows) luminaire.size_m.setConstant(kStartSizeM);
@@ -65,6 +72,7 @@ void Apply(const ModelCandidate& candidate, bool aim_is_free, Luminaire& luminai
   free.size = candidate.shape != LuminaireShape::kPoint;
   free.tilt = aim_is_free && HasAim(candidate);
   free.heading = candidate.is_turned;
+  free.sides = candidate.is_two_sided;
 }
 
 struct FittedCandidate {
@@ -75,7 +83,7 @@ struct FittedCandidate {
 
 // Returns the selection among fitted models, each with its number of parameters.
 Selection SelectAmong(const SubProblem& problem, const std::vector<const FittedModel*>& models,
-                      const std::vector<int>& parameters) {
+                      const std::vector<int>& parameters, const SelectionOptions& options = {}) {
   std::vector<const LeftOutPrediction*> left_out;
   left_out.reserve(models.size());
   for (const FittedModel* model : models) left_out.push_back(&model->left_out);
@@ -84,7 +92,7 @@ Selection SelectAmong(const SubProblem& problem, const std::vector<const FittedM
   candidates.reserve(models.size());
   for (size_t m = 0; m < models.size(); ++m)
     candidates.push_back({scores[m], static_cast<double>(parameters[m]), true});
-  return SimplestWithinOneStandardError(candidates);
+  return SimplestWithinOneStandardError(candidates, options);
 }
 
 // `start`: where the fit starts from; of a turned candidate, the straight one as fitted.
@@ -121,12 +129,26 @@ bool SizeDoesNotMatter(const SubProblem& problem, const std::vector<FittedCandid
   const FittedCandidate *point = nullptr, *disc = nullptr;
   for (const FittedCandidate& f : fitted) {
     const ModelCandidate& c = AllCandidates()[static_cast<size_t>(f.candidate)];
-    if (!OpsOf(c.distribution).has_exponent) continue;
+    if (c.is_two_sided != next.is_two_sided) continue;
+    if (!c.is_two_sided && !OpsOf(c.distribution).has_exponent) continue;
     (c.shape == LuminaireShape::kPoint ? point : disc) = &f;
   }
   if (point == nullptr || point->model.left_out.relative_sigma > kGoodPoint) return false;
   if (disc == nullptr) return true;  // the disc vanished
   return SelectAmong(problem, {&point->model, &disc->model}, {0, 1}).chosen == 0;
+}
+
+// Returns whether a candidate that lights both sides is worth its trial: the point, where a point that lights one
+// side leaves more than luxmeters would; other shapes, where that point explained the light best of all points.
+bool MayLightBothSides(const std::vector<FittedCandidate>& fitted, const ModelCandidate& next) {
+  const FittedCandidate* best = nullptr;
+  for (const FittedCandidate& f : fitted) {
+    if (AllCandidates()[static_cast<size_t>(f.candidate)].shape != LuminaireShape::kPoint) continue;
+    if (best == nullptr || f.model.left_out.relative_sigma < best->model.left_out.relative_sigma) best = &f;
+  }
+  if (best == nullptr) return true;  // the shape is given
+  if (next.shape == LuminaireShape::kPoint) return best->model.left_out.relative_sigma > kGoodPoint;
+  return AllCandidates()[static_cast<size_t>(best->candidate)].is_two_sided;
 }
 
 AimChoice CompareAims(const SubProblem& problem, int luminaire, const FittedModel& held,
@@ -149,9 +171,16 @@ class LuminaireChooser {
  public:
   LuminaireChooser(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open)
       : room_(room), problem_(problem), luminaire_(luminaire), open_(open) {
-    const Luminaire& start = problem.state.luminaires[static_cast<size_t>(problem.luminaire)];
+    const auto k = static_cast<size_t>(problem.luminaire);
+    is_aimed_ = open.aim && problem.state.free[k].tilt;
+    const bool both_sides = SeesBothSides(room, problem);
     for (size_t c = 0; c < AllCandidates().size(); ++c) {
-      if (Allowed(AllCandidates()[c], start, open)) allowed_.push_back(static_cast<int>(c));
+      const ModelCandidate& candidate = AllCandidates()[c];
+      if (candidate.is_two_sided
+              ? !both_sides
+              : is_aimed_ && open.distribution && !OpsOf(candidate.distribution).has_exponent)
+        continue;
+      if (Allowed(candidate, problem.state.luminaires[k], open)) allowed_.push_back(static_cast<int>(c));
     }
   }
 
@@ -159,13 +188,13 @@ class LuminaireChooser {
     // One model with its aim given leaves nothing to choose: a fit of it would not be used.
     if (!problem_.CanJudge() || (allowed_.size() < 2 && !open_.aim)) return {};
     ChosenModel chosen;
-    if (open_.aim) chosen.aim = AimOfAPoint();
-    const bool turns = chosen.aim && chosen.aim->is_free;
+    if (open_.aim && !is_aimed_) chosen.aim = AimOfAPoint();
+    const bool turns = is_aimed_ || (chosen.aim && chosen.aim->is_free);
     const std::vector<FittedCandidate> fitted = FitAll(turns);
     if (fitted.empty() || (fitted.size() < 2 && !turns)) return chosen;
     if (fitted.size() > 1) chosen.choice = ChooseAmong(fitted);
     chosen.fitted = fitted[chosen.choice ? static_cast<size_t>(chosen.choice->chosen) : 0];
-    if (!turns) return chosen;
+    if (!turns || is_aimed_) return chosen;
     const FittedCandidate& held = Fitted(chosen.fitted->candidate, false);
     chosen.aim = CompareAims(problem_, luminaire_, held.model, chosen.fitted->model);
     if (!chosen.aim->is_free) chosen.fitted = held;
@@ -178,7 +207,9 @@ class LuminaireChooser {
     int trial = -1;
     for (const int c : allowed_) {
       const ModelCandidate& candidate = AllCandidates()[static_cast<size_t>(c)];
-      if (HasAim(candidate) && (trial < 0 || candidate.shape == LuminaireShape::kPoint)) trial = c;
+      if (HasAim(candidate) && !candidate.is_two_sided &&
+          (trial < 0 || candidate.shape == LuminaireShape::kPoint))
+        trial = c;
     }
     if (trial < 0) return {};
     return CompareAims(problem_, luminaire_, Fitted(trial, false).model, Fitted(trial, true).model);
@@ -210,6 +241,7 @@ class LuminaireChooser {
     for (const int c : allowed_) {
       const ModelCandidate& next = AllCandidates()[static_cast<size_t>(c)];
       if (SizeDoesNotMatter(problem_, fitted, next)) continue;
+      if (next.is_two_sided && !MayLightBothSides(fitted, next)) continue;
       if (next.is_turned && !IsBestStraightRectangle(fitted, next)) continue;
       const FittedCandidate& candidate = Fitted(c, turns);
       // A size that shrank to nothing repeats the point, with one more parameter.
@@ -220,13 +252,14 @@ class LuminaireChooser {
   }
 
   // Returns whether the straight rectangle of the candidate's distribution explains the light best of all
-  // straight rectangles. The others' headings need no trial.
+  // straight rectangles that light as many sides. The others' headings need no trial.
   static bool IsBestStraightRectangle(const std::vector<FittedCandidate>& fitted,
                                       const ModelCandidate& next) {
     const FittedCandidate* best = nullptr;
     for (const FittedCandidate& f : fitted) {
       const ModelCandidate& c = AllCandidates()[static_cast<size_t>(f.candidate)];
-      if (c.shape != LuminaireShape::kRectangle || c.is_turned) continue;
+      if (c.shape != LuminaireShape::kRectangle || c.is_turned || c.is_two_sided != next.is_two_sided)
+        continue;
       if (best == nullptr || f.model.left_out.relative_sigma < best->model.left_out.relative_sigma) best = &f;
     }
     return best != nullptr &&
@@ -244,7 +277,10 @@ class LuminaireChooser {
       models.push_back(&f.model);
       parameters.push_back(candidate.parameters);
     }
-    Selection selection = SelectAmong(problem_, models, parameters);
+    SelectionOptions options;
+    // A beam falls on a facet or two, whose errors are its own.
+    if (is_aimed_) options.worth_having = kWorthHaving;
+    Selection selection = SelectAmong(problem_, models, parameters, options);
     choice.score = std::move(selection.score);
     choice.standard_error = std::move(selection.standard_error);
     choice.chosen = static_cast<int>(selection.chosen);
@@ -255,15 +291,117 @@ class LuminaireChooser {
   const SubProblem& problem_;
   int luminaire_;
   OpenChoice open_;
+  bool is_aimed_ = false;  // the search for places told the aim
   std::vector<int> allowed_;
   std::map<std::pair<int, bool>, FittedCandidate> fitted_;
 };
 
-void TakeOver(const FittedCandidate& fitted, LightState& state, int luminaire) {
-  const size_t k = static_cast<size_t>(luminaire);
-  state.luminaires[k] = fitted.model.luminaire;
-  Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, state.luminaires[k],
-        state.free[k]);
+void TakeOver(const FittedCandidate& fitted, LightState& state, const std::vector<int>& luminaires) {
+  for (size_t m = 0; m < luminaires.size(); ++m) {
+    const auto k = static_cast<size_t>(luminaires[m]);
+    state.luminaires[k] = fitted.model.members[m];
+    Apply(AllCandidates()[static_cast<size_t>(fitted.candidate)], fitted.aim_is_free, state.luminaires[k],
+          state.free[k]);
+  }
+}
+
+// Holds the outcome for the luminaires of one type.
+struct ChosenType {
+  std::vector<int> luminaires;
+  ChosenModel model = {};
+  RefinedLuminaire refined = {};
+  std::optional<PlacesChoice> places = {};
+
+  void TakeOverInto(ModelChoice& result) const {
+    const int first = luminaires.front();
+    if (model.choice) result.choices.push_back(*model.choice);
+    if (model.aim) result.aims.push_back(*model.aim);
+    if (places) result.places.push_back(*places);
+    if (model.fitted) TakeOver(*model.fitted, result.state, luminaires);
+    for (Refinement step : refined.steps) {
+      step.luminaire = first;
+      result.refinements.push_back(std::move(step));
+    }
+    for (size_t m = 0; m < luminaires.size() && refined.changed; ++m) {
+      result.state.luminaires[static_cast<size_t>(luminaires[m])] = refined.members[m];
+      result.state.free[static_cast<size_t>(luminaires[m])] = refined.free;
+    }
+  }
+};
+
+// Chooses once more from other places and keeps what predicts better.
+void TryPlaces(const Room& room, const TypePlaces& rival, const OpenChoice& open, const SubProblem& problem,
+               ChosenType& chosen) {
+  SubProblem moved = problem;
+  double flux_lm = 0;
+  for (const Luminaire& member : chosen.model.fitted->model.members) flux_lm += member.flux_lm;
+  for (size_t m = 0; m < problem.members.size(); ++m) {
+    Luminaire& luminaire = moved.state.luminaires[static_cast<size_t>(problem.members[m])];
+    luminaire.position = rival.places[m];
+    luminaire.flux_lm = flux_lm / static_cast<double>(problem.members.size());
+  }
+  ChosenModel model = LuminaireChooser(room, moved, rival.first, open).Run();
+  if (!model.fitted) return;
+  const Selection selection =
+      SelectAmong(problem, {&chosen.model.fitted->model, &model.fitted->model}, {0, 0});
+  chosen.places =
+      PlacesChoice{chosen.luminaires, selection.best == 1, selection.score[0], selection.score[1]};
+  if (selection.best == 1) chosen.model = std::move(model);
+}
+
+ChosenType ChooseType(const Room& room, const LightData& data, const LightState& start,
+                      const std::vector<int>& luminaires, const OpenChoice& open,
+                      const std::vector<ParameterPrior>& priors, const TypePlaces* rival) {
+  const LightState typed = luminaires.size() > 1 ? WithTypes(start, start.first_of_type) : start;
+  SubProblem problem = MakeSubProblem(room, data, typed, luminaires, priors);
+  ChosenType chosen{luminaires};
+  chosen.model = LuminaireChooser(room, problem, luminaires.front(), open).Run();
+  if (rival != nullptr && chosen.model.fitted) TryPlaces(room, *rival, open, problem, chosen);
+  if (chosen.model.fitted) TakeOver(*chosen.model.fitted, problem.state, problem.members);
+  chosen.refined = RefineLuminaire(room, problem, open.refinements);
+  return chosen;
+}
+
+// Fits the luminaires of a type, as chosen, each with numbers of its own: from where the type ended, and from where it
+// started, for luminaires of two kinds may have led it astray. Returns the better.
+FittedModel Untied(const Room& room, const SubProblem& problem, const FittedCandidate& type) {
+  LightState ended = problem.state;
+  TakeOver(type, ended, problem.members);
+  ended.first_of_type.clear();
+  LightState started = ended;
+  for (const int k : problem.members) {
+    const auto member = static_cast<size_t>(k);
+    started.luminaires[member] = OfTypeOf(ended.luminaires[member], problem.state.luminaires[member]);
+  }
+  FittedModel from_end = FitState(room, problem, ended), from_start = FitState(room, problem, started);
+  return SelectAmong(problem, {&from_end, &from_start}, {0, 0}).best == 0 ? from_end : from_start;
+}
+
+// Returns the luminaires of a type each with a model of its own where that predicts better by more than a
+// standard error, else the type. Models of their own are looked for only where the type's numbers, untied,
+// predict better: luminaires of one kind are spared the search, and others start from places that are right.
+std::vector<ChosenType> OneOrSeveral(const Room& room, const LightData& data, const LightState& start,
+                                     const std::vector<OpenChoice>& open,
+                                     const std::vector<ParameterPrior>& priors, const ChosenType& type) {
+  const SubProblem problem = MakeSubProblem(room, data, start, type.luminaires, priors);
+  const FittedModel& tied = type.model.fitted->model;
+  const FittedModel untied = Untied(room, problem, *type.model.fitted);
+  if (SelectAmong(problem, {&tied, &untied}, {0, 1}).chosen == 0) return {type};
+  LightState near = start;
+  for (size_t m = 0; m < type.luminaires.size(); ++m)
+    near.luminaires[static_cast<size_t>(type.luminaires[m])] = untied.members[m];
+  std::vector<ChosenType> single;
+  LightState apart = problem.state;
+  apart.first_of_type.clear();
+  for (size_t m = 0; m < type.luminaires.size(); ++m) {
+    const int k = type.luminaires[m];
+    single.push_back(ChooseType(room, data, near, {k}, open[static_cast<size_t>(k)], priors, nullptr));
+    if (!single.back().model.fitted) return {type};
+    TakeOver(*single.back().model.fitted, apart, {problem.members[m]});
+  }
+  const FittedModel several = FitState(room, problem, apart);
+  const Selection selection = SelectAmong(problem, {&tied, &several}, {0, 1});
+  return selection.chosen == 1 ? single : std::vector<ChosenType>{type};
 }
 
 }  // namespace
@@ -277,33 +415,34 @@ bool HasVanished(const Luminaire& luminaire) {
 
 ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const LightState& start,
                                   const std::vector<OpenChoice>& open,
-                                  const std::vector<ParameterPrior>& priors) {
+                                  const std::vector<ParameterPrior>& priors,
+                                  const std::vector<TypePlaces>& rivals) {
   if (open.size() != start.luminaires.size()) {
     throw std::invalid_argument("ChooseLuminaireModels: expected one OpenChoice a luminaire");
   }
-  std::vector<ChosenModel> chosen(open.size());
-  std::vector<RefinedLuminaire> refined(open.size());
-  tbb::parallel_for(size_t{0}, open.size(), [&](size_t k) {
-    const auto luminaire = static_cast<int>(k);
-    SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors);
-    chosen[k] = LuminaireChooser(room, problem, luminaire, open[k]).Run();
-    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, problem.state, problem.luminaire);
-    refined[k] = RefineLuminaire(room, problem, open[k].refinements);
+  const std::vector<std::vector<int>> types = TypesOf(start);
+  std::vector<std::vector<ChosenType>> chosen(types.size());
+  tbb::parallel_for(size_t{0}, types.size(), [&](size_t t) {
+    const OpenChoice& of_first = open[static_cast<size_t>(types[t].front())];
+    const auto rival = std::find_if(rivals.begin(), rivals.end(),
+                                    [&](const TypePlaces& r) { return r.first == types[t].front(); });
+    chosen[t] = {
+        ChooseType(room, data, start, types[t], of_first, priors, rival == rivals.end() ? nullptr : &*rival)};
+    if (types[t].size() > 1 && chosen[t].front().model.fitted)
+      chosen[t] = OneOrSeveral(room, data, start, open, priors, chosen[t].front());
   });
   ModelChoice result;
   result.state = start;
-  for (size_t k = 0; k < open.size(); ++k) {
-    if (chosen[k].choice) result.choices.push_back(*chosen[k].choice);
-    if (chosen[k].aim) result.aims.push_back(*chosen[k].aim);
-    if (chosen[k].fitted) TakeOver(*chosen[k].fitted, result.state, static_cast<int>(k));
-    for (Refinement step : refined[k].steps) {
-      step.luminaire = static_cast<int>(k);
-      result.refinements.push_back(std::move(step));
+  for (const std::vector<ChosenType>& of_type : chosen) {
+    for (const ChosenType& type : of_type) {
+      type.TakeOverInto(result);
+      for (const int k : type.luminaires) {
+        if (!result.state.first_of_type.empty())
+          result.state.first_of_type[static_cast<size_t>(k)] = type.luminaires.front();
+      }
     }
-    if (!refined[k].changed) continue;
-    result.state.luminaires[k] = refined[k].luminaire;
-    result.state.free[k] = refined[k].free;
   }
+  result.state = WithLikeTypes(std::move(result.state));
   return result;
 }
 

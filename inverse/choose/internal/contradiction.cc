@@ -36,7 +36,7 @@ std::vector<Contradiction> FindContradictions(const Room& room, const LightData&
     unsaid.free[k].exponent = true;
     const ModelChoice chosen = ChooseLuminaireModels(room, data, unsaid, others, priors);
     const auto luminaire = static_cast<int>(k);
-    const SubProblem problem = MakeSubProblem(room, data, start, luminaire, priors);
+    const SubProblem problem = MakeSubProblem(room, data, start, {luminaire}, priors);
     if (!problem.CanJudge()) continue;
     const FittedModel given = FitModel(room, problem, start.luminaires[k], free);
     const FittedModel better = FitModel(room, problem, chosen.state.luminaires[k], chosen.state.free[k]);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "inverse/model/internal/outline_block.h"
+#include "inverse/model/internal/row_whitening.h"
 #include "inverse/select/internal/spatial_blocks.h"
 
 namespace luxfit {
@@ -12,23 +15,38 @@ namespace {
 constexpr int kFolds = 5;
 constexpr int kBlocksPerFold = 8;
 
-bool OnAlone(const Eigen::VectorXd& dimming, int luminaire) {
-  return dimming[luminaire] > 0 && dimming.sum() == dimming[luminaire];
+double SumOf(const Eigen::VectorXd& dimming, const std::vector<int>& luminaires) {
+  double sum = 0;
+  for (const int k : luminaires) sum += dimming[k];
+  return sum;
 }
 
-LightState AloneOrOthersHeld(const LightState& start, int luminaire, bool alone, bool with_albedo) {
+bool OnAlone(const Eigen::VectorXd& dimming, const std::vector<int>& luminaires) {
+  constexpr double kRounding = 1e-9;
+  const double sum = SumOf(dimming, luminaires);
+  return sum > 0 && dimming.sum() - sum < kRounding;
+}
+
+LightState AloneOrOthersHeld(const LightState& start, const std::vector<int>& members, bool alone,
+                             bool with_albedo) {
   LightState state = start;
   if (!with_albedo) state.albedo_free.assign(state.albedo_free.size(), false);
   state.camera_scale_free = false;
   state.meter_scale_free = false;
-  const size_t k = static_cast<size_t>(luminaire);
+  state.first_of_type.clear();
   if (alone) {
-    state.luminaires = {start.luminaires[k]};
-    state.free = {start.free[k]};
-  } else {
-    for (size_t j = 0; j < state.free.size(); ++j) {
-      if (j != k) state.free[j] = {false, false, false, false, false};
+    state.luminaires.clear(), state.free.clear();
+    for (const int k : members) {
+      state.luminaires.push_back(start.luminaires[static_cast<size_t>(k)]);
+      state.free.push_back(start.free[static_cast<size_t>(k)]);
     }
+    state.first_of_type.assign(members.size(), 0);
+    return state;
+  }
+  for (int j = 0; j < static_cast<int>(state.free.size()); ++j) {
+    const bool is_member = std::find(members.begin(), members.end(), j) != members.end();
+    if (!is_member) state.free[static_cast<size_t>(j)] = {false, false, false, false, false};
+    state.first_of_type.push_back(is_member ? members.front() : j);
   }
   return state;
 }
@@ -50,6 +68,8 @@ void AddObservations(const Room& room, const LightData& data, const std::vector<
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
     places.push_back(room.patches.patches[static_cast<size_t>(patch)].center);
     problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
+    problem.element_of_row.push_back(o.element);
+    problem.material_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].material);
     problem.value.push_back(o.relative_luminance);
     problem.variance.push_back(o.variance);
   }
@@ -81,36 +101,62 @@ void AddOutline(const SeenOutline& outline, int luminaire, SubProblem& problem) 
   }
 }
 
+// Returns the whitening of what the rows of an element share by its texture.
+RowWhitening TextureOf(const SubProblem& problem, const LeftOutPrediction& model,
+                       const Eigen::VectorXd& root_weight) {
+  std::map<int, std::vector<Eigen::Index>> rows;
+  for (size_t i = 0; i < problem.element_of_row.size(); ++i)
+    rows[problem.element_of_row[i]].push_back(static_cast<Eigen::Index>(i));
+  RowWhitening whitening;
+  std::vector<double> effect;
+  for (const auto& [element, own] : rows) {
+    const double sigma = model.texture_sigma[problem.material_of_row[static_cast<size_t>(own.front())]];
+    effect.clear();
+    for (const Eigen::Index i : own)
+      effect.push_back(sigma * problem.value[static_cast<size_t>(i)] * root_weight[i]);
+    whitening.Add(own, effect);
+  }
+  return whitening;
+}
+
 }  // namespace
 
 bool SubProblem::CanJudge() const {
   return std::any_of(fold_of_row.begin(), fold_of_row.end(), [](int fold) { return fold > 0; });
 }
 
-SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start, int luminaire,
-                          const std::vector<ParameterPrior>& priors, int max_elements) {
+SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start,
+                          const std::vector<int>& luminaires, const std::vector<ParameterPrior>& priors,
+                          int max_elements) {
   SubProblem problem;
   const auto is_alone = [&](int state) {
-    return OnAlone(data.dimming[static_cast<size_t>(state)], luminaire);
+    return OnAlone(data.dimming[static_cast<size_t>(state)], luminaires);
   };
   const bool photos = !data.observations.empty();
   const bool alone = photos ? std::any_of(data.observations.begin(), data.observations.end(),
                                           [&](const Observation& o) { return is_alone(o.state); })
                             : std::any_of(data.readings.begin(), data.readings.end(),
                                           [&](const Reading& r) { return r.used && is_alone(r.state); });
-  problem.state = AloneOrOthersHeld(start, luminaire, alone, photos && data.indirect_is_held);
-  problem.luminaire = alone ? 0 : luminaire;
+  problem.state = AloneOrOthersHeld(start, luminaires, alone, photos && data.indirect_is_held);
+  problem.members = luminaires;
+  if (alone) std::iota(problem.members.begin(), problem.members.end(), 0);
+  problem.luminaire = problem.members.front();
   std::vector<bool> state_used;
   for (const Eigen::VectorXd& dimming : data.dimming) {
-    state_used.push_back(alone ? OnAlone(dimming, luminaire) : dimming[luminaire] > 0);
-    problem.data.dimming.push_back(alone ? Eigen::VectorXd::Constant(1, dimming[luminaire]).eval() : dimming);
+    state_used.push_back(alone ? OnAlone(dimming, luminaires) : SumOf(dimming, luminaires) > 0);
+    problem.data.dimming.push_back(alone ? Eigen::VectorXd(dimming(luminaires)) : dimming);
   }
   problem.data.indirect_is_held = data.indirect_is_held;
+  problem.data.pose_root = data.pose_root;
+  const auto member_of = [&](int luminaire) {
+    const auto at = std::find(luminaires.begin(), luminaires.end(), luminaire);
+    return at == luminaires.end() ? -1 : problem.members[static_cast<size_t>(at - luminaires.begin())];
+  };
   if (photos) {
     AddObservations(room, data, state_used, max_elements, problem);
     for (const LuminaireOutline& outline : data.outlines) {
-      if (outline.luminaire == luminaire && state_used[static_cast<size_t>(outline.seen.state)])
-        AddOutline(outline.seen, problem.luminaire, problem);
+      if (member_of(outline.luminaire) >= 0 && state_used[static_cast<size_t>(outline.seen.state)])
+        AddOutline(outline.seen, member_of(outline.luminaire), problem);
     }
   } else {
     AddReadings(data, state_used, problem);
@@ -118,9 +164,8 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   for (ParameterPrior prior : priors) {
     if (prior.kind == ParameterKind::kLogSensorGain) problem.priors.push_back(prior);
     if (prior.kind != ParameterKind::kLuminaire && prior.kind != ParameterKind::kLogFlux) continue;
-    if (prior.index != luminaire) continue;
-    prior.index = problem.luminaire;
-    problem.priors.push_back(prior);
+    prior.index = member_of(prior.index);
+    if (prior.index >= 0) problem.priors.push_back(prior);
   }
   return problem;
 }
@@ -130,6 +175,7 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
   const std::vector<bool> every_state(data.dimming.size(), true);
   problem.data.dimming = data.dimming;
   problem.data.indirect_is_held = data.indirect_is_held;
+  problem.data.pose_root = data.pose_root;
   if (data.observations.empty()) {
     AddReadings(data, every_state, problem);
   } else {
@@ -142,38 +188,57 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
 
 FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminaire& start,
                      const FreeQuantities& free, const FitEffort& effort) {
-  const size_t k = static_cast<size_t>(problem.luminaire);
   LightState state = problem.state;
-  state.luminaires[k] = start;
-  state.free[k] = free;
+  for (const int k : problem.members) {
+    const auto member = static_cast<size_t>(k);
+    state.luminaires[member] = k == problem.luminaire ? start : OfTypeOf(start, state.luminaires[member]);
+    state.free[member] = free;
+  }
+  return FitState(room, problem, state, effort);
+}
+
+FittedModel FitState(const Room& room, const SubProblem& problem, const LightState& start,
+                     const FitEffort& effort) {
+  const FreeQuantities& free = start.free[static_cast<size_t>(problem.luminaire)];
   FitLuminairesOptions options;
   options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // gives the effective parameters
   options.max_outer_iterations = effort.max_outer_iterations;
   options.max_inner_iterations = effort.max_inner_iterations;
   options.visibility_order = kComparedVisibilityOrder;
-  const LuminaireFit fit = FitLuminaires(room, problem.data, state, problem.priors, options);
+  options.has_texture = false;  // the data are without it (inverse/fit/internal/surface_texture.h)
+  const LuminaireFit fit = FitLuminaires(room, problem.data, start, problem.priors, options);
+  std::vector<Luminaire> members;
+  members.reserve(problem.members.size());
+  for (const int k : problem.members) members.push_back(fit.state.luminaires[static_cast<size_t>(k)]);
   return {
-      fit.state.luminaires[k], free,
+      members.front(), members, free,
       PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row, kComparedVisibilityOrder),
       fit.effective_parts};
 }
 
 std::vector<GroupScores> ScoreTogether(const SubProblem& problem,
                                        const std::vector<const LeftOutPrediction*>& models) {
-  double relative_sigma = 1;
-  for (const LeftOutPrediction* model : models)
-    relative_sigma = std::min(relative_sigma, model->relative_sigma);
-  std::vector<GroupScores> scores(models.size());
-  for (size_t i = 0; i < problem.value.size(); ++i) {
+  const LeftOutPrediction& best = **std::min_element(
+      models.begin(), models.end(), [](const LeftOutPrediction* a, const LeftOutPrediction* b) {
+        return a->relative_sigma < b->relative_sigma;
+      });
+  const auto rows = static_cast<Eigen::Index>(problem.value.size());
+  Eigen::VectorXd root_weight(rows);  // 0: does not count
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto row = static_cast<size_t>(i);
     const bool counts = std::all_of(models.begin(), models.end(),
-                                    [&](const LeftOutPrediction* model) { return model->is_smooth[i]; });
-    if (!counts) continue;
-    const double value = problem.value[i];
-    const double sigma = std::sqrt(std::pow(relative_sigma * value, 2) + problem.variance[i]);
-    for (size_t m = 0; m < models.size(); ++m) {
-      const double z = (models[m]->value[static_cast<Eigen::Index>(i)] - value) / sigma;
-      scores[m][problem.group_of_row[i]].Add(z);
-    }
+                                    [&](const LeftOutPrediction* model) { return model->is_smooth[row]; });
+    const double variance = std::pow(best.relative_sigma * problem.value[row], 2) + problem.variance[row];
+    root_weight[i] = counts ? 1 / std::sqrt(variance) : 0;
+  }
+  const RowWhitening whitening = TextureOf(problem, best, root_weight);
+  std::vector<GroupScores> scores(models.size());
+  const Eigen::Map<const Eigen::VectorXd> value(problem.value.data(), rows);
+  for (size_t m = 0; m < models.size(); ++m) {
+    Eigen::VectorXd z = (models[m]->value - value).cwiseProduct(root_weight);
+    whitening.Apply(z);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      if (root_weight[i] > 0) scores[m][problem.group_of_row[static_cast<size_t>(i)]].Add(z[i]);
   }
   return scores;
 }

@@ -117,6 +117,7 @@ SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::ve
         result.needless.push_back(*found);
     }
   }
+  result.state = WithLikeTypes(std::move(result.state));
   return result;
 }
 

@@ -66,12 +66,14 @@ class Refiner {
 
   RefinedLuminaire Run() {
     const size_t k = static_cast<size_t>(problem_.luminaire);
-    result_.luminaire = problem_.state.luminaires[k];
+    luminaire_ = problem_.state.luminaires[k];
+    for (const int m : problem_.members)
+      result_.members.push_back(problem_.state.luminaires[static_cast<size_t>(m)]);
     result_.free = problem_.state.free[k];
     if (!problem_.CanJudge() || !(open_.heading || open_.aim || open_.table || open_.emission))
       return result_;
     if (open_.heading) ChooseHeading();
-    held_ = Fit(result_.luminaire, result_.free);
+    held_ = Fit(luminaire_, result_.free);
     if (open_.aim) TakeBest({AimStep()});
     while (open_.table || open_.emission) {
       if (held_.left_out.relative_sigma <= kGoodEnough && !open_.table_asked_for) break;
@@ -104,7 +106,7 @@ class Refiner {
     free.heading = true;
     std::vector<RefinedCandidate> candidates;
     for (const int degrees : {0, 90, 180, 270}) {
-      Luminaire start = result_.luminaire;
+      Luminaire start = luminaire_;
       const LuminaireAxes axes = AxesOf(start);
       const double angle = degrees * M_PI / 180;
       start.heading = std::cos(angle) * axes.along - std::sin(angle) * axes.across;
@@ -142,7 +144,7 @@ class Refiner {
       FreeQuantities free = held_.free;
       start.shape = shape;
       free.size = free.size && shape != LuminaireShape::kPoint;
-      free.exponent = false;
+      free.exponent = free.sides = false;
       for (const double sigma : {0.01, 0.03, 0.1, 0.3}) {
         free.table_sigma = sigma;
         FittedModel fitted = Fit(start, free);
@@ -192,6 +194,8 @@ class Refiner {
     selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
     SelectionOptions options;
     options.keeps_first = true;
+    // Furniture that the mesh lacks, or a shiny floor, is in all that is left out: nodes and cells absorb it.
+    options.worth_having = kWorthHaving;
     Selection selection = SimplestWithinOneStandardError(selectable, options);
     step.gain = selection.score[0] - selection.score[selection.best];
     step.standard_error = selection.standard_error[0];
@@ -236,7 +240,8 @@ class Refiner {
   }
 
   void Keep(const FittedModel& fitted) {
-    result_.luminaire = fitted.luminaire;
+    luminaire_ = fitted.luminaire;
+    result_.members = fitted.members;
     result_.free = fitted.free;
     result_.changed = true;
   }
@@ -245,6 +250,7 @@ class Refiner {
   const SubProblem& problem_;
   OpenRefinements open_;
   RefinedLuminaire result_;
+  Luminaire luminaire_;  // the first of the type
   FittedModel held_;
 };
 

@@ -10,8 +10,8 @@
 //
 // Each candidate is fitted to the data that concern the luminaire and scored by cross-validation
 // (inverse/choose/internal/left_out.h). Each step keeps the candidate with the fewest effective parameters
-// within one standard error of the best. The step is taken only if it lowers the score by more than a
-// standard error.
+// within one standard error of the best, or within a quarter of its score: nodes and cells absorb what the mesh
+// lacks, and predict what is left out of it. The step is taken only if it lowers the score by more than that.
 //
 // Table and emission are tried only where the model error is above 1 %: a luxmeter could not show a
 // smaller effect. All headings have as many parameters, so the lowest score alone chooses.
@@ -29,13 +29,13 @@
 namespace luxfit {
 
 struct RefinedLuminaire {
-  Luminaire luminaire;
+  std::vector<Luminaire> members;  // as SubProblem::members
   FreeQuantities free;
   bool changed = false;
   std::vector<Refinement> steps;
 };
 
-// Refines luminaire problem.luminaire of problem.state from its present model. Returns it unchanged where
+// Refines the members of problem.state from its present model. Returns it unchanged where
 // nothing could be left out.
 RefinedLuminaire RefineLuminaire(const Room& room, const SubProblem& problem, const OpenRefinements& open);
 

@@ -1,7 +1,6 @@
 #include "inverse/choose/internal/scene_detail.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -9,7 +8,6 @@
 
 #include "calib/luminance/median.h"
 #include "forward/light/illuminance.h"
-#include "inverse/choose/internal/left_out.h"
 #include "inverse/model/internal/discretisation_bias.h"
 
 namespace luxfit {
@@ -20,90 +18,39 @@ constexpr int kMaxDetailElements = 800;
 
 const Patch& PatchAt(const Room& room, int patch) { return room.patches.patches[static_cast<size_t>(patch)]; }
 
-// Returns the rows that are compared: observations that the fit used, of elements taken evenly.
-std::vector<size_t> RowsOf(const LightData& data, const LuminaireFit& fit) {
-  std::map<int, int> order;
+// Numbers the elements that the fit used, in their order.
+std::map<int, int> NumberUsed(const LightData& data, const LuminaireFit& fit) {
+  std::map<int, int> number;
   for (size_t i = 0; i < data.observations.size(); ++i) {
-    if (fit.weight[static_cast<Eigen::Index>(i)] > 0) order.emplace(data.observations[i].element, 0);
+    if (fit.weight[static_cast<Eigen::Index>(i)] > 0) number.emplace(data.observations[i].element, 0);
   }
   int count = 0;
-  for (auto& [element, number] : order) number = count++;
+  for (auto& [element, n] : number) n = count++;
+  return number;
+}
+
+// Returns the rows that are compared: observations that the fit used, of elements taken evenly.
+std::vector<size_t> RowsOf(const LightData& data, const LuminaireFit& fit, const std::map<int, int>& number) {
+  const int count = static_cast<int>(number.size());
   const int stride = std::max(1, (count + kMaxDetailElements - 1) / kMaxDetailElements);
   std::vector<size_t> rows;
   rows.reserve(data.observations.size());
   for (size_t i = 0; i < data.observations.size(); ++i) {
     const bool is_used = fit.weight[static_cast<Eigen::Index>(i)] > 0;
-    if (is_used && order.at(data.observations[i].element) % stride == 0) rows.push_back(i);
+    if (is_used && number.at(data.observations[i].element) % stride == 0) rows.push_back(i);
   }
   return rows;
 }
 
-// Scores predictions that replace the fit's.
-class Comparison {
- public:
-  Comparison(const Room& room, const LightData& data, const LuminaireFit& fit, std::vector<size_t> rows)
-      : room_(room), data_(data), fit_(fit), rows_(std::move(rows)) {}
-
-  const std::vector<size_t>& rows() const { return rows_; }
-
-  // `left_out`: light left out of each row, in its unit.
-  GroupScores Score(const Eigen::VectorXd& left_out) const {
-    const std::vector<double> factor = MaterialFactors(left_out);
-    GroupScores scores;
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      if (!IsLeftOut(i)) continue;
-      const Observation& o = data_.observations[rows_[i]];
-      const Patch& patch = room_.patches.PatchOf(o.element);
-      const double modelled = factor[static_cast<size_t>(patch.material)] * Modelled(left_out, i);
-      scores[patch.facet].Add((modelled - o.relative_luminance) / std::sqrt(VarianceOf(o)));
-    }
-    return scores;
-  }
-
-  // Returns the robust size of `left_out` relative to the prediction, like the fit's model error.
-  double Relative(const Eigen::VectorXd& left_out) const {
-    std::vector<double> relative;
-    relative.reserve(rows_.size());
-    for (size_t i = 0; i < rows_.size(); ++i)
-      relative.push_back(std::abs(left_out[static_cast<Eigen::Index>(i)] / Predicted(i)));
-    return kSigmaPerMad * Quantile(std::move(relative), 0.5);
-  }
-
- private:
-  bool IsLeftOut(size_t i) const {
-    const auto element = static_cast<size_t>(data_.observations[rows_[i]].element);
-    return luxfit::IsLeftOut(room_.patches.elements[element].patch);
-  }
-  double Predicted(size_t i) const { return fit_.predicted[static_cast<Eigen::Index>(rows_[i])]; }
-  double Modelled(const Eigen::VectorXd& left_out, size_t i) const {
-    return Predicted(i) - left_out[static_cast<Eigen::Index>(i)];
-  }
-  double VarianceOf(const Observation& o) const {
-    return o.variance + std::pow(fit_.relative_sigma * o.relative_luminance, 2);
-  }
-
-  std::vector<double> MaterialFactors(const Eigen::VectorXd& left_out) const {
-    const size_t materials = room_.scene.materials.size();
-    std::vector<double> product(materials, 0), square(materials, 0), factor(materials, 1);
-    for (size_t i = 0; i < rows_.size(); ++i) {
-      if (IsLeftOut(i)) continue;
-      const Observation& o = data_.observations[rows_[i]];
-      const size_t m = static_cast<size_t>(room_.patches.PatchOf(o.element).material);
-      const double weight = fit_.weight[static_cast<Eigen::Index>(rows_[i])] / VarianceOf(o);
-      product[m] += weight * Modelled(left_out, i) * o.relative_luminance;
-      square[m] += weight * Modelled(left_out, i) * Modelled(left_out, i);
-    }
-    for (size_t m = 0; m < materials; ++m) {
-      if (fit_.state.albedo_free[m] && square[m] > 0 && product[m] > 0) factor[m] = product[m] / square[m];
-    }
-    return factor;
-  }
-
-  const Room& room_;
-  const LightData& data_;
-  const LuminaireFit& fit_;
-  std::vector<size_t> rows_;
-};
+// Returns the robust size of the light left out relative to the prediction, like the fit's model error.
+double Relative(const LuminaireFit& fit, const std::vector<size_t>& rows, const Eigen::VectorXd& left_out) {
+  std::vector<double> relative;
+  relative.reserve(rows.size());
+  for (size_t i = 0; i < rows.size(); ++i)
+    relative.push_back(
+        std::abs(left_out[static_cast<Eigen::Index>(i)] / fit.predicted[static_cast<Eigen::Index>(rows[i])]));
+  return kSigmaPerMad * Quantile(std::move(relative), 0.5);
+}
 
 // Returns the direct light of every patch, patches x states, in lx.
 Eigen::MatrixXf PatchDirect(const Room& room, const LightData& data, const LightState& state) {
@@ -137,24 +84,20 @@ Eigen::VectorXd AtRows(const Room& room, const LightData& data, const LightState
   return value;
 }
 
-DetailChoice CompareBounces(const Comparison& comparison, const Room& room, const LightData& data,
-                            const LightState& state, const Transport& transport,
-                            const Eigen::MatrixXf& direct, const Eigen::MatrixXf& exitance) {
+// Returns what fewer reflections leave out of the rows: rows x (0, 1, ... kMostBounces reflections).
+Eigen::MatrixXd LeftOutByBounces(const Room& room, const LightData& data, const LightState& state,
+                                 const std::vector<size_t>& rows, const Transport& transport,
+                                 const Eigen::MatrixXf& direct, const Eigen::MatrixXf& exitance) {
   Eigen::VectorXf albedo(direct.rows());
   for (Eigen::Index p = 0; p < albedo.size(); ++p)
     albedo[p] = static_cast<float>(state.albedo[PatchAt(room, static_cast<int>(p)).material]);
-  std::vector<std::string> names;
-  std::vector<GroupScores> scores;
+  Eigen::MatrixXd left_out(static_cast<Eigen::Index>(rows.size()), kMostBounces + 1);
   Eigen::MatrixXf truncated = Eigen::MatrixXf::Zero(direct.rows(), direct.cols());
   for (int n = 0; n <= kMostBounces; ++n) {
-    names.push_back(std::to_string(n));
-    scores.push_back(comparison.Score(AtRows(room, data, state, comparison.rows(), exitance - truncated)));
+    left_out.col(n) = AtRows(room, data, state, rows, exitance - truncated);
     truncated = albedo.asDiagonal() * (direct + transport.Irradiance(truncated));
   }
-  names.emplace_back("all");
-  scores.push_back(
-      comparison.Score(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(comparison.rows().size()))));
-  return ChooseDetail(names, scores);
+  return left_out;
 }
 
 // Returns the 2 x 2 block to which a cell of a facet's grid belongs, from the cell's centre and edges.
@@ -191,8 +134,8 @@ Eigen::MatrixXf OverPairsOfPatches(const Room& room, const Eigen::MatrixXf& valu
   return means;
 }
 
-// Returns what elements twice as large lose beyond those in use, for the comparison's rows. An element's
-// light is taken at its centre, so it errs by the square of its size.
+// Returns what elements twice as large lose beyond those in use, for the compared rows. An element's light is
+// taken at its centre, so it errs by the square of its size.
 Eigen::VectorXd LeftOutByLargerElements(const Room& room, const LightData& data, const LightState& state,
                                         const std::vector<size_t>& rows) {
   LightData part;
@@ -200,7 +143,7 @@ Eigen::VectorXd LeftOutByLargerElements(const Room& room, const LightData& data,
   part.indirect_is_held = true;
   part.observations.reserve(rows.size());
   for (const size_t row : rows) part.observations.push_back(data.observations[row]);
-  return -3 * DiscretisationBias(room, part, state, 2 * kMaxDetailElements);
+  return 3 * DiscretisationBias(room, part, state, 2 * kMaxDetailElements);
 }
 
 template <typename Piece>
@@ -211,30 +154,69 @@ double MedianSizeM(const std::vector<Piece>& pieces) {
   return Quantile(std::move(sizes), 0.5);
 }
 
+EffectChoice ChooseBounces(const LuminaireFit& fit, const Eigen::MatrixXd& shift) {
+  std::vector<EffectCandidate> among;
+  among.reserve(static_cast<size_t>(shift.cols()) + 1);
+  for (Eigen::Index n = 0; n < shift.cols(); ++n)
+    among.push_back({std::to_string(n), LargestShiftOf(fit, shift.col(n))});
+  among.push_back({"all", {}});
+  return ChooseByEffect(std::move(among));
+}
+
+// `shift`: by twice the size.
+EffectChoice ChooseSize(const LuminaireFit& fit, const Eigen::VectorXd& shift) {
+  return ChooseByEffect(
+      {{"twice as large", LargestShiftOf(fit, shift)}, {"as used", LargestShiftOf(fit, shift / 3)}});
+}
+
+EffectChoice ChooseRows(const Room& room, const LightData& data, const LuminaireFit& fit,
+                        const std::vector<ParameterPrior>& priors, const std::map<int, int>& number) {
+  std::vector<bool> is_in_half;
+  is_in_half.reserve(data.observations.size());
+  for (const Observation& o : data.observations) {
+    const auto found = number.find(o.element);
+    is_in_half.push_back(found != number.end() && found->second % 2 == 0);
+  }
+  return ChooseByEffect(
+      {{"half", LargestShiftOf(fit, ShiftByPart(room, data, fit, priors, is_in_half))}, {"all", {}}});
+}
+
 }  // namespace
 
-SceneDetail CompareDetail(const Room& room, const LightData& data, const LuminaireFit& fit) {
+EffectChoice ChooseByEffect(std::vector<EffectCandidate> among) {
+  EffectChoice choice{std::move(among), 0};
+  while (choice.chosen + 1 < choice.among.size() && !(choice.Chosen().effect.sigmas < kWorthSigmas))
+    ++choice.chosen;
+  return choice;
+}
+
+SceneDetail CompareDetail(const Room& room, const LightData& data, const LuminaireFit& fit,
+                          const std::vector<ParameterPrior>& priors) {
   SceneDetail detail;
-  if (!fit.IsUsable() || data.observations.empty() || room.sparse) return detail;
-  const Comparison comparison(room, data, fit, RowsOf(data, fit));
+  if (!fit.IsUsable() || data.observations.empty() || room.sparse || fit.covariance.size() == 0)
+    return detail;
+  const std::map<int, int> number = NumberUsed(data, fit);
+  const std::vector<size_t> rows = RowsOf(data, fit, number);
+  if (rows.empty()) return detail;
   const LightState& state = fit.state;
   const Transport transport(room.transport, state.albedo);
   const Eigen::MatrixXf direct = PatchDirect(room, data, state);
   const Eigen::MatrixXf exitance = transport.Exitance(direct);
-  const std::vector<size_t>& rows = comparison.rows();
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
-  if (comparison.Score(none).empty()) return detail;
-  detail.bounces = CompareBounces(comparison, room, data, state, transport, direct, exitance);
   const Eigen::VectorXd patches =
       AtRows(room, data, state, rows, exitance - OverPairsOfPatches(room, exitance));
   const Eigen::VectorXd elements = LeftOutByLargerElements(room, data, state, rows);
-  const std::vector<std::string> sizes{"twice as large", "as used"};
-  detail.patches = ChooseDetail(sizes, {comparison.Score(patches), comparison.Score(none)});
-  detail.elements = ChooseDetail(sizes, {comparison.Score(elements), comparison.Score(none)});
+  const Eigen::MatrixXd bounces = LeftOutByBounces(room, data, state, rows, transport, direct, exitance);
+  Eigen::MatrixXd lost(bounces.rows(), bounces.cols() + 2);
+  lost << bounces, patches, elements;
+  const Eigen::MatrixXd shift = ParameterShift(room, data, fit, priors, rows, lost);
+  detail.bounces = ChooseBounces(fit, shift.leftCols(bounces.cols()));
+  detail.patches = ChooseSize(fit, shift.col(bounces.cols()));
+  detail.elements = ChooseSize(fit, shift.col(bounces.cols() + 1));
+  detail.rows = ChooseRows(room, data, fit, priors, number);
   detail.patch_size_m = MedianSizeM(room.patches.patches);
   detail.element_size_m = MedianSizeM(room.patches.elements);
-  detail.patch_error = comparison.Relative(patches) / 3;
-  detail.element_error = comparison.Relative(elements) / 3;
+  detail.patch_error = Relative(fit, rows, patches) / 3;
+  detail.element_error = Relative(fit, rows, elements) / 3;
   detail.model_error = fit.relative_sigma;
   detail.is_compared = true;
   return detail;

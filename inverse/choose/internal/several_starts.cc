@@ -64,7 +64,7 @@ SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, cons
   for (size_t k = 0; k < rivals.size(); ++k) {
     if (rivals[k].empty() || !state.free[k].position) continue;
     const SubProblem problem =
-        MakeSubProblem(room, data, result.state, static_cast<int>(k), priors, options.max_elements);
+        MakeSubProblem(room, data, result.state, {static_cast<int>(k)}, priors, options.max_elements);
     if (!problem.CanJudge()) continue;
     std::vector<Luminaire> starts = {state.luminaires[k]};
     for (const Luminaire& rival : rivals[k]) {

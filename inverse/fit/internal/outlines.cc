@@ -47,7 +47,22 @@ SeenRadius RadiusOf(const Luminaire& luminaire, const std::vector<LuminaireOutli
 struct Seen {
   std::vector<double> distance_px;
   std::set<int> views;
+
+  double MedianPx() const { return Median(distance_px); }
+  bool IsExplained() const { return MedianPx() <= kExplainedSigmas * kOutlineSigmaPx; }
 };
+
+std::map<int, Seen> SeenBy(const LightData& data, const LuminaireFit& fit) {
+  std::map<int, Seen> seen;
+  Eigen::Index row = FirstReadingRow(data) + static_cast<Eigen::Index>(data.readings.size());
+  for (const LuminaireOutline& outline : data.outlines) {
+    Seen& of = seen[outline.luminaire];
+    of.views.insert(outline.seen.view);
+    for (size_t i = 0; i < outline.seen.rays.size(); ++i)
+      of.distance_px.push_back(std::abs(fit.predicted[row++]));
+  }
+  return seen;
+}
 
 }  // namespace
 
@@ -66,8 +81,8 @@ LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<
   for (size_t k = 0; k < open.size(); ++k) {
     Luminaire& luminaire = state.luminaires[k];
     // An isotropic point has no aim, which a disc needs.
-    if (!open[k].shape || luminaire.shape != LuminaireShape::kPoint ||
-        luminaire.distribution == Distribution::kIsotropic)
+    if (!open[k].shape || !IsFirstOfType(state, static_cast<int>(k)) ||
+        luminaire.shape != LuminaireShape::kPoint || luminaire.distribution == Distribution::kIsotropic)
       continue;
     const SeenRadius radius = RadiusOf(luminaire, outlines, static_cast<int>(k));
     if (radius.px <= kExplainedSigmas * kOutlineSigmaPx) continue;
@@ -82,23 +97,58 @@ LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<
                      "point's is up to {:g} px",
                      radius.px, kExplainedSigmas * kOutlineSigmaPx)});
   }
-  return state;
+  return WithLikeTypes(std::move(state));
+}
+
+std::optional<LightState> WithRectangles(const std::vector<OpenChoice>& open, const LightData& data,
+                                         const LuminaireFit& fit) {
+  LightState state = fit.state;
+  bool has_any = false;
+  for (const auto& [k, of] : SeenBy(data, fit)) {
+    const auto index = static_cast<size_t>(k);
+    Luminaire& luminaire = state.luminaires[index];
+    if (!open[index].shape || !IsFirstOfType(state, k) || luminaire.shape != LuminaireShape::kDisc ||
+        of.IsExplained())
+      continue;
+    luminaire.shape = LuminaireShape::kRectangle;
+    luminaire.size_m.setConstant(luminaire.size_m[0] * std::sqrt(M_PI) / 2);
+    state.free[index].size = true;
+    has_any = true;
+  }
+  if (!has_any) return {};
+  return WithLikeTypes(std::move(state));
+}
+
+LightState WithExplainedRectangles(const LightData& data, const LuminaireFit& fit,
+                                   const LuminaireFit& squared, Findings& findings) {
+  LightState state = squared.state;
+  const std::map<int, Seen> as_disc = SeenBy(data, fit);
+  for (const auto& [k, of] : SeenBy(data, squared)) {
+    const auto index = static_cast<size_t>(k);
+    if (!IsFirstOfType(state, k) || fit.state.luminaires[index].shape == state.luminaires[index].shape)
+      continue;
+    if (!of.IsExplained()) {
+      state.luminaires[index] = fit.state.luminaires[index];
+      state.free[index] = fit.state.free[index];
+      continue;
+    }
+    findings.choices.push_back({"shape of " + state.luminaires[index].id,
+                                "rectangle",
+                                {"disc", "rectangle"},
+                                fmt::format("photos show it {:.1f} px in the median from the outline of a "
+                                            "rectangle, {:.1f} px from a disc's; its light hardly tells",
+                                            of.MedianPx(), as_disc.at(k).MedianPx())});
+  }
+  return WithLikeTypes(std::move(state));
 }
 
 std::vector<LuminaireOutline> ExplainedOutlines(const RoomObservations& given, const LightData& data,
                                                 const LuminaireFit& fit, Findings& findings) {
-  std::map<int, Seen> seen;
-  Eigen::Index row = FirstReadingRow(data) + static_cast<Eigen::Index>(data.readings.size());
-  for (const LuminaireOutline& outline : data.outlines) {
-    Seen& of = seen[outline.luminaire];
-    of.views.insert(outline.seen.view);
-    for (size_t i = 0; i < outline.seen.rays.size(); ++i)
-      of.distance_px.push_back(std::abs(fit.predicted[row++]));
-  }
+  const std::map<int, Seen> seen = SeenBy(data, fit);
   std::set<int> explained;
   for (const auto& [luminaire, of] : seen) {
-    const double median_px = Median(of.distance_px);
-    const bool counts = median_px <= kExplainedSigmas * kOutlineSigmaPx;
+    const double median_px = of.MedianPx();
+    const bool counts = of.IsExplained();
     if (counts) explained.insert(luminaire);
     findings.choices.push_back(
         {"outline of " + given.luminaires[static_cast<size_t>(luminaire)].luminaire.id,

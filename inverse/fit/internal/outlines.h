@@ -1,7 +1,7 @@
 // Takes into a fit the outlines of luminaires that photos show.
 //
-// An outline tells place, shape, size and heading where the light hardly does: it belongs to a luminaire whose
-// shape is open or has a size. A luminaire given as a point (or by a file of a point) has no outline to
+// An outline tells place, shape, size and heading where the light hardly does: it belongs to a luminaire
+// whose shape is open or has a size. A luminaire given as a point (or by a file of a point) has no outline to
 // compare, and a held one needs none.
 //
 // The seen outline of a luminaire is that of its bright opening only where the model explains it. Halos, lit
@@ -10,6 +10,7 @@
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
 
+#include <optional>
 #include <vector>
 
 #include "inverse/choose/internal/choose_model.h"
@@ -23,10 +24,21 @@ namespace luxfit {
 std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const std::vector<bool>& found,
                                          const LightState& state);
 
-// Turns points whose shape is open into discs of the size that photos show, where that is more than a point's blur.
-// Their light did not tell a size; their outlines do. Records it in `choices`.
+// Turns points whose shape is open into discs of the size that photos show, where that is more than a point's
+// blur. Their light did not tell a size; their outlines do. Records it in `choices`.
 LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<LuminaireOutline>& outlines,
                          LightState state, Findings& findings);
+
+// Turns discs whose shape is open into rectangles of their area, where the fit's disc does not explain what
+// photos show: the corners of a square lie beside the disc of the same light. Returns nothing where there is
+// none.
+std::optional<LightState> WithRectangles(const std::vector<OpenChoice>& open, const LightData& data,
+                                         const LuminaireFit& fit);
+
+// Keeps of those rectangles the ones whose outlines the fit `squared` explains; the others are discs again,
+// as in `fit`. Records those that are kept in `choices`.
+LightState WithExplainedRectangles(const LightData& data, const LuminaireFit& fit,
+                                   const LuminaireFit& squared, Findings& findings);
 
 // Returns those of `data.outlines` that the fit to `data` explains. Records both in `choices`.
 std::vector<LuminaireOutline> ExplainedOutlines(const RoomObservations& given, const LightData& data,

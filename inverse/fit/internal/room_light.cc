@@ -2,12 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace luxfit {
 namespace {
+
+// Registration and the size of elements leave errors that views share, which their differences do not show.
+constexpr double kLeastBetweenViews = 0.01, kOutlierSigmas = 4;
+
+// Returns L with L L^T = C.
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  if (covariance.size() == 0) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
 
 // Relative standard uncertainty of a reading whose meter class is not given. It lies between DIN 5032-7
 // classes L and B.
@@ -30,7 +42,10 @@ RoomLight LightOf(const RoomObservations& given) {
   RoomLight light;
   light.data.dimming = given.dimming;
   light.data.luminance_weights = given.luminance_weights;
-  light.data.observations = MergeViews(given.observations).observations;
+  MergedObservations merged = MergeViews(given.observations, {{}, kOutlierSigmas, kLeastBetweenViews});
+  light.data.observations = std::move(merged.observations);
+  light.between_views = merged.between_views;
+  light.data.pose_root = RootOf(given.pose_covariance);
   const Meter& meter = given.meter;
   const bool has_fitted =
       std::any_of(meter.readings.begin(), meter.readings.end(), [](const MeterReading& r) { return r.used; });
@@ -57,6 +72,25 @@ RoomLight LightOf(const RoomObservations& given) {
   }
   AddSensorGains(meter.sensor_sigma, meter.sensor_count, light);
   return light;
+}
+
+void RecordBetweenViews(const RoomLight& light, Findings& findings) {
+  if (light.data.observations.empty()) return;
+  const BetweenViews& views = light.between_views;
+  const double percent = 100 * views.relative_sigma;
+  if (views.is_estimated) {
+    findings.choices.push_back(
+        {"disagreement of views",
+         fmt::format("{:.2g} % beyond noise (1 sigma of each view)", percent),
+         {},
+         fmt::format("several views show the same element in the same state, {} times", views.groups)});
+  } else {
+    findings.choices.push_back(
+        {"disagreement of views",
+         fmt::format("{:.2g} % beyond noise (1 sigma of each view), assumed", percent),
+         {},
+         fmt::format("several views show the same element in the same state only {} times", views.groups)});
+  }
 }
 
 void RecordReadings(const Meter& meter, const RoomLight& light, Findings& findings) {

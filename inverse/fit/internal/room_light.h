@@ -1,7 +1,7 @@
 // Turns the observations of a room into data of the light model: rows, their sigmas and the meter's priors.
 //
-// Views of one element are merged. Where the meter's class is given, its calibration is one scale with a
-// prior, shared by all readings. Units: lx, relative luminance.
+// Views of one element are merged (inverse/observe/observe.h). Where the meter's class is given, its calibration is
+// one scale with a prior, shared by all readings. Units: lx, relative luminance.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
 
@@ -11,11 +11,13 @@
 #include "inverse/fit/fit_room.h"
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/observe/observe.h"
 
 namespace luxfit {
 
 struct RoomLight {
   LightData data;                      // views of one element merged
+  BetweenViews between_views;          // error of each view that they were merged with
   std::vector<ParameterPrior> priors;  // for the meter's calibration and its sensors' gains
   bool meter_scale_free = false;       // true: the calibration is one common scale factor
   Eigen::VectorXd sensor_gain;         // starting values, one for each named sensor
@@ -24,6 +26,9 @@ struct RoomLight {
 };
 
 RoomLight LightOf(const RoomObservations& given);
+
+// Records in `choices` how much views of one element disagree beyond noise.
+void RecordBetweenViews(const RoomLight& light, Findings& findings);
 
 // Records in `choices` the sigma that readings are given.
 void RecordReadings(const Meter& meter, const RoomLight& light, Findings& findings);

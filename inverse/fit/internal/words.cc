@@ -202,8 +202,9 @@ void RecordRefinement(const RoomObservations& given, const Refinement& step, Fin
       scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
   }
   const bool is_heading = step.kind == RefinementKind::kHeading;
-  const std::string rule =
-      is_heading ? "the best" : "the fewest effective parameters within one standard error of the best";
+  const std::string rule = is_heading ? "the best"
+                                      : "the fewest effective parameters within one standard error of the "
+                                        "best, or within a quarter of it,";
   findings.choices.push_back(
       {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
        fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "
@@ -270,11 +271,12 @@ void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
        "[states] does not name"});
 }
 
-void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findings& findings) {
+void RecordOutcome(const RoomObservations& given, const RoomFit& result, Findings& findings) {
+  const LuminaireFit& fit = result.fit;
   if (given.luminaires_are_named)
     findings.choices.push_back(
         {"number of luminaires", std::to_string(given.luminaires.size()), {}, "given by the session"});
-  if (fit.status == FitStatus::kNotConverged) {
+  if (fit.status == FitStatus::kNotConverged && !result.stopped) {
     findings.warnings.push_back(
         {"not_converged", fit.message,
          "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
@@ -305,6 +307,76 @@ void RecordTransportColour(const ColourChoice& choice, Findings& findings) {
                    NameOf(choice.moved_most), choice.effect_sigmas)});
 }
 
+void RecordPlaces(const RoomObservations& given, const PlacesChoice& choice, Findings& findings) {
+  std::vector<std::string> ids;
+  ids.reserve(choice.luminaires.size());
+  for (const int k : choice.luminaires) ids.push_back(given.luminaires[static_cast<size_t>(k)].luminaire.id);
+  const std::vector<std::string> among = {"found by the light", "seen in photos"};
+  findings.choices.push_back(
+      {fmt::format("places of {}", fmt::join(ids, ", ")), among[choice.is_seen ? 1 : 0], among,
+       fmt::format("models of the type from either start; the better on patches left out (mean squared "
+                   "normalised error: {} {:.3f}, {} {:.3f})",
+                   among[0], choice.score_found, among[1], choice.score_seen)});
+}
+
+void RecordTypes(const TypedState& typed, Findings& findings) {
+  const auto id = [&](int k) { return typed.state.luminaires[static_cast<size_t>(k)].id; };
+  for (const std::vector<int>& type : TypesOf(typed.state)) {
+    if (type.size() < 2) continue;
+    std::vector<std::string> ids;
+    ids.reserve(type.size());
+    for (const int k : type) ids.push_back(id(k));
+    std::string why;
+    for (const MergedTypes& merged : typed.merged) {
+      if (merged.into == type.front())
+        why += fmt::format("; the fit does not tell {} from {} (chi2 {:.1f} of {})", id(merged.merged),
+                           id(merged.into), merged.chi2, merged.parameters);
+    }
+    findings.choices.push_back(
+        {"type of " + ids.front(),
+         fmt::format("shared by {}", fmt::join(ids, ", ")),
+         {"each its own", "shared"},
+         "luminaires that are always on together are taken as alike, but for place and flux" + why});
+  }
+}
+
+void WarnOfDeviatingFluxes(const LightState& state, const std::vector<LuminaireType>& types,
+                           Findings& findings) {
+  for (const LuminaireType& type : types) {
+    for (const DeviatingFlux& flux : type.deviating)
+      findings.warnings.push_back(
+          {"flux_deviates",
+           fmt::format("{} gives {:.0f} % of the flux of its type (median of {}, spread {:.1f} %, z {:+.1f})",
+                       state.luminaires[static_cast<size_t>(flux.luminaire)].id, 100 * flux.ratio,
+                       type.luminaires.size(), 100 * type.relative_spread, flux.z),
+           "look at its lamp, driver and cover; if it is dimmed, say so in [states]"});
+  }
+}
+
+void WarnOfOddLuminaires(const LightState& state, const std::vector<OddLuminaire>& odd, Findings& findings) {
+  const auto id = [&](int luminaire) { return state.luminaires[static_cast<size_t>(luminaire)].id; };
+  for (const OddLuminaire& o : odd) {
+    std::string fellows;
+    for (const int k : o.fellows) fellows += (fellows.empty() ? "" : ", ") + id(k);
+    findings.undetermined = true;
+    findings.warnings.push_back(
+        {"luminaire_unlike_others",
+         o.is_left_over
+             ? fmt::format(
+                   "{} gives {:.1f} % of the light of {}, which are always on together with it: another may "
+                   "stand for two, and this one is left over",
+                   id(o.luminaire), 100 * o.flux_ratio, fellows)
+             : fmt::format("{} has {:.0f} times the area of {}, which are always on together with it: it may "
+                           "stand for "
+                           "several of them",
+                           id(o.luminaire), o.area_ratio, fellows),
+         fmt::format(
+             "photograph {} without the others, give position_m roughly with position_sigma_m, or show "
+             "it in more views",
+             id(o.luminaire))});
+  }
+}
+
 void RecordBodies(const BodyChoice& choice, Findings& findings) {
   if (choice.presence.among.empty()) return;
   findings.choices.push_back(
@@ -313,43 +385,6 @@ void RecordBodies(const BodyChoice& choice, Findings& findings) {
            "they hide what is behind them and reflect {:g} +- {:g}; better on patches left out, or as "
            "good within a tenth (mean squared normalised error: {})",
            kBodyAlbedo, kBodyAlbedoSigma, ScoresOf(choice.presence))});
-}
-
-void RecordDetail(const SceneDetail& detail, Findings& findings) {
-  const std::string why_all = "the radiosity system is factored once: every bounce costs the same as one";
-  if (!detail.is_compared) {
-    findings.choices.push_back({"bounces", "all", {}, why_all});
-    return;
-  }
-  findings.choices.push_back(
-      {"bounces", "all", NamesOf(detail.bounces),
-       fmt::format(
-           "{}; {} would do: the fewest within one standard error of the best on patches left out (mean "
-           "squared normalised error: {})",
-           why_all, detail.bounces.Chosen().name, ScoresOf(detail.bounces))});
-  const auto record = [&](const std::string& what, const DetailChoice& choice, double size_m, double error) {
-    findings.choices.push_back(
-        {what + " size",
-         fmt::format("{:.2g} m", size_m),
-         {fmt::format("{:.2g} m", 2 * size_m), fmt::format("{:.2g} m", size_m)},
-         fmt::format(
-             "cut before the fit; it errs by {:.2g} % of the light, the fit's other errors are {:.2g} %; "
-             "twice the size {} on patches left out (mean squared normalised error: {})",
-             100 * error, 100 * detail.model_error,
-             choice.chosen == 0 ? "would do as well" : "would be worse", ScoresOf(choice))});
-  };
-  record("patch", detail.patches, detail.patch_size_m, detail.patch_error);
-  record("element", detail.elements, detail.element_size_m, detail.element_error);
-  if (detail.IsFineEnough()) return;
-  findings.warnings.push_back(
-      {"elements_too_coarse",
-       fmt::format(
-           "patches of {:.2g} m err by {:.2g} % of the light, elements of {:.2g} m by {:.2g} %: more than "
-           "the {:.2g} % by which the fit misses its data otherwise",
-           detail.patch_size_m, 100 * detail.patch_error, detail.element_size_m, 100 * detail.element_error,
-           100 * detail.model_error),
-       "luxfit chart SESSION --fit shows how far results move with finer ones; leave out photos of surfaces "
-       "close to a luminaire"});
 }
 
 void RecordColours(const RoomObservations& given, const Room& room, const ColourDetail& colours,

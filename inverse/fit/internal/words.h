@@ -13,10 +13,11 @@
 #include "inverse/choose/internal/choose_colour.h"
 #include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/luminaire_types.h"
 #include "inverse/choose/internal/needless_parameters.h"
-#include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/fit/fit_room.h"
+#include "inverse/fit/internal/odd_luminaires.h"
 #include "inverse/model/internal/search/first_guess.h"
 
 namespace luxfit {
@@ -35,14 +36,20 @@ void RecordNeedless(const RoomObservations& given, const std::vector<NeedlessPar
                     Findings& findings);
 void RecordRefinement(const RoomObservations& given, const Refinement& step, Findings& findings);
 void RecordDirectShare(const DirectShare& share, Findings& findings);
-void RecordOutcome(const RoomObservations& given, const LuminaireFit& fit, Findings& findings);
+void RecordOutcome(const RoomObservations& given, const RoomFit& result, Findings& findings);
 // Records whether light is exchanged in three channels.
 void RecordTransportColour(const ColourChoice& choice, Findings& findings);
 // Records when the luminaires' bodies hide what is behind them.
+void RecordPlaces(const RoomObservations& given, const PlacesChoice& choice, Findings& findings);
+
+// Records which luminaires are of one type.
+void RecordTypes(const TypedState& typed, Findings& findings);
+void WarnOfDeviatingFluxes(const LightState& state, const std::vector<LuminaireType>& types,
+                           Findings& findings);
+// Warns of luminaires that are unlike their fellows. What was asked for is then undetermined.
+void WarnOfOddLuminaires(const LightState& state, const std::vector<OddLuminaire>& odd, Findings& findings);
+
 void RecordBodies(const BodyChoice& choice, Findings& findings);
-// Records reflections, patches and elements. Warns ("elements_too_coarse") where the elements' size causes
-// more error than the rest of the model.
-void RecordDetail(const SceneDetail& detail, Findings& findings);
 void RecordColours(const RoomObservations& given, const Room& room, const ColourDetail& colours,
                    Findings& findings);
 

@@ -7,6 +7,7 @@
 #include "inverse/model/internal/frozen_problem.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
+#include "inverse/model/internal/row_weights.h"
 
 namespace luxfit {
 namespace {
@@ -19,21 +20,19 @@ class FoldPredictor {
         priors_(PriorsOf(fit.parameters, priors)),
         smoothness_(SmoothnessRows(fit.state, fit.parameters)),
         fold_of_row_(fold_of_row),
-        model_(room, data),
-        data_(model_.row_count()) {
+        model_(room, data) {
+    model_.SetPatchFactor(fit.patch_factor);
     model_.FreezeVisibility(fit.state, order);
-    for (int i = 0; i < model_.row_count(); ++i) data_[i] = model_.BlockOf(i).ValueOf(model_.PlaceInBlock(i));
     at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
-    information_ = (fit.root_weight.asDiagonal() * at_fit_.prediction.jacobian)
-                       .colwise()
-                       .squaredNorm()
-                       .transpose()
-                       .cwiseMax(1e-300);
+    weights_ = WeightsOf(fit, room, data);
+    information_ =
+        weights_.Weighed(at_fit_.prediction.jacobian).colwise().squaredNorm().transpose().cwiseMax(1e-300);
   }
 
   LeftOutPrediction Run() {
     LeftOutPrediction result;
     result.relative_sigma = fit_.relative_sigma;
+    result.texture_sigma = fit_.material_texture_sigma;
     result.value = at_fit_.prediction.value;
     result.is_smooth = model_.InPenumbra();
     result.is_smooth.flip();
@@ -47,6 +46,23 @@ class FoldPredictor {
   }
 
  private:
+  RowWeights WeightsOf(const LuminaireFit& fit, const Room& room, const LightData& data) const {
+    const TextureEstimator elements(room, data);
+    const Eigen::VectorXd& value = at_fit_.prediction.value;
+    // The design effect scales photos' rows as they are.
+    Eigen::VectorXd own = fit.root_weight;
+    own.head(FirstReadingRow(data)) *= std::sqrt(fit.photo_design_effect);
+    RowWeights weights;
+    weights.target = fit.target;
+    weights.root_weight = fit.root_weight;
+    weights.texture = {fit.texture, fit.texture_sigma, fit.material_texture_sigma};
+    weights.whitening =
+        WhiteningOf(model_, fit.state, elements, value, own, weights.texture, PoseErrors::kViewByView);
+    weights.means =
+        elements.Means(value, own.cwiseQuotient((1 + fit.texture.array()).matrix()), weights.texture);
+    return weights;
+  }
+
   // Holds a state, what it predicts, and where the fold's steps stand.
   struct Point {
     LightState state;
@@ -54,17 +70,17 @@ class FoldPredictor {
     Prediction prediction;
   };
 
-  int FoldOf(Eigen::Index row) const { return fold_of_row_[static_cast<size_t>(row)]; }
-
-  Eigen::VectorXd Residual(const Eigen::VectorXd& value) const {
-    return (value - data_).cwiseProduct(fit_.root_weight);
+  // Rows that follow the model's belong to no fold.
+  int FoldOf(Eigen::Index row) const {
+    const auto i = static_cast<size_t>(row);
+    return i < fold_of_row_.size() ? fold_of_row_[i] : -1;
   }
 
   // Returns the squares of the rows outside of the fold, of priors and of smoothness.
   double SquaresWithout(int fold, const Eigen::VectorXd& value, const Eigen::VectorXd& x) const {
     NormalEquations known(x.size());
-    known.Add(priors_, smoothness_, x);
-    const Eigen::VectorXd residual = Residual(value);
+    AddPriors(priors_, smoothness_, x, known);
+    const Eigen::VectorXd residual = weights_.Residual(value);
     double squares = known.squares;
     for (Eigen::Index i = 0; i < residual.size(); ++i)
       if (FoldOf(i) != fold) squares += residual[i] * residual[i];
@@ -74,15 +90,16 @@ class FoldPredictor {
   NormalEquations EquationsWithout(int fold, const Point& at) const {
     const Eigen::VectorXd x = PackParameters(at.state, at.parameters);
     NormalEquations equations(x.size());
-    const Eigen::VectorXd residual = Residual(at.prediction.value);
+    const Eigen::VectorXd residual = weights_.Residual(at.prediction.value);
+    const RowMajorMatrix jacobian = weights_.Weighed(at.prediction.jacobian);
     for (Eigen::Index i = 0; i < residual.size(); ++i) {
-      if (FoldOf(i) == fold || !(fit_.root_weight[i] > 0)) continue;
-      const Eigen::VectorXd row = fit_.root_weight[i] * at.prediction.jacobian.row(i).transpose();
+      if (FoldOf(i) == fold) continue;
+      const Eigen::VectorXd row = jacobian.row(i).transpose();
       equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
       equations.gradient += residual[i] * row;
     }
     equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
-    equations.Add(priors_, smoothness_, x);
+    AddPriors(priors_, smoothness_, x, equations);
     // A direction that only the fold determines stays where it is.
     constexpr double kRidge = 1e-9;
     equations.matrix.diagonal() += kRidge * information_;
@@ -134,7 +151,7 @@ class FoldPredictor {
   const std::vector<SmoothnessRow> smoothness_;
   const std::vector<int>& fold_of_row_;
   LightModel model_;
-  Eigen::VectorXd data_;
+  RowWeights weights_;
   Point at_fit_;
   Eigen::VectorXd information_;  // diagonal of the whole fit's matrix
 };

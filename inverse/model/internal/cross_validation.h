@@ -5,7 +5,7 @@
 // theta_f is the Gauss-Newton step from the fit to all rows towards the fit without fold f, which is exact
 // for a linear model. A step that does not lower the squares of the other folds is halved. Where it gains much
 // less than a linear model would, further steps follow. The prediction is the model itself at theta_f.
-// Weights, model error and visibility are those of the whole fit.
+// Weights, texture, model error and visibility are those of the whole fit. Errors of poses count view by view.
 //
 // Source: Stone (1974), "Cross-validatory choice and assessment of statistical predictions"; Giordano et al.
 // (2019), "A Swiss army infinitesimal jackknife" (the step in place of a refit).
@@ -20,9 +20,10 @@
 namespace luxfit {
 
 struct LeftOutPrediction {
-  Eigen::VectorXd value;        // each row, by the data of the other folds
-  std::vector<bool> is_smooth;  // rows that no shadow edge crosses
-  double relative_sigma = 1;    // model error of the fit
+  Eigen::VectorXd value;          // each row, by the data of the other folds
+  std::vector<bool> is_smooth;    // rows that no shadow edge crosses
+  double relative_sigma = 1;      // model error of the fit
+  Eigen::VectorXd texture_sigma;  // by material (inverse/model/internal/element_texture.h)
 };
 
 // `fold_of_row`: the fold of every row of the light model, from 0. `visibility_order`: that of

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "inverse/model/internal/cluster_bootstrap.h"
+#include "inverse/model/internal/cluster_sums.h"
 
 namespace luxfit {
 namespace {
@@ -38,27 +40,6 @@ InverseRoot RootOf(const Eigen::MatrixXd& hessian) {
   return result;
 }
 
-struct ClusterSums {
-  Eigen::VectorXd gradient;     // J_c^T r_c
-  Eigen::MatrixXd information;  // J_c^T J_c
-};
-
-std::vector<ClusterSums> SumClusters(const WeightedRows& rows, const std::vector<int>& cluster) {
-  const Eigen::Index n = rows.jacobian.cols();
-  const int count = cluster.empty() ? 0 : *std::max_element(cluster.begin(), cluster.end()) + 1;
-  std::vector<ClusterSums> sums(static_cast<size_t>(count),
-                                {Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)});
-  for (size_t i = 0; i < cluster.size(); ++i) {
-    if (cluster[i] < 0) continue;
-    ClusterSums& c = sums[static_cast<size_t>(cluster[i])];
-    const Eigen::VectorXd row = rows.jacobian.row(static_cast<Eigen::Index>(i)).transpose();
-    c.gradient += rows.residual[static_cast<Eigen::Index>(i)] * row;
-    c.information.selfadjointView<Eigen::Lower>().rankUpdate(row);
-  }
-  for (ClusterSums& c : sums) c.information = Eigen::MatrixXd(c.information.selfadjointView<Eigen::Lower>());
-  return sums;
-}
-
 // Returns (I - S)^-1 for one cluster's information S in whitened directions; at least kLeastLeft remains.
 Eigen::MatrixXd WithoutCluster(const Eigen::MatrixXd& information) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(information);
@@ -74,15 +55,15 @@ struct ClusterVariance {
   Eigen::VectorXd share, share_squares;  // sums of v_c and v_c^2
 };
 
-ClusterVariance VarianceOfClusters(const WeightedRows& rows, const std::vector<int>& cluster,
-                                   const Eigen::MatrixXd& root) {
-  const Eigen::Index n = root.cols();
+ClusterVariance VarianceOfClusters(const ClusteredRows& whitened) {
+  const Eigen::Index n = whitened.jacobian.cols();
   ClusterVariance sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),
                       Eigen::VectorXd::Zero(n)};
-  for (const ClusterSums& c : SumClusters(rows, cluster)) {
-    const Eigen::MatrixXd information = root.transpose() * c.information * root;
+  const ClusterSums sums = SumClusters(whitened);
+  for (Eigen::Index c = 0; c < sums.count(); ++c) {
+    const auto information = sums.InformationOf(c);
     const Eigen::MatrixXd without = WithoutCluster(information);
-    const Eigen::VectorXd moved = without * (root.transpose() * c.gradient);
+    const Eigen::VectorXd moved = without * sums.gradient.col(c);
     sum.estimated += moved * moved.transpose();
     sum.if_independent += information.diagonal();
     const Eigen::VectorXd share = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
@@ -110,10 +91,27 @@ Eigen::MatrixXd HessianOf(const WeightedRows& rows) {
   return rows.jacobian.transpose() * rows.jacobian + rows.prior_information;
 }
 
+// Returns the variance that rows which stand alone and priors add, in whitened parameters.
+Eigen::MatrixXd KnownVariance(const WeightedRows& rows, const Eigen::MatrixXd& whitened_jacobian,
+                              const Eigen::MatrixXd& root) {
+  std::vector<bool> is_alone(rows.cluster.size());
+  for (size_t i = 0; i < rows.cluster.size(); ++i) is_alone[i] = rows.cluster[i] < 0;
+  for (const SpreadRow& spread : rows.spread) is_alone[static_cast<size_t>(spread.row)] = false;
+  std::vector<Eigen::Index> alone;
+  for (size_t i = 0; i < is_alone.size(); ++i) {
+    if (is_alone[i]) alone.push_back(static_cast<Eigen::Index>(i));
+  }
+  const Eigen::MatrixXd jacobian = whitened_jacobian(alone, Eigen::all);
+  return root.transpose() * rows.prior_information * root +
+         rows.alone_scatter * jacobian.transpose() * jacobian;
+}
+
 }  // namespace
 
 double DesignEffect(const WeightedRows& rows) {
-  const ClusterVariance clusters = VarianceOfClusters(rows, rows.cluster, RootOf(HessianOf(rows)).root);
+  const Eigen::MatrixXd root = RootOf(HessianOf(rows)).root;
+  const ClusterVariance clusters =
+      VarianceOfClusters({rows.jacobian * root, rows.residual, rows.cluster, rows.spread});
   // Where other knowledge gives nearly all, the ratio says nothing.
   constexpr double kLeastShare = 0.1;
   std::vector<double> ratio;
@@ -145,20 +143,19 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
   const Eigen::MatrixXd& root = inverse_root.root;
 
   // In whitened directions the plain covariance is 1, so combinations that cancel stay cancelled.
-  Eigen::MatrixXd known = root.transpose() * rows.prior_information * root;
-  for (size_t i = 0; i < rows.cluster.size(); ++i) {
-    if (rows.cluster[i] >= 0) continue;
-    const Eigen::VectorXd row =
-        root.transpose() * rows.jacobian.row(static_cast<Eigen::Index>(i)).transpose();
-    known += rows.alone_scatter * row * row.transpose();
-  }
-  const ClusterVariance fine = VarianceOfClusters(rows, rows.cluster, root);
-  const ClusterVariance coarse = VarianceOfClusters(rows, rows.coarse_cluster, root);
+  ClusteredRows whitened_rows{rows.jacobian * root, rows.residual, rows.cluster, rows.spread};
+  const Eigen::MatrixXd known = KnownVariance(rows, whitened_rows.jacobian, root);
+  const ClusterVariance fine = VarianceOfClusters(whitened_rows);
+  Eigen::VectorXd least = BootstrapVariance(whitened_rows, known).cwiseMax(1);
+  whitened_rows.cluster = rows.coarse_cluster;
+  whitened_rows.spread = rows.coarse_spread;
+  const ClusterVariance coarse = VarianceOfClusters(whitened_rows);
+  least = least.cwiseMax(BootstrapVariance(whitened_rows, known));
 
   FitCovariance result;
   result.null_directions = std::move(inverse_root.null_directions);
   result.degrees_of_freedom = Eigen::VectorXd::Constant(n, std::numeric_limits<double>::infinity());
-  Eigen::VectorXd larger = Eigen::VectorXd::Ones(n), floor = larger;
+  Eigen::VectorXd larger = Eigen::VectorXd::Ones(n), raised = larger;
   for (Eigen::Index d = 0; d < n; ++d) {
     const AxisVariance of_fine = AlongAxis(fine, d, known(d, d)),
                        of_coarse = AlongAxis(coarse, d, known(d, d));
@@ -170,9 +167,9 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
   Eigen::MatrixXd whitened =
       known + Eigen::MatrixXd(larger.asDiagonal() * fine.estimated * larger.asDiagonal());
   for (Eigen::Index d = 0; d < n; ++d) {
-    if (whitened(d, d) > 0) floor[d] = std::max(1.0, 1 / std::sqrt(whitened(d, d)));
+    if (whitened(d, d) > 0) raised[d] = std::sqrt(std::max(1.0, least[d] / whitened(d, d)));
   }
-  whitened = floor.asDiagonal() * whitened * floor.asDiagonal();
+  whitened = raised.asDiagonal() * whitened * raised.asDiagonal();
   if (rows.biases.size() > 0) {
     const Eigen::MatrixXd moved = root.transpose() * (rows.jacobian.transpose() * rows.biases);
     whitened += moved * moved.transpose();

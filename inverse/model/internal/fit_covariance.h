@@ -17,6 +17,10 @@
 // multiplied by (1 + known / estimated)^2 where readings and priors, whose sigmas are known, share the
 // direction. It is at least 3.
 //
+// A bootstrap over the same clusters checks this (inverse/model/internal/cluster_bootstrap.h). Along each axis
+// the whole variance, known and estimated, is at least the bootstrap's, which needs no T: its quantiles are those
+// of 95 % intervals. Where fewer than five clusters carry a direction the bootstrap says nothing.
+//
 // T enlarges the clusters' part to t_975(nu) / 1.96 of itself, so that 1.96 sigma is the 95 % interval. nu
 // and T belong to the principal axes of the scaled H, so that what cancels in a prediction stays cancelled.
 // Along these axes the covariance is never below the plain H^-1.
@@ -29,12 +33,15 @@
 // Directions of eigenvalue below 1e-10 of the largest (after scaling) have no covariance and are returned.
 //
 // Sources: Liang and Zeger (1986); Bell and McCaffrey (2002), "Bias reduction in standard errors for linear
-// regression with multi-stage samples"; Cameron and Miller (2015), sec. VI (few clusters).
+// regression with multi-stage samples"; Cameron and Miller (2015), sec. VI (few clusters); Cameron, Gelbach and
+// Miller (2008), "Bootstrap-based improvements for inference with clustered errors".
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_FIT_COVARIANCE_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_FIT_COVARIANCE_H_
 
 #include <Eigen/Core>
 #include <vector>
+
+#include "inverse/model/internal/cluster_sums.h"
 
 namespace luxfit {
 
@@ -46,6 +53,8 @@ struct WeightedRows {
   std::vector<int> cluster;  // one for each row, from 0; -1: stands alone
   // A coarser choice of clusters, of the same rows; empty: none. Of the two variances the larger counts.
   std::vector<int> coarse_cluster;
+  // Rows that follow those of the clusters and are sums over them (cluster_sums.h), for either choice of clusters.
+  std::vector<SpreadRow> spread, coarse_spread;
   double alone_scatter = 1;           // expected mean square of the residuals of rows that stand alone
   Eigen::MatrixXd prior_information;  // P, for priors and smoothness: parameters x parameters
 };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "forward/light/covered_surfaces.h"
+#include "inverse/model/internal/derivative_columns.h"
 
 namespace luxfit {
 namespace {
@@ -19,71 +20,54 @@ int IndexOf(const Sensor& sensor, std::vector<Sensor>& sensors) {
   return index;
 }
 
-// Maps each parameter to its column of the light's derivatives.
-struct Columns {
-  DerivativeRequest request;
-  std::vector<int> of_parameter;        // -1: none
-  std::vector<double> reference_share;  // for parts of a table or of an emission
-
-  Columns(const LightState& state, const std::vector<Parameter>& parameters, bool with_jacobian)
-      : of_parameter(parameters.size(), -1), reference_share(parameters.size(), 0) {
-    for (size_t i = 0; with_jacobian && i < parameters.size(); ++i) {
-      const Parameter& p = parameters[i];
-      if (p.kind == ParameterKind::kLuminaire) {
-        of_parameter[i] = static_cast<int>(request.parameters.size());
-        request.parameters.push_back({p.index, p.quantity, p.part});
-      } else if (p.kind == ParameterKind::kAlbedo) {
-        of_parameter[i] = static_cast<int>(request.materials.size());
-        request.materials.push_back(p.index);
-      }
-      if (IsPart(p)) reference_share[i] = ReferenceShare(state, p);
-    }
-  }
-};
-
-// Computes gain dE / dp at one receiver from the light per lumen and the luminaires' lumens.
+// Computes gain dE / dp at one receiver.
 class ReceiverDerivative {
  public:
-  ReceiverDerivative(const LightState& state, const Illuminance& light, const Columns& columns,
-                     bool is_direct)
-      : state_(state),
-        light_(light),
-        columns_(columns),
-        materials_(is_direct ? 0 : static_cast<Eigen::Index>(columns.request.materials.size())) {}
+  ReceiverDerivative(const LightState& state, const std::vector<Parameter>& parameters,
+                     const Illuminance& light, const DerivativeColumns& columns, bool is_direct)
+      : state_(state), light_(light), columns_(columns), is_direct_(is_direct) {
+    for (const Parameter& p : parameters) share_.push_back(IsPart(p) ? ReferenceShare(state, p) : 0);
+  }
 
-  double Of(const Parameter& parameter, size_t p, Eigen::Index r, double gain,
-            const Eigen::VectorXd& lumens) const {
+  // `lumens`: of each luminaire in the row's state; `dimming`: of each group.
+  double Of(const Parameter& parameter, size_t p, Eigen::Index r, double gain, const Eigen::VectorXd& lumens,
+            const Eigen::VectorXd& dimming) const {
     const Eigen::Index k = parameter.index;
-    const int column = columns_.of_parameter[p];
     if (parameter.kind == ParameterKind::kLogFlux) return gain * lumens[k] * light_.total(r, k);
-    if (parameter.kind == ParameterKind::kAlbedo) {
-      double sum = 0;
-      for (Eigen::Index j = 0; j < lumens.size() && materials_ > 0; ++j)
-        sum += lumens[j] * light_.d_albedo(r, j * materials_ + column);
-      return gain * sum;
-    }
+    if (parameter.kind == ParameterKind::kAlbedo)
+      return is_direct_ ? 0 : gain * Sum(light_.d_albedo, r, columns_.Of(p), dimming);
     if (parameter.kind != ParameterKind::kLuminaire) return 0;
-    const double per_lumen = light_.d_luminaire(r, column);
-    if (IsPart(parameter))
-      return gain * lumens[k] * columns_.reference_share[p] *
-             (per_lumen - static_cast<double>(light_.total(r, k)));
+    double sum = Sum(light_.d_luminaire, r, columns_.Of(p), dimming);
+    if (IsPart(parameter)) {
+      sum -= lumens[k] * light_.total(r, k);
+      for (const int j : parameter.tied) sum -= lumens[j] * light_.total(r, j);
+      return gain * share_[p] * sum;
+    }
     // The parameter is the exponent's logarithm.
     const bool is_exponent = parameter.quantity == LuminaireQuantity::kExponent;
-    const double inner = is_exponent ? state_.luminaires[static_cast<size_t>(k)].cosine_exponent : 1;
-    return gain * lumens[k] * per_lumen * inner;
+    return gain * sum * (is_exponent ? state_.luminaires[static_cast<size_t>(k)].cosine_exponent : 1);
   }
 
  private:
+  static double Sum(const Eigen::MatrixXf& columns, Eigen::Index r,
+                    const std::vector<DerivativeColumns::Term>& terms, const Eigen::VectorXd& dimming) {
+    double sum = 0;
+    for (const DerivativeColumns::Term& term : terms)
+      sum += dimming[term.group] * static_cast<double>(columns(r, term.column));
+    return sum;
+  }
+
   const LightState& state_;
   const Illuminance& light_;
-  const Columns& columns_;
-  const Eigen::Index materials_;
+  const DerivativeColumns& columns_;
+  const bool is_direct_;
+  std::vector<double> share_;  // of parts
 };
 
 }  // namespace
 
 LightModel::LightModel(const Room& room, const LightData& data)
-    : room_(room), data_(data), blocks_(RowBlocksOf(room, data)) {
+    : room_(room), data_(data), blocks_(RowBlocksOf(room, data)), groups_(GroupByDimming(data.dimming)) {
   if (data.indirect_is_held && !data.readings.empty())
     throw std::invalid_argument("LightModel: expected no readings where the indirect light was measured");
   std::vector<int> elements;
@@ -120,23 +104,29 @@ void LightModel::FreezeVisibility(const LightState& state, int order) {
       room_, receivers_, state.luminaires, order);
   hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
   if (data_.indirect_is_held || room_.sparse) return;
-  const bool has_colour = state.tint.size() > 0;
-  if (!has_colour && state.bodies == BodyPresence::kNone) return;
-  std::vector<Transport> channels;
-  channels.reserve(3);
-  for (Eigen::Index c = 0; has_colour && c < 3; ++c) {
-    constexpr double kMostAlbedo = 0.99;
-    channels.emplace_back(
-        room_.transport,
-        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo).eval());
-  }
+  const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0;
+  if (!departs && state.bodies == BodyPresence::kNone) return;
+  const std::vector<Transport> channels = departs ? ChannelsOf(state) : std::vector<Transport>();
   std::vector<const Transport*> transports{&TransportFor(state.albedo)};
   transports.reserve(4);
   for (const Transport& channel : channels) transports.push_back(&channel);
   const std::vector<Eigen::MatrixXf> totals =
       ComputeTotals(room_, receivers_, visibility_, state.luminaires, transports);
   if (state.bodies != BodyPresence::kNone) FreezeBodies(state, totals.front());
-  if (has_colour) FreezeColour(state, totals);
+  if (departs) FreezeColour(state, totals);
+}
+
+std::vector<Transport> LightModel::ChannelsOf(const LightState& state) const {
+  std::vector<Transport> channels;
+  channels.reserve(3);
+  if (state.tint.size() == 0) channels.emplace_back(room_.transport, state.albedo, patch_factor_);
+  for (Eigen::Index c = 0; c < state.tint.rows() && state.tint.size() > 0; ++c) {
+    constexpr double kMostAlbedo = 0.99;
+    channels.emplace_back(
+        room_.transport,
+        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo).eval(), patch_factor_);
+  }
+  return channels;
 }
 
 void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals) {
@@ -146,11 +136,13 @@ void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::
     const Row& row = rows_[static_cast<size_t>(i)];
     if (row.receiver < 0) continue;
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
-    const Eigen::Vector3d weights =
-        blocks_[static_cast<size_t>(row.block)]->ChannelWeightsOf(state, row.place);
+    const Eigen::VectorXd weights =
+        state.tint.size() > 0
+            ? Eigen::VectorXd(blocks_[static_cast<size_t>(row.block)]->ChannelWeightsOf(state, row.place))
+            : Eigen::VectorXd::Ones(1);
     const double grey_lx = totals[0].row(row.receiver).cast<double>().dot(lumens);
     double sum_lx = 0;
-    for (Eigen::Index c = 0; c < 3; ++c)
+    for (Eigen::Index c = 0; c < weights.size(); ++c)
       sum_lx += weights[c] * totals[static_cast<size_t>(c) + 1].row(row.receiver).cast<double>().dot(lumens);
     if (grey_lx > 0) colour_[i] = sum_lx / grey_lx;
   }
@@ -209,9 +201,10 @@ const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
 
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
                                bool with_jacobian) const {
-  const Columns columns(state, parameters, with_jacobian);
-  const Illuminance light = Light(state, columns.request);
-  const ReceiverDerivative derivative(state, light, columns, data_.indirect_is_held);
+  const std::vector<Parameter> asked = with_jacobian ? parameters : std::vector<Parameter>();
+  const DerivativeColumns columns(state, asked, groups_);
+  const Illuminance light = Light(state, columns.request());
+  const ReceiverDerivative derivative(state, asked, light, columns, data_.indirect_is_held);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
 
   Prediction prediction;
@@ -224,6 +217,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const RowBlock& block = *blocks_[static_cast<size_t>(row.block)];
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
     const RowResponse response = block.ResponseOf(state, row.place);
+    const Eigen::VectorXd dimming = groups_.dimming.row(row.state);
     if (row.receiver < 0) {
       prediction.value[i] = response.offset;
       for (size_t p = 0; with_jacobian && p < parameters.size(); ++p)
@@ -240,11 +234,31 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
     for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
       prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
-          derivative.Of(parameters[p], p, row.receiver, left * response.gain, lumens) +
+          derivative.Of(parameters[p], p, row.receiver, left * response.gain, lumens, dimming) +
           block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
     }
   });
   return prediction;
+}
+
+RowMajorMatrix LightModel::LightReflectedBy(const LightState& state,
+                                            const std::vector<CoveredSurface>& surfaces) const {
+  const CoveredLight light = ComputeCoveredLight(room_, receivers_, visibility_, state.luminaires,
+                                                 TransportFor(state.albedo), surfaces);
+  const Eigen::VectorXd flux = FluxesLm(state.luminaires);
+  Eigen::VectorXd albedo(static_cast<Eigen::Index>(surfaces.size()));
+  for (size_t k = 0; k < surfaces.size(); ++k)
+    albedo[static_cast<Eigen::Index>(k)] = state.albedo[surfaces[k].material];
+  RowMajorMatrix received = RowMajorMatrix::Zero(row_count(), albedo.size());
+  for (Eigen::Index i = 0; i < row_count(); ++i) {
+    const Row& row = rows_[static_cast<size_t>(i)];
+    if (row.receiver < 0) continue;
+    const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
+    const double gain = blocks_[static_cast<size_t>(row.block)]->ResponseOf(state, row.place).gain;
+    const Eigen::VectorXd reflected = albedo.cwiseProduct(light.incident * lumens);
+    received.row(i) = gain * light.response.row(row.receiver).cwiseProduct(reflected.transpose());
+  }
+  return received;
 }
 
 }  // namespace luxfit

@@ -9,6 +9,8 @@
 // luminaires' bodies leave of the light (forward/light/covered_surfaces.h). k is the luminance of light
 // exchanged in three channels between coloured surfaces, over that of light between grey ones:
 //   k = sum_c v_c E_c / E        v: the channel's weight in the row, E_c: illuminance by rho_c = tint_c rho
+// E_c is that of patches whose reflectance departs from their material's where the caller names them; k then exists
+// for grey surfaces, too.
 // Photos hardly tell rho_body from the fluxes: it is held at kBodyAlbedo, and its sigma is a part of every
 // covariance.
 //
@@ -23,10 +25,13 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "forward/light/covered_surfaces.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "inverse/model/internal/dimming_groups.h"
 #include "inverse/model/internal/row_block.h"
 #include "inverse/model/light_state.h"
 
@@ -49,11 +54,18 @@ class LightModel {
   // Computes the visible shares that Predict uses, and what bodies hide, for the luminaires where `state` has
   // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
+  // Sets what the next FreezeVisibility counts with: the reflectance of each patch over that of its material.
+  // Empty: all are like their material.
+  void SetPatchFactor(Eigen::VectorXd factor) { patch_factor_ = std::move(factor); }
   // Marks rows that a shadow edge crosses, in the blocks that it spoils. There, a luminaire dimmed to more
   // than `min_dimming` is seen in part.
   std::vector<bool> InPenumbra(double min_dimming = 0.02) const;
   Prediction Predict(const LightState& state, const std::vector<Parameter>& parameters,
                      bool with_jacobian) const;
+
+  // Returns what each row receives of the light that each surface reflects, by way of all reflections: rows x
+  // surfaces, in the rows' units. Bodies and colours do not count. Not for sparse rooms.
+  RowMajorMatrix LightReflectedBy(const LightState& state, const std::vector<CoveredSurface>& surfaces) const;
 
   int row_count() const { return static_cast<int>(rows_.size()); }
   const std::vector<std::unique_ptr<RowBlock>>& blocks() const { return blocks_; }
@@ -61,6 +73,7 @@ class LightModel {
   const RowBlock& BlockOf(int row) const {
     return *blocks_[static_cast<size_t>(rows_[static_cast<size_t>(row)].block)];
   }
+  const Eigen::MatrixXd& pose_root() const { return data_.pose_root; }
   int block_index(int row) const { return rows_[static_cast<size_t>(row)].block; }
   int PlaceInBlock(int row) const { return rows_[static_cast<size_t>(row)].place; }
 
@@ -71,7 +84,10 @@ class LightModel {
   };
   // Computes what the bodies of `state` hide of each row's light. `total`: without them, per lumen.
   void FreezeBodies(const LightState& state, const Eigen::MatrixXf& total);
-  // Computes what coloured surfaces add to each row's light. `totals`: of grey surfaces, then of each channel.
+  // Returns the transports of the three channels, or of grey surfaces.
+  std::vector<Transport> ChannelsOf(const LightState& state) const;
+  // Computes what coloured and textured surfaces add to each row's light. `totals`: of plain grey surfaces, then
+  // of each channel, or of grey.
   void FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
@@ -82,10 +98,12 @@ class LightModel {
   const LightData& data_;
   std::vector<std::unique_ptr<RowBlock>> blocks_;
   std::vector<Row> rows_;
+  DimmingGroups groups_;
   Receivers receivers_;
   LuminaireVisibility visibility_;
   Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
   Eigen::VectorXd colour_;              // k; empty: the surfaces are grey
+  Eigen::VectorXd patch_factor_;
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.
   mutable std::optional<Transport> transport_;
 };

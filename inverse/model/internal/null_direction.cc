@@ -37,6 +37,7 @@ std::string WordFor(const Parameter& parameter) {
     case LuminaireQuantity::kHeading:
       return "aim";
     case LuminaireQuantity::kGammaNode:
+    case LuminaireQuantity::kSide:
       return "lobe";
     case LuminaireQuantity::kCell:
       return "emission";

@@ -10,7 +10,7 @@ namespace luxfit {
 namespace {
 
 // The derivative by each quantity; exponents, tables and cells do not change an outline.
-constexpr int kOutlineQuantities = static_cast<int>(LuminaireQuantity::kCell) + 1;
+constexpr int kOutlineQuantities = static_cast<int>(LuminaireQuantity::kSide) + 1;
 using Jet = ceres::Jet<double, kOutlineQuantities>;
 
 Jet Variable(double value, LuminaireQuantity quantity) { return Jet(value, static_cast<int>(quantity)); }
@@ -63,13 +63,35 @@ RowResponse OutlineBlock::ResponseOf(const LightState& state, int row) const {
 
 double OutlineBlock::OwnDerivative(const LightState& state, const Parameter& parameter,
                                    double /*illuminance_lx*/, int row) const {
-  if (parameter.kind != ParameterKind::kLuminaire || parameter.index != Of(row).luminaire) return 0;
-  const Luminaire& luminaire = state.luminaires[static_cast<size_t>(parameter.index)];
+  if (parameter.kind != ParameterKind::kLuminaire || !parameter.Concerns(Of(row).luminaire)) return 0;
+  const Luminaire& luminaire = state.luminaires[static_cast<size_t>(Of(row).luminaire)];
   const OutlineRay& ray = RayOf(row);
   const Eigen::Matrix<Jet, 3, 1> direction = ray.direction.cast<Jet>();
   const Jet distance =
       OutlineDistanceRad(luminaire.shape, WithDerivatives(luminaire), Of(row).seen.eye, direction);
   return ray.px_per_rad * distance.v[static_cast<int>(parameter.quantity)];
+}
+
+Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
+  using PoseJet = ceres::Jet<double, 6>;
+  using Vector = Eigen::Matrix<PoseJet, 3, 1>;
+  Vector turn, shift;
+  for (int i = 0; i < 3; ++i) turn[i] = PoseJet(0, i), shift[i] = PoseJet(0, 3 + i);
+  Eigen::MatrixXd derivative(row_count(), 6);
+  for (int row = 0; row < row_count(); ++row) {
+    const Luminaire& luminaire = state.luminaires[static_cast<size_t>(Of(row).luminaire)];
+    const Outline<double> at = OutlineOf(luminaire);
+    // The distance depends on the luminaire as seen from the eye.
+    const Outline<PoseJet> outline{at.position.cast<PoseJet>() - shift, at.aim.cast<PoseJet>(),
+                                   at.along.cast<PoseJet>(), at.across.cast<PoseJet>(),
+                                   at.half_size.cast<PoseJet>()};
+    const OutlineRay& ray = RayOf(row);
+    const Vector direction = ray.direction.cast<PoseJet>();
+    const PoseJet distance = OutlineDistanceRad(luminaire.shape, outline, Of(row).seen.eye,
+                                                Vector(direction + turn.cross(direction)));
+    derivative.row(row) = ray.px_per_rad * distance.v.transpose();
+  }
+  return derivative;
 }
 
 std::optional<std::pair<int, int>> OutlineBlock::ClusterOf(int row) const {

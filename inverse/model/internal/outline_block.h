@@ -3,9 +3,10 @@
 //   0 = s d_i(theta)     px
 //
 // d_i: angle from the model's outline to ray i of the seen one (outline_distance.h), s: the photo's scale there.
-// The points of one outline are not independent: a pose's error of a quarter of a pixel moves them all. Each
-// therefore has a sigma of 1 px, which lets the 32 points of an outline tell its centre to a quarter of a
-// pixel. Rows of one view share their error.
+// The points of one outline are not independent: what the contour does not follow (blur, halos, its threshold) moves
+// several alike. Each therefore has a sigma of 1 px, which lets the 32 points of an outline tell its centre to a
+// quarter of a pixel. Rows of one view share the error of its pose, which the fit eliminates
+// (inverse/model/internal/row_weights.h).
 //
 // A lens' blur, and charge that runs over, let luminaires look larger: kOutlineGrowthPx all round is an error
 // that all rows share.
@@ -44,6 +45,9 @@ class OutlineBlock : public RowBlock {
   Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Constant(row_count(), kOutlineGrowthPx);
   }
+
+  Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const override;
+  int ViewOf(int row) const override { return Of(row).seen.view; }
 
  private:
   const LuminaireOutline& Of(int row) const {

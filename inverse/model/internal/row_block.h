@@ -68,6 +68,11 @@ class RowBlock {
   virtual Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const {
     return Eigen::VectorXd::Zero(row_count());
   }
+  // Returns the derivative of each row by the pose of its view: rotation vector in world axes (rad), camera centre
+  // in world (m). Empty: the rows do not depend on poses.
+  virtual Eigen::MatrixXd PoseDerivativeOf(const LightState& /*state*/) const { return {}; }
+  // Returns the view of a row, an index into LightData::pose_root; -1: none.
+  virtual int ViewOf(int /*row*/) const { return -1; }
 };
 
 // Makes one block for each kind of observation. The first block that has rows carries the model's relative

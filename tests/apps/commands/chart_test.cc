@@ -192,6 +192,25 @@ TEST_F(ChartCommandTest, TakesWhatAnEarlierFitFound) {
   EXPECT_THAT(run.output, HasSubstr("expected fluxes in lm"));
 }
 
+TEST_F(ChartCommandTest, DrawsAnEarlierChartInTheSamePicture) {
+  ASSERT_EQ(Run("--budget 1").status, 0);
+  const std::string earlier = " --before '" + folder_.Path("out/chart.csv") + "'";
+  support::ProgramRun run = Run("--budget 1 --before-name old" + earlier);
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::string svg = folder_.Read("out/chart.svg");
+  EXPECT_TRUE(IsWellFormed(svg));
+  EXPECT_THAT(svg, testing::AllOf(HasSubstr(">old<"), HasSubstr(">after<"), HasSubstr("automatic: ")));
+  EXPECT_EQ(Run("--budget 1 --before-name ''" + earlier).status, 2);
+  EXPECT_EQ(Run("--budget 1 --before-name a_name_that_the_legend_cannot_hold" + earlier).status, 2);
+  run = Run("--fit" + earlier);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("got one of `luxfit chart`; give a chart of the same kind"));
+  folder_.Replace("session.toml", "box & <bench>", "another");
+  run = Run("--budget 1" + earlier);
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("chart.json: session: expected \"another\""));
+}
+
 TEST_F(ChartCommandTest, SaysWhatIsWrong) {
   EXPECT_EQ(Run("--budget 0").status, 2);
   EXPECT_EQ(Run("--error -1").status, 2);

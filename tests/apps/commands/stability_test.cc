@@ -17,7 +17,9 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kSession[] = R"(name = "bench"
 
@@ -149,7 +151,7 @@ TEST_F(StabilityCommand, GoesOnWhereItWasStopped) {
   EXPECT_EQ(folder_.Read("out/stability.csv"), csv);
   // All done; other inputs start anew.
   EXPECT_THAT(Run("--only luminaires_together").output, HasSubstr("5 of 5 trials were done earlier"));
-  EXPECT_THAT(Run("--only luminaires_together --seed 5").output, testing::Not(HasSubstr("done earlier")));
+  EXPECT_THAT(Run("--only luminaires_together --seed 5").output, Not(HasSubstr("done earlier")));
 }
 
 TEST_F(StabilityCommand, TakesTheTruthFromAFile) {
@@ -173,6 +175,37 @@ TEST_F(StabilityCommand, ChartsTheWholeFit) {
   EXPECT_THAT(folder_.Read("out/fit_cost.svg"), HasSubstr("slope"));
 }
 
+TEST_F(StabilityCommand, DrawsAnEarlierFitChartInTheSamePictures) {
+  const std::string chart = "chart '" + folder_.Path("session.toml") + "' --fit ";
+  ASSERT_EQ(support::RunProgram(chart + "-o '" + folder_.Path("out") + "'").status, 0);
+  EXPECT_THAT(folder_.Read("out/fit_cost.svg"), Not(HasSubstr("stroke-dasharray")));
+  const support::ProgramRun run =
+      support::RunProgram(chart + "-o '" + folder_.Path("again") + "' --before '" + folder_.Path("out") +
+                          "' --before-name 0.1.0 --after-name 'a < b'");
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(folder_.Read("again/fit_cost.svg"),
+              AllOf(HasSubstr("stroke-dasharray"), HasSubstr(">0.1.0<"), HasSubstr(">a &lt; b<")));
+  const json artifact = json::parse(folder_.Read("again/stages/fit_chart.json"));
+  EXPECT_TRUE(artifact["inputs"].contains(folder_.Path("out/fit.csv")));
+}
+
+TEST_F(StabilityCommand, DrawsAnEarlierStabilityChartInTheSamePictures) {
+  ASSERT_EQ(Run("--only luminaires_together").status, 0);
+  const std::string csv = folder_.Read("out/stability.csv");
+  const std::string before = "--only luminaires_together --before '" + folder_.Path("out") + "'";
+  const support::ProgramRun run = Run(before);  // into the folder of the earlier chart
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("5 of 5 trials were done earlier")) << "no trial depends on it";
+  EXPECT_EQ(folder_.Read("out/stability.csv"), csv);
+  EXPECT_THAT(folder_.Read("out/stability_luminaires_together.svg"),
+              AllOf(HasSubstr("stroke-dasharray"), HasSubstr(">before<"), HasSubstr(">after<")));
+  EXPECT_TRUE(Artifact()["inputs"].contains(folder_.Path("out/stability.csv")));
+  // Errors against the undegraded fit do not compare with errors against a truth.
+  const support::ProgramRun other = Run(before + " " + TruthFlag(1.6));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.output, HasSubstr("stability.json: reference: expected errors against"));
+}
+
 TEST_F(StabilityCommand, SaysWhatIsWrong) {
   support::ProgramRun run = Run("--only noize");
   EXPECT_EQ(run.status, 2);
@@ -185,10 +218,14 @@ TEST_F(StabilityCommand, SaysWhatIsWrong) {
   run = Run("--truth '" + folder_.Path("odd.json") + "'");
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("lamps: expected"));
+  run = Run("--before '" + folder_.Path("none") + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output,
+              HasSubstr(folder_.Path("none") + ": expected a chart of `luxfit chart --stability`"));
   run = support::RunProgram("chart '" + folder_.Path("session.toml") + "' -o '" + folder_.Path("out") +
                             "' --trials 2");
   EXPECT_EQ(run.status, 2);  // --trials without --stability
-  for (const char* flags : {"--elements 10", "--stability --fit"}) {
+  for (const char* flags : {"--elements 10", "--stability --fit", "--fit --before-name old"}) {
     EXPECT_EQ(support::RunProgram("chart '" + folder_.Path("session.toml") + "' -o '" + folder_.Path("out") +
                                   "' " + flags)
                   .status,

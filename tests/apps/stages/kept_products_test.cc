@@ -34,7 +34,10 @@ TEST(KeptProductsTest, Registration) {
       Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()) * Eigen::Translation3d(0.1, -2, 1.0 / 7);
   view.covariance.setRandom();
   view.points_used = 7;
-  before.registration.views = {view};
+  before.registration.views = {view, view};
+  const Eigen::MatrixXd any = Eigen::MatrixXd::Random(12, 12);
+  before.registration.pose_covariance = any + any.transpose();
+  before.registration.survey_sigma_m = 0.01 / 3;
   before.registration.focal_scale = {1, 1.01};
   before.registration.notes = {{"v01", -1, "no_tags", "message", "remedy"}};
   SurveyedTag tag;
@@ -51,6 +54,8 @@ TEST(KeptProductsTest, Registration) {
   EXPECT_EQ(again.cam_from_world.matrix(), view.cam_from_world.matrix());
   EXPECT_EQ(again.covariance, view.covariance);
   EXPECT_EQ(again.points_used, 7);
+  EXPECT_EQ(after.registration.pose_covariance, before.registration.pose_covariance);
+  EXPECT_EQ(after.registration.survey_sigma_m, before.registration.survey_sigma_m);
   EXPECT_EQ(after.registration.focal_scale, before.registration.focal_scale);
   EXPECT_EQ(after.registration.notes.at(0).code, "no_tags");
   EXPECT_EQ(after.registration.placed_tags.at(0).center_in_world, Eigen::Vector3d(0.1, 0.2, 0.3));
@@ -66,6 +71,7 @@ TEST(KeptProductsTest, SigmasOfARegistrationMayBeUnknown) {
   view.covariance.setIdentity();
   view.position_sigma_m = {0.001, std::numeric_limits<double>::quiet_NaN(), 0.003};
   before.registration.views = {view};
+  before.registration.pose_covariance.setConstant(6, 6, std::numeric_limits<double>::quiet_NaN());
   // Text has null where the bytes above have NaN.
   nlohmann::json kept = nlohmann::json::parse(RegistrationJson(session, before).dump());
   ASSERT_TRUE(kept["views"][0]["position_sigma_m"][1].is_null());
@@ -73,6 +79,7 @@ TEST(KeptProductsTest, SigmasOfARegistrationMayBeUnknown) {
   EXPECT_EQ(part.position_sigma_m.x(), 0.001);
   EXPECT_TRUE(std::isnan(part.position_sigma_m.y()));
   EXPECT_EQ(part.position_sigma_m.z(), 0.003);
+  EXPECT_TRUE(RegistrationFromJson(kept).registration.pose_covariance.array().isNaN().all());
   EXPECT_EQ(RegistrationTable(kept),
             "         0 tags, reprojection RMS 0.000 px, camera centre ± 1.0 - 3.0 mm\n");
   kept["views"][0]["position_sigma_m"] = nullptr;

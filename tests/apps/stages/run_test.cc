@@ -71,8 +71,9 @@ TruthComparison OfficeRun::comparison_;
 
 TEST_F(OfficeRun, FindsEveryLuminaire) {
   EXPECT_EQ(comparison_.luminaires_missing, 0);
-  EXPECT_LE(comparison_.worst_position_mm, 7);
-  EXPECT_LE(comparison_.worst_flux_percent, 1.05);
+  // 1.5 times what is asked for, 3 mm, and 1.5 times 1.06 % of a scale reading that is good to 1 %.
+  EXPECT_LE(comparison_.worst_position_mm, 4.5);
+  EXPECT_LE(comparison_.worst_flux_percent, 1.6);
 }
 
 // The photos show all four, and washed-out tags and walls; where a fit starts is said.

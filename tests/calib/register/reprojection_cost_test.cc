@@ -165,5 +165,19 @@ TEST(ZeroPriorTest, CountsInSigmasAndIsLinear) {
   ASSERT_TRUE(prior.Evaluate(parameters, residual.data(), nullptr));
 }
 
+TEST(ZeroPriorTest, CountsEachDirectionInItsOwnSigma) {
+  Eigen::Matrix3d whitening;
+  whitening << 1000, 20, 0, -30, 100, 5, 0, 0, 50;
+  const ZeroPrior<3> prior(whitening);
+  const Eigen::Vector3d displacement(0.001, -0.003, 0.002);
+  const double* const parameters[] = {displacement.data()};
+  Eigen::Vector3d residual;
+  Eigen::Matrix<double, 3, 3, Eigen::RowMajor> jacobian;
+  double* jacobians[] = {jacobian.data()};
+  ASSERT_TRUE(prior.Evaluate(parameters, residual.data(), jacobians));
+  EXPECT_TRUE(residual.isApprox(Eigen::Vector3d(0.94, -0.32, 0.1)));
+  EXPECT_TRUE(jacobian.isApprox(whitening));
+}
+
 }  // namespace
 }  // namespace luxfit

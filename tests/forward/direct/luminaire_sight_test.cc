@@ -34,11 +34,26 @@ Luminaire AnyLuminaire(std::mt19937_64& rng) {
 
 // The definition: every ray cast for itself, no shaft asked.
 float ShareByRays(const Room& room, const Element& element, const Luminaire& lamp, int order) {
-  const std::vector<Eigen::Vector3d> probes = ProbesOf(element, room.patches.IsTriangle(element.patch));
+  const std::vector<Eigen::Vector3d> probes = ShadowProbesOf(element, room.patches.IsTriangle(element.patch));
   double sum = 0;
   for (const Eigen::Vector3d& p : probes)
     sum += VisibleFraction(room.rays, lamp, p, element.normal, order) / static_cast<double>(probes.size());
   return static_cast<float>(sum);
+}
+
+TEST(ShadowProbesOf, AreCentresOfLikeParts) {
+  Element element;
+  element.origin = {1, 2, 0};
+  element.edge_u = {0.4, 0, 0};
+  element.edge_v = {0.1, 0.3, 0};
+  for (const bool triangle : {false, true}) {
+    const std::vector<Eigen::Vector3d> probes = ShadowProbesOf(element, triangle);
+    ASSERT_EQ(probes.size(), 16U);
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : probes) mean += p / 16;
+    const Eigen::Vector3d centroid = element.origin + (element.edge_u + element.edge_v) / (triangle ? 3 : 2);
+    EXPECT_LT((mean - centroid).norm(), 1e-12);
+  }
 }
 
 TEST(ElementVisibility, IsThatOfTheRays) {

@@ -83,7 +83,8 @@ TEST(IesFile, SymmetryFollowsFromTheHorizontalAngles) {
   EXPECT_NEAR(cd("90 180 270", 90), 100, 1e-9);
   EXPECT_NEAR(cd("0 120 240", 240), 140, 1e-9);  // the circle without its end
   EXPECT_NEAR(cd("0 120 240", 300), 120, 1e-9);
-  const std::string one = Replaced(Replaced(kIes, "3 3 1 2", "3 1 1 2"), "0 45 90\n300", "0\n300");
+  std::string one = Replaced(Replaced(kIes, "3 3 1 2", "3 1 1 2"), "0 45 90\n300", "0\n300");
+  one.resize(one.find("300 220"));
   EXPECT_NEAR(CdTowards(Parse(one), 77, 90), 100 * 1.35, 1e-9);
 }
 
@@ -192,11 +193,11 @@ TEST(IesFile, OddHabitsAreRead) {
   const IesFile file = ParseIes(text, "a.ies");
   EXPECT_EQ(file.version, IesVersion::k2002);
   EXPECT_EQ(file.candela, ParseIes(kIes, "a.ies").candela);
-  EXPECT_TRUE(file.notes.empty());
+  EXPECT_THAT(file.notes, testing::ElementsAre(HasSubstr("commas were read as separators")));
 }
 
 TEST(IesFile, WhatFollowsIsNoted) {
-  EXPECT_THAT(ParseIes(std::string(kIes) + "1 2 3", "a.ies").notes,
+  EXPECT_THAT(ParseIes(std::string(kIes) + "made by hand, 1,5 h", "a.ies").notes,
               testing::ElementsAre(HasSubstr("ignored")));
 }
 

@@ -106,10 +106,10 @@ TEST(LdtFile, DecimalCommasAreReadWithANote) {
   EXPECT_THAT(file.notes, testing::ElementsAre(HasSubstr("1 decimal commas")));
 }
 
-TEST(LdtFile, Latin1SurvivesByteForByte) {
+TEST(LdtFile, Latin1BecomesUtf8AndStaysIt) {
   const std::string text = Replaced(kLdt, "Maker", "Stra\xdf\x65nleuchte \xb0 M\xfcller");
   EXPECT_EQ(ParseLdt(LdtText(ParseLdt(text, "a.ldt")), "b.ldt").company,
-            "Stra\xdf\x65nleuchte \xb0 M\xfcller");
+            u8"Stra\u00dfenleuchte \u00b0 M\u00fcller");
 }
 
 TEST(LdtFile, IsRefusedWithItsLine) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -64,6 +65,46 @@ TEST(LuminaireParts, LightIsTheSumOverPartsByShare) {
     for (int j = 0; j < static_cast<int>(shares.size()); ++j) sum += shares[j] * LxAt(PartOf(lamp, kind, j));
     EXPECT_NEAR(sum, LxAt(lamp), 1e-12 * std::abs(sum) + 1e-15);
   }
+}
+
+Luminaire TwoSidedDisc(double share_up) {
+  Luminaire lamp;
+  lamp.position = {0.2, -0.1, 2};
+  lamp.shape = LuminaireShape::kDisc;
+  lamp.size_m = {0.4, 0.4};
+  lamp.distribution = Distribution::kMeasured;
+  lamp.table = std::make_shared<IntensityTable>(TwoSidedTable(share_up));
+  return lamp;
+}
+
+// Chords of 2.5 degrees lie within (2.5 degrees)^2 / 8 = 2.4e-4 of the cosine.
+TEST(LuminaireParts, ATwoSidedTableIsLambertianOnEitherSide) {
+  const Luminaire lamp = TwoSidedDisc(0.4);
+  const LuminaireAxes axes = AxesOf(lamp);
+  for (const double gamma_deg : {0.0, 20.0, 41.0, 77.0, 103.0, 139.0, 180.0}) {
+    const double cosine = std::cos(gamma_deg * kPi / 180);
+    const Eigen::Vector3d direction = cosine * lamp.aim + std::sqrt(1 - cosine * cosine) * axes.along;
+    const double expected = std::max(0.6 * cosine, -0.4 * cosine) / kPi;
+    EXPECT_NEAR(IntensityPerLumen(lamp, axes, direction).cd_per_lm, expected, 2.4e-4 * 0.6 / kPi)
+        << gamma_deg;
+  }
+  const Eigen::VectorXd shares = PartShares(lamp, PartKind::kSide);
+  ASSERT_EQ(shares.size(), 2);
+  EXPECT_NEAR(shares[1], 0.4, 1e-12);
+  EXPECT_THROW(TwoSidedTable(1.1), std::invalid_argument);
+}
+
+TEST(LuminaireParts, LightOfASideIsThatOfALambertianDiscAlone) {
+  Luminaire down;
+  down.position = {0.2, -0.1, 2};
+  down.shape = LuminaireShape::kDisc;
+  down.size_m = {0.4, 0.4};
+  const Luminaire both = TwoSidedDisc(0.4);
+  EXPECT_NEAR(LxAt(PartOf(both, PartKind::kSide, 0)), LxAt(down), 2.4e-4 * LxAt(down));
+  EXPECT_NEAR(LxAt(both), 0.6 * LxAt(down), 2.4e-4 * LxAt(down));
+  EXPECT_EQ(LxAt(PartOf(both, PartKind::kSide, 1)), 0);
+  const Luminaire other = WithPartShares(both, PartKind::kSide, Eigen::Vector2d(1, 3));
+  EXPECT_NEAR(LxAt(other), 0.25 * LxAt(down), 2.4e-4 * LxAt(down));
 }
 
 TEST(LuminaireParts, OtherSharesAreScaledToOne) {
@@ -135,6 +176,8 @@ TEST(LuminaireParts, PartsThatAreNotThereAreRefused) {
   EXPECT_EQ(PartShares(plain, PartKind::kGammaNode).size(), 0);
   EXPECT_EQ(PartShares(plain, PartKind::kCell).size(), 0);
   EXPECT_THROW(PartOf(plain, PartKind::kCell, 0), std::invalid_argument);
+  EXPECT_EQ(PartShares(BatwingPoint(), PartKind::kSide).size(), 0);  // dark above
+  EXPECT_THROW(NodesOfSides(BatwingPoint()), std::invalid_argument);
   EXPECT_THROW(PartOf(BatwingPoint(), PartKind::kGammaNode, 13), std::invalid_argument);
   EXPECT_THROW(WithPartShares(BatwingPoint(), PartKind::kGammaNode, Eigen::VectorXd::Zero(13)),
                std::invalid_argument);

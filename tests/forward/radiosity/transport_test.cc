@@ -83,20 +83,25 @@ TEST_F(Furnace, CouplingIsSymmetric) {
   EXPECT_EQ(room_.transport.coupling, room_.transport.coupling.transpose().eval());
 }
 
+// With all patches like their material, and with patches that depart from it.
 TEST_F(Furnace, ExitanceDerivativesAreCentralDifferences) {
   const Eigen::Vector2d albedo(0.6, 0.3);
   // Truncation (h / (1 - rho))^2 = 6e-4 of the derivative; float rounding 1e-6 / h = 1e-4.
   constexpr double kStep = 0.01, kTolerance = 1e-3;
-  const Transport transport(room_.transport, albedo);
-  const Eigen::MatrixXf illuminance = direct_ + transport.Irradiance(transport.Exitance(direct_));
-  for (int m = 0; m < 2; ++m) {
-    const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(m);
-    const Eigen::VectorXf numeric = (Transport(room_.transport, albedo + step).Exitance(direct_) -
-                                     Transport(room_.transport, albedo - step).Exitance(direct_)) /
-                                    static_cast<float>(2 * kStep);
-    const Eigen::VectorXf analytic = transport.ExitanceDerivatives({0, 1}, illuminance).col(m);
-    EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), kTolerance * numeric.maxCoeff())
-        << "material " << m;
+  Eigen::VectorXd uneven = Eigen::VectorXd::Ones(areas().size());
+  for (Eigen::Index i = 0; i < uneven.size(); ++i) uneven[i] = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 1 : 1.2;
+  for (const Eigen::VectorXd& factor : {Eigen::VectorXd(), uneven}) {
+    const Transport transport(room_.transport, albedo, factor);
+    const Eigen::MatrixXf illuminance = direct_ + transport.Irradiance(transport.Exitance(direct_));
+    for (int m = 0; m < 2; ++m) {
+      const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(m);
+      const Eigen::VectorXf numeric = (Transport(room_.transport, albedo + step, factor).Exitance(direct_) -
+                                       Transport(room_.transport, albedo - step, factor).Exitance(direct_)) /
+                                      static_cast<float>(2 * kStep);
+      const Eigen::VectorXf analytic = transport.ExitanceDerivatives({0, 1}, illuminance).col(m);
+      EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), kTolerance * numeric.maxCoeff())
+          << "material " << m << ", " << factor.size() << " factors";
+    }
   }
 }
 
@@ -106,6 +111,45 @@ TEST_F(Furnace, ReflectancesOutsideTheUnitIntervalAreRefused) {
     EXPECT_THROW(Transport(room_.transport, Eigen::Vector2d(rho, 0.5)), std::invalid_argument) << rho;
   }
   EXPECT_NO_THROW(Transport(room_.transport, Eigen::Vector2d(0, 0.99)));
+}
+
+// Every third patch is a material of its own there, and departs from its material by the same factor here.
+TEST_F(Furnace, AFactorMakesAPatchAMaterialOfItsOwn) {
+  constexpr double kFactor = 0.3;
+  const Eigen::Vector2d albedo(0.7, 0.4);
+  TransportGeometry geometry = room_.transport;
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(areas().size());
+  for (Eigen::Index i = 0; i < factor.size(); i += 3) {
+    factor[i] = kFactor;
+    geometry.patch_material[static_cast<size_t>(i)] += 2;
+  }
+  Eigen::Vector4d all_albedo;
+  all_albedo << albedo, kFactor * albedo;
+  const Transport by_material(geometry, all_albedo), by_factor(room_.transport, albedo, factor);
+  const Eigen::VectorXf expected = by_material.Exitance(direct_), found = by_factor.Exitance(direct_);
+  EXPECT_LT((found - expected).cwiseQuotient(expected).cwiseAbs().maxCoeff(), 1e-5);  // float rounding
+  const Eigen::VectorXf plain = Transport(room_.transport, albedo).Exitance(direct_);
+  EXPECT_GT((found - plain).cwiseQuotient(plain).cwiseAbs().maxCoeff(), 0.5);  // the factors matter
+}
+
+TEST_F(Furnace, APatchReflectsLessThanAllOfItsLight) {
+  const Eigen::Index n = areas().size();
+  const Transport at_most(room_.transport, Eigen::Vector2d::Constant(Transport::kMostReflectance)),
+      beyond(room_.transport, Eigen::Vector2d::Constant(0.7), Eigen::VectorXd::Constant(n, 2));
+  EXPECT_EQ(beyond.Exitance(direct_), at_most.Exitance(direct_));
+}
+
+TEST_F(Furnace, FactorsBelowZeroOrOfAnotherNumberAreRefused) {
+  const Eigen::Index n = areas().size();
+  const Eigen::Vector2d albedo(0.6, 0.3);
+  EXPECT_THROW(Transport(room_.transport, albedo, Eigen::VectorXd::Ones(n - 1)), std::invalid_argument);
+  EXPECT_THROW(Transport(room_.transport, albedo, Eigen::VectorXd::Ones(n + 1)), std::invalid_argument);
+  for (const double wrong : {-0.01, std::numeric_limits<double>::quiet_NaN()}) {
+    Eigen::VectorXd factor = Eigen::VectorXd::Ones(n);
+    factor[n / 2] = wrong;
+    EXPECT_THROW(Transport(room_.transport, albedo, factor), std::invalid_argument) << wrong;
+  }
+  EXPECT_NO_THROW(Transport(room_.transport, albedo, Eigen::VectorXd::Zero(n)));
 }
 
 TEST_F(Furnace, PatchMeanIsWeightedByArea) {

@@ -70,5 +70,42 @@ TEST(StereoTerms, AStepMovesWhatItSays) {
   }
 }
 
+// A direction that has moved turns about another place than the state's.
+TEST(StereoTerms, SlopesAfterAStep) {
+  constexpr double kStep = 1e-6;
+  const StereoState state = StateWith(CurveKind::kExponent);
+  StereoProblem problem;
+  problem.value = Eigen::MatrixXd::Ones(1, 1);
+  problem.used = ObservationMask::Constant(1, 1, true);
+  problem.to_light = state.to_light;
+  problem.direction_sigma_rad = Eigen::VectorXd::Constant(1, 0.01);
+  problem.strengths_free = true;
+  const SharedUnknowns shared(problem, state);
+  const Eigen::VectorXd x = Eigen::Vector4d(0.1, 0.2, -0.15, 0.1);
+  const StereoState moved = shared.Applied(state, x);
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(shared.count());
+  shared.At(x).Row(StereoPixel(moved, 0).Term(0), 0,
+                   [&](Eigen::Index column, double slope) { slopes[column] += slope; });
+  for (Eigen::Index c = 0; c < shared.count(); ++c) {
+    const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(shared.count(), c);
+    const double difference =
+        ValueOf(shared.Applied(state, x + step)) - ValueOf(shared.Applied(state, x - step));
+    EXPECT_NEAR(slopes[c], difference / (2 * kStep), 1e-6) << "unknown " << c;
+  }
+}
+
+// Bounds of steps end on those of the curve, so that a parameter there is known to be at its bound.
+TEST(StereoTerms, StepsEndOnTheCurvesBounds) {
+  const StereoState state = StateWith(CurveKind::kOrenNayar);
+  StereoProblem problem;
+  problem.value = Eigen::MatrixXd::Ones(1, 1);
+  problem.used = ObservationMask::Constant(1, 1, true);
+  problem.to_light = state.to_light;
+  problem.direction_sigma_rad = Eigen::VectorXd::Zero(1);
+  const SharedUnknowns shared(problem, state);
+  EXPECT_FALSE(IsAtBound(shared.Applied(state, shared.upper()).curve));
+  EXPECT_TRUE(IsAtBound(shared.Applied(state, shared.lower()).curve));
+}
+
 }  // namespace
 }  // namespace luxfit

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
+#include "inverse/model/internal/cluster_bootstrap.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
@@ -101,6 +104,44 @@ TEST(FitCovarianceTest, IntervalsHoldTheTruthWithFewClusters) {
       EXPECT_LT(share, 0.985);
     }
   }
+}
+
+// One parameter and clusters of unequal information, so that draws differ in it. With one axis the variance is the
+// largest of the plain one, the jackknife's and the bootstrap's.
+TEST(FitCovarianceTest, TheLargerOfJackknifeAndBootstrapCounts) {
+  std::mt19937_64 rng = support::TestRng();
+  std::normal_distribution<double> normal;
+  constexpr int kClusters = 40, kDraws = 30;
+  int of_jackknife = 0, of_bootstrap = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    WeightedRows rows;
+    rows.jacobian.resize(kClusters, 1);
+    Eigen::VectorXd error(kClusters);
+    for (int i = 0; i < kClusters; ++i) {
+      rows.jacobian(i, 0) = std::exp(0.5 * normal(rng));
+      error[i] = 2 * normal(rng);
+      rows.cluster.push_back(i);
+    }
+    rows.prior_information = Eigen::MatrixXd::Zero(1, 1);
+    const Eigen::VectorXd slope = rows.jacobian.col(0);
+    const double information = slope.squaredNorm(), x = slope.dot(error) / information;
+    rows.residual = x * slope - error;
+    const FitCovariance found = CovarianceOf(rows);
+    double jackknife = 0;
+    for (int i = 0; i < kClusters; ++i) {
+      const double left = information - slope[i] * slope[i];
+      jackknife += std::pow((slope.dot(error) - slope[i] * error[i]) / left - x, 2);
+    }
+    jackknife *= std::pow(StudentFactor(found.degrees_of_freedom[0]), 2);
+    const ClusteredRows whitened{slope / std::sqrt(information), rows.residual, rows.cluster};
+    const double bootstrap = BootstrapVariance(whitened, Eigen::MatrixXd::Zero(1, 1))[0] / information;
+    EXPECT_GT(bootstrap, 0);
+    EXPECT_NEAR(found.covariance(0, 0) / std::max({1 / information, jackknife, bootstrap}), 1, 1e-9);
+    (bootstrap > jackknife ? of_bootstrap : of_jackknife) += 1;
+  }
+  std::printf("jackknife larger in %d, bootstrap in %d\n", of_jackknife, of_bootstrap);
+  EXPECT_GT(of_jackknife, 0);
+  EXPECT_GT(of_bootstrap, 0);
 }
 
 TEST(FitCovarianceTest, AKnownBiasIsContained) {
@@ -249,6 +290,31 @@ TEST(InverseOfTest, IsZeroAlongNullDirections) {
   const Eigen::MatrixXd hessian = rows.transpose() * rows, inverse = InverseOf(hessian);
   EXPECT_LT((inverse * Eigen::Vector3d(1, 0, -1)).norm(), 1e-12 * inverse.norm());
   EXPECT_LT((hessian * inverse * hessian - hessian).norm(), 1e-12 * hessian.norm());
+}
+
+// The mean of elements on 40 facets, each facet with an error that its elements share. The row of the mean takes its
+// own scatter, 1, for granted; its facets' parts show 9.
+TEST(FitCovariance, AMeanOverClustersHasTheirScatter) {
+  constexpr int kClusters = 40;
+  constexpr double kDerivative = 10, kPart = 3;
+  WeightedRows rows;
+  rows.jacobian.setConstant(kClusters + 1, 1, 1e-3);
+  rows.jacobian(kClusters, 0) = kDerivative;
+  rows.residual = Eigen::VectorXd::Zero(kClusters + 1);
+  rows.prior_information = Eigen::MatrixXd::Zero(1, 1);
+  SpreadRow mean{kClusters, {}};
+  for (int c = 0; c < kClusters; ++c) {
+    rows.cluster.push_back(c);
+    mean.parts.push_back({c, (c % 2 == 0 ? kPart : -kPart) / std::sqrt(kClusters), 1.0 / kClusters});
+  }
+  rows.cluster.push_back(-1);
+  rows.coarse_cluster = rows.cluster;
+  const double alone = CovarianceOf(rows).covariance(0, 0) * kDerivative * kDerivative;
+  EXPECT_NEAR(alone, 1, 0.3);  // the bootstrap's 199 draws may raise it
+  rows.spread = rows.coarse_spread = {mean};
+  const double scatter = CovarianceOf(rows).covariance(0, 0) * kDerivative * kDerivative;
+  EXPECT_GT(scatter, kPart * kPart);  // few clusters enlarge it
+  EXPECT_LT(scatter, 1.3 * kPart * kPart);
 }
 
 }  // namespace

@@ -64,6 +64,29 @@ TEST_F(OnePoint, ExactReadingsGiveTheTruth) {
   EXPECT_TRUE(fit.at_bound.empty());
 }
 
+// Steps from a start that is said to be near have no damping. Where it is not near, many would end far away with
+// a flux without bound.
+TEST_F(OnePoint, AFarStartThatIsSaidToBeNearDoesNotLeadAstray) {
+  const LightData data = Read(kNoise);
+  const Eigen::Vector3d position = FitLuminaires(room_, data, Start()).state.luminaires.front().position;
+  std::uniform_real_distribution<double> level(-1.5, 1.5), height(-0.6, 1.2);
+  int found = 0, found_from_near = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Eigen::Vector3d off(level(rng_), level(rng_), height(rng_));
+    const LightState start = support::CosinePowerStart(lamp_ + off, 1.5);
+    FitLuminairesOptions options;
+    const auto finds = [&] {
+      const LuminaireFit fit = FitLuminaires(room_, data, start, {}, options);
+      return (fit.state.luminaires.front().position - position).norm() < 1e-3;
+    };
+    found += finds() ? 1 : 0;
+    options.start_is_near = true;
+    found_from_near += finds() ? 1 : 0;
+  }
+  std::printf("of 40 starts %d reach the truth, %d where they are said to be near\n", found, found_from_near);
+  EXPECT_GE(found_from_near, found);
+}
+
 TEST_F(OnePoint, NoisyReadingsGiveTheTruthWithinItsSigma) {
   const LuminaireFit fit = FitLuminaires(room_, Read(kNoise), Start());
   ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.message;

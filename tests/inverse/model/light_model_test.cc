@@ -17,6 +17,41 @@
 namespace luxfit {
 namespace {
 
+// Compares every column of the Jacobian with a central difference.
+void ExpectCentralDifferences(const Room& room, const LightData& data, const LightState& state,
+                              const std::vector<Parameter>& parameters) {
+  LightModel model(room, data);
+  model.FreezeVisibility(state);
+  const Eigen::VectorXd x = PackParameters(state, parameters);
+  const Prediction prediction = model.Predict(state, parameters, true);
+  for (Eigen::Index p = 0; p < x.size(); ++p) {
+    // Steps and tolerances as in forward's illuminance_test: truncation (h / d)^2 = 3e-4 times a few,
+    // rounding of floats 1e-6 / h of the value. Logarithms and albedos curve less than 1 / r^2.
+    constexpr double kStep = 0.01;
+    const auto values = [&](double step) {
+      return model
+          .Predict(WithParameters(state, parameters, x + step * Eigen::VectorXd::Unit(x.size(), p)), {},
+                   false)
+          .value;
+    };
+    const Eigen::VectorXd numeric = (values(kStep) - values(-kStep)) / (2 * kStep);
+    const Eigen::VectorXd error = prediction.jacobian.col(p) - numeric;
+    // Observations and readings are in different units: each in its own.
+    const auto readings = static_cast<Eigen::Index>(data.readings.size());
+    const Eigen::Index observations = x.size() > 0 ? numeric.size() - readings : 0;
+    for (const auto& [first, count] : {std::pair{Eigen::Index{0}, observations}, {observations, readings}}) {
+      const double scale = numeric.segment(first, count).cwiseAbs().maxCoeff();
+      const double rounding = 1e-4 * prediction.value.segment(first, count).maxCoeff();
+      EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
+          << NameOf(parameters[static_cast<size_t>(p)].id());
+    }
+    const bool is_of_meter = parameters[static_cast<size_t>(p)].kind == ParameterKind::kLogMeterScale;
+    const double moved =
+        (is_of_meter ? numeric.tail(readings) : numeric.head(observations)).cwiseAbs().maxCoeff();
+    EXPECT_GT(moved, 0) << NameOf(parameters[static_cast<size_t>(p)].id());
+  }
+}
+
 // A small room with a screen, two lamps and three states. Lamps keep 0.6 m from everything and are no larger
 // than 0.2 m, so that no step changes the order of their quadrature.
 class SmallRoom : public testing::Test {
@@ -65,39 +100,42 @@ class SmallRoom : public testing::Test {
 TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
   state_.meter_scale_free = true;
   state_.meter_scale = 1.07;
-  LightModel model(room_, data_);
-  model.FreezeVisibility(state_);
   const std::vector<Parameter> parameters = FreeParameters(room_, state_);
   // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera and meter scale.
   ASSERT_EQ(parameters.size(), 18u);
-  const Eigen::VectorXd x = PackParameters(state_, parameters);
-  const Prediction prediction = model.Predict(state_, parameters, true);
-  ASSERT_EQ(prediction.jacobian.cols(), 18);
-  for (Eigen::Index p = 0; p < x.size(); ++p) {
-    // Steps and tolerances as in forward's illuminance_test: truncation (h / d)^2 = 3e-4 times a few,
-    // rounding of floats 1e-6 / h of the value. Logarithms and albedos curve less than 1 / r^2.
-    constexpr double kStep = 0.01;
-    const auto values = [&](double step) {
-      return model
-          .Predict(WithParameters(state_, parameters, x + step * Eigen::VectorXd::Unit(x.size(), p)), {},
-                   false)
-          .value;
-    };
-    const Eigen::VectorXd numeric = (values(kStep) - values(-kStep)) / (2 * kStep);
-    const Eigen::VectorXd error = prediction.jacobian.col(p) - numeric;
-    // Observations and readings are in different units: each in its own.
-    const Eigen::Index readings = 3, observations = x.size() > 0 ? numeric.size() - readings : 0;
-    for (const auto& [first, count] : {std::pair{Eigen::Index{0}, observations}, {observations, readings}}) {
-      const double scale = numeric.segment(first, count).cwiseAbs().maxCoeff();
-      const double rounding = 1e-4 * prediction.value.segment(first, count).maxCoeff();
-      EXPECT_LT(error.segment(first, count).cwiseAbs().maxCoeff(), 3e-3 * scale + rounding)
-          << NameOf(parameters[static_cast<size_t>(p)].id());
-    }
-    const bool is_of_meter = parameters[static_cast<size_t>(p)].kind == ParameterKind::kLogMeterScale;
-    const double moved =
-        (is_of_meter ? numeric.tail(readings) : numeric.head(observations)).cwiseAbs().maxCoeff();
-    EXPECT_GT(moved, 0) << NameOf(parameters[static_cast<size_t>(p)].id());
-  }
+  ExpectCentralDifferences(room_, data_, state_, parameters);
+}
+
+TEST_F(SmallRoom, JacobianOfATypeIsThatOfAllItsLuminaires) {
+  state_.meter_scale_free = true;
+  state_.free[0].heading = true;
+  state_.first_of_type = {0, 0};
+  state_ = WithLikeTypes(state_);
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  // As above with a heading; B's own are its position and flux.
+  ASSERT_EQ(parameters.size(), 19u);
+  EXPECT_EQ(std::count_if(parameters.begin(), parameters.end(),
+                          [](const Parameter& p) { return p.tied == std::vector<int>{1}; }),
+            6);
+  ExpectCentralDifferences(room_, data_, state_, parameters);
+}
+
+TEST_F(SmallRoom, LuminairesOfATypeAreAlikeButForPlaceAndFlux) {
+  state_.first_of_type = {0, 0};
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  Eigen::VectorXd x = PackParameters(state_, parameters);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += 0.01 * static_cast<double>(i + 1);
+  const LightState moved = WithParameters(state_, parameters, x);
+  const Luminaire &a = moved.luminaires[0], &b = moved.luminaires[1];
+  EXPECT_EQ(a.cosine_exponent, b.cosine_exponent);
+  EXPECT_EQ(a.size_m, b.size_m);
+  EXPECT_EQ(a.aim, b.aim);
+  EXPECT_EQ(b.shape, LuminaireShape::kRectangle);
+  EXPECT_EQ(b.id, "B");
+  EXPECT_GT((a.position - b.position).norm(), 1);
+  EXPECT_NE(a.flux_lm, b.flux_lm);
+  EXPECT_EQ(TypesOf(moved), (std::vector<std::vector<int>>{{0, 1}}));
+  EXPECT_LT((PackParameters(moved, parameters) - x).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST_F(SmallRoom, StatesAreSumsOfTheirLuminaires) {
@@ -196,14 +234,52 @@ LightState WithEverythingFree(LightState state) {
   cells.emission = Eigen::ArrayXXd::Constant(2, 3, 1.0 / 6);
   cells.emission(1, 1) = 2.0 / 6;
   cells.emission /= cells.emission.sum();
-  state.luminaires.insert(state.luminaires.end(), {table, cells});
-  FreeQuantities of_table, of_cells;
+  Luminaire sides = table;
+  sides.id = "S";
+  sides.table = std::make_shared<IntensityTable>(TwoSidedTable(0.3));
+  state.luminaires.insert(state.luminaires.end(), {table, cells, sides});
+  FreeQuantities of_table, of_cells, of_sides;
   of_table.table_sigma = 0.1;
   of_cells.emission_sigma = 1;
-  state.free.insert(state.free.end(), {of_table, of_cells});
+  of_sides.sides = true;
+  state.free.insert(state.free.end(), {of_table, of_cells, of_sides});
   state.meter_scale_free = state.sensor_gains_free = true;
   state.sensor_gain = Eigen::Vector2d(1.02, 0.97);
   return state;
+}
+
+// A disc in the open room lights the ceiling as well; readings of a cosine and of a cylinder.
+TEST_F(SmallRoom, DerivativeByTheShareOfASideIsACentralDifference) {
+  Luminaire& lamp = state_.luminaires[0];
+  lamp.distribution = Distribution::kMeasured;
+  lamp.table = std::make_shared<IntensityTable>(TwoSidedTable(0.3));
+  lamp.shape = LuminaireShape::kDisc;
+  lamp.size_m = {0.2, 0.2};
+  state_.free[0] = {};
+  state_.free[0].sides = true;
+  data_.readings.push_back({{{0.5, 0.5, 0.8}, {0, 0, 1}, {ResponseKind::kCylindrical}}, 0, 100, 1, true});
+  LightModel model(room_, data_);
+  model.FreezeVisibility(state_);
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  const auto side = std::find_if(parameters.begin(), parameters.end(), [](const Parameter& p) {
+    return p.Is(ParameterKind::kLuminaire, 0, LuminaireQuantity::kSide);
+  });
+  ASSERT_NE(side, parameters.end());
+  EXPECT_EQ(side->part, 1);  // over the larger share, that of the light down
+  const Eigen::Index p = side - parameters.begin();
+  const Eigen::VectorXd x = PackParameters(state_, parameters);
+  EXPECT_NEAR(x[p], 0.3 / 0.7, 1e-12);
+  constexpr double kStep = 0.01;  // light is a ratio of linear functions of it: truncation step^2
+  const auto values = [&](double step) {
+    Eigen::VectorXd moved = x;
+    moved[p] += step;
+    return model.Predict(WithParameters(state_, parameters, moved), {}, false).value;
+  };
+  const Prediction at = model.Predict(state_, parameters, true);
+  const Eigen::VectorXd numeric = (values(kStep) - values(-kStep)) / (2 * kStep);
+  EXPECT_GT(numeric.norm(), 0.1 * at.value.norm());
+  for (Eigen::Index i = 0; i < numeric.size(); ++i)
+    EXPECT_NEAR(at.jacobian(i, p), numeric[i], 3e-4 * std::abs(at.value[i]) + 1e-9) << i;
 }
 
 TEST_F(SmallRoom, PackAndWithAreInverseInEveryParameter) {
@@ -211,7 +287,7 @@ TEST_F(SmallRoom, PackAndWithAreInverseInEveryParameter) {
   const std::vector<Parameter> parameters = FreeParameters(room_, state);
   std::set<std::pair<ParameterKind, LuminaireQuantity>> kinds;
   for (const Parameter& p : parameters) kinds.insert({p.kind, p.quantity});
-  EXPECT_EQ(kinds.size(), 11u + 5u);  // quantities of luminaires, and the other kinds
+  EXPECT_EQ(kinds.size(), 12u + 5u);  // quantities of luminaires, and the other kinds
   const Eigen::VectorXd x = PackParameters(state, parameters);
   Eigen::VectorXd moved = x;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
@@ -248,7 +324,7 @@ TEST(ParameterIds, WordsOfFilesReadBackAndNamesAreForPeople) {
     const auto kind = static_cast<ParameterKind>(k);
     EXPECT_EQ(ParameterKindFrom(ToString(kind)), kind);
   }
-  for (int q = 0; q < 11; ++q) {
+  for (int q = 0; q < 12; ++q) {
     const auto quantity = static_cast<LuminaireQuantity>(q);
     EXPECT_EQ(LuminaireQuantityFrom(ToString(quantity)), quantity);
   }

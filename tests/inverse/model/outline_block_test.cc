@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -222,6 +223,65 @@ TEST_F(OutlineRows, JacobianIsACentralDifferenceInEveryQuantity) {
       EXPECT_EQ(largest > 1, moves) << ToString(shape) << ": " << NameOf(parameter.id());
     }
   }
+}
+
+// Turns the camera's rays about its centre by `step` rad, or moves its centre by `step` m, along a world axis.
+SeenOutline Moved(SeenOutline seen, Eigen::Index quantity, double step) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(quantity % 3);
+  if (quantity >= 3) {
+    seen.eye += step * axis;
+  } else {
+    for (OutlineRay& ray : seen.rays) ray.direction = Eigen::AngleAxisd(step, axis) * ray.direction;
+  }
+  return seen;
+}
+
+// Rims and steps are those of the Jacobian's test.
+TEST_F(OutlineRows, PoseDerivativesAreCentralDifferences) {
+  for (const LuminaireShape shape :
+       {LuminaireShape::kRectangle, LuminaireShape::kDisc, LuminaireShape::kSphere, LuminaireShape::kPoint}) {
+    const bool is_disc = shape == LuminaireShape::kDisc;
+    const Luminaire rim = FlatLuminaire(is_disc ? LuminaireShape::kDisc : LuminaireShape::kRectangle);
+    const std::vector<LuminaireOutline> seen{
+        {0, support::OutlineFrom({1.5, 0.5, 0.9}, rim, {0, 0, 1.03, {4.3, -2.7}})},
+        {0, support::OutlineFrom({-1.2, 1.1, 0.8}, rim, {1, 0, 1.03, {-3.1, 1.9}})}};
+    state_.luminaires = {rim};
+    state_.luminaires[0].shape = shape;
+    state_.luminaires[0].aim = Eigen::Vector3d(0.1, -0.05, -1).normalized();
+    const auto values = [&](Eigen::Index quantity, double step) {
+      LightData moved = data_;
+      moved.outlines = seen;
+      for (LuminaireOutline& outline : moved.outlines) outline.seen = Moved(outline.seen, quantity, step);
+      const OutlineBlock block(moved);
+      Eigen::VectorXd distances_px(block.row_count());
+      for (int row = 0; row < block.row_count(); ++row)
+        distances_px[row] = block.ResponseOf(state_, row).offset;
+      return distances_px;
+    };
+    data_.outlines = seen;
+    const OutlineBlock block(data_);
+    const Eigen::MatrixXd derivative = block.PoseDerivativeOf(state_);
+    ASSERT_EQ(derivative.rows(), block.row_count());
+    ASSERT_EQ(derivative.cols(), 6);
+    for (Eigen::Index quantity = 0; quantity < 6; ++quantity) {
+      constexpr double kStep = 1e-5;
+      const Eigen::VectorXd numeric = (values(quantity, kStep) - values(quantity, -kStep)) / (2 * kStep);
+      const double largest = numeric.cwiseAbs().maxCoeff();
+      EXPECT_GT(largest, 1) << ToString(shape) << ": " << quantity;  // px per rad and per m
+      EXPECT_LT((derivative.col(quantity) - numeric).cwiseAbs().maxCoeff(), 1e-5 * largest + 1e-6)
+          << ToString(shape) << ": " << quantity;
+    }
+  }
+}
+
+TEST_F(OutlineRows, ARowKnowsItsView) {
+  const Luminaire luminaire = FlatLuminaire(LuminaireShape::kDisc);
+  data_.outlines = {{0, support::OutlineFrom({1.5, 0.5, 0.9}, luminaire, {2})},
+                    {0, support::OutlineFrom({-1.2, 1.1, 0.8}, luminaire, {0})}};
+  const OutlineBlock block(data_);
+  const int of_first = static_cast<int>(data_.outlines[0].seen.rays.size());
+  ASSERT_GT(block.row_count(), of_first);
+  for (int row = 0; row < block.row_count(); ++row) EXPECT_EQ(block.ViewOf(row), row < of_first ? 2 : 0);
 }
 
 TEST_F(OutlineRows, AnOutlineOfNoLuminaireIsRefused) {

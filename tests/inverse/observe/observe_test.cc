@@ -178,64 +178,11 @@ TEST_F(LookingDown, AnElementPartlyInvalidIsLeftOut) {
   EXPECT_FALSE(is_observed(4));  // 20 %: what is left lies to one side, or is the edge of something bright
 }
 
-Observation Seen(int view, double luminance, double variance, int pixels = 10) {
-  Observation o;
-  o.element = 5;
-  o.view = view;
-  o.state = 2;
-  o.pixels = pixels;
-  o.relative_luminance = luminance;
-  o.variance = variance;
-  return o;
-}
-
-TEST(MergeViews, WeighsViewsByTheirVariance) {
-  MergeViewsOptions options;
-  options.relative_sigma = 0;
-  const MergedObservations merged = MergeViews({Seen(0, 1.0, 0.01, 10), Seen(1, 1.3, 0.02, 20)}, options);
-  ASSERT_EQ(merged.observations.size(), 1u);
-  const Observation& o = merged.observations[0];
-  EXPECT_EQ(o.element, 5);
-  EXPECT_EQ(o.state, 2);
-  EXPECT_EQ(o.view, -1);
-  EXPECT_EQ(o.pixels, 30);
-  EXPECT_NEAR(o.relative_luminance, (1.0 * 2 + 1.3 * 1) / 3, 1e-12);  // double rounding, here and below
-  EXPECT_NEAR(o.variance, 1 / (100. + 50.), 1e-12);
-}
-
-TEST(MergeViews, EnlargesEachViewsVariance) {
-  MergeViewsOptions options;
-  options.relative_sigma = 0.1;
-  const MergedObservations merged = MergeViews({Seen(0, 2.0, 0.01)}, options);
-  EXPECT_NEAR(merged.observations.at(0).variance, 0.01 + 0.2 * 0.2, 1e-12);  // double rounding
-}
-
-TEST(MergeViews, AnOutlierOfThreeIsLeftOut) {
-  const MergedObservations three = MergeViews({Seen(0, 1.0, 1e-4), Seen(1, 1.01, 1e-4), Seen(2, 2.0, 1e-4)});
-  EXPECT_EQ(three.outliers, 1);
-  EXPECT_NEAR(three.observations.at(0).relative_luminance, 1.005, 0.001);  // between the two that agree
-  EXPECT_EQ(three.observations.at(0).pixels, 20);
-  const MergedObservations two = MergeViews({Seen(0, 1.0, 1e-4), Seen(2, 2.0, 1e-4)});
-  EXPECT_EQ(two.outliers, 0);  // of two, nobody knows which
-  EXPECT_EQ(two.observations.at(0).pixels, 20);
-}
-
-TEST(MergeViews, KeepsElementsAndStatesApart) {
-  Observation other_element = Seen(0, 3.0, 1e-4), other_state = Seen(0, 4.0, 1e-4);
-  other_element.element = 6;
-  other_state.state = 3;
-  const MergedObservations merged = MergeViews({Seen(0, 1.0, 1e-4), other_element, other_state});
-  ASSERT_EQ(merged.observations.size(), 3u);
-  for (const Observation& o : merged.observations) {
-    EXPECT_DOUBLE_EQ(o.relative_luminance, o.element == 6 ? 3.0 : o.state == 3 ? 4.0 : 1.0);
-  }
-}
-
 TEST(ThinElements, KeepsAllStatesOfEvenlyTakenElements) {
   std::vector<Observation> all;
   for (int state = 0; state < 3; ++state) {
     for (int e = 0; e < 100; ++e) {
-      Observation o = Seen(0, 1.0, 1e-4);
+      Observation o;
       o.element = e;
       o.state = state;
       all.push_back(o);

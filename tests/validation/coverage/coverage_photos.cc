@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "forward/light/light_tracer.h"
+#include "inverse/observe/observe.h"
 #include "inverse/study/degrade.h"
 
 namespace luxfit::coverage {

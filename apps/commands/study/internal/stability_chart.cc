@@ -2,71 +2,112 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
+#include <utility>
 
 #include "apps/charts/xy_chart_svg.h"
+#include "apps/commands/study/internal/earlier_chart.h"
+#include "apps/text/formats/csv_text.h"
 
 namespace luxfit {
 namespace {
 
-XySeries Series(const DegradationResult& result, const std::string& name,
-                const std::function<double(const LevelResult&)>& value) {
+double Percent(int count, int of) { return of > 0 ? 100.0 * count / of : NAN; }
+
+std::vector<StabilityRow> RowsOf(const DegradationResult& result) {
+  std::vector<StabilityRow> rows;
+  rows.reserve(result.levels.size());
+  for (const LevelResult& l : result.levels) {
+    const LevelSummary& s = l.summary;
+    rows.push_back({result.degradation.name, l.level, result.degradation.unit, s.trials,
+                    100 * s.SuccessRate(), 100 * s.ConfidentWrongRate(), Percent(l.warned, s.trials),
+                    Percent(l.undetermined, s.trials), Percent(s.intervals_held, s.intervals),
+                    1e3 * s.median_position_error_m, 100 * s.median_flux_error, l.median_lux_error_percent});
+  }
+  return rows;
+}
+
+XySeries Series(const std::vector<StabilityRow>& rows, const std::string& name, double StabilityRow::*value) {
   XySeries series{name, {}, {}, true};
-  for (const LevelResult& level : result.levels) series.points.push_back({level.level, value(level)});
+  for (const StabilityRow& row : rows) series.points.push_back({row.level, row.*value});
   return series;
 }
 
-double Percent(int count, int of) { return of > 0 ? 100.0 * count / of : NAN; }
+XyChart RatesChart(const std::vector<StabilityRow>& rows, const XyAxis& level) {
+  XyChart chart;
+  chart.x = level;
+  chart.y = {"of the trials, %", false, -4, 104};
+  chart.series = {Series(rows, "success", &StabilityRow::success_percent),
+                  Series(rows, "wrong, and sure of it", &StabilityRow::confident_wrong_percent),
+                  Series(rows, "intervals that hold", &StabilityRow::intervals_held_percent),
+                  Series(rows, "warned, or no result", &StabilityRow::warned_percent)};
+  return chart;
+}
+
+XyChart ErrorsChart(const std::vector<StabilityRow>& rows, const XyAxis& level) {
+  XyChart chart;
+  chart.title = "Median error";
+  chart.subtitle = "median over luminaires, then over trials";
+  chart.x = level;
+  chart.y = {"mm, %", true, {}, {}};
+  chart.series = {Series(rows, "position, mm", &StabilityRow::median_position_mm),
+                  Series(rows, "flux, %", &StabilityRow::median_flux_percent),
+                  Series(rows, "readings, % of their mean", &StabilityRow::median_lux_percent)};
+  return chart;
+}
+
+std::string TrialsText(const StabilityPicture& picture, const std::vector<StabilityRow>& before) {
+  std::string text = fmt::format("{} trials a level", picture.trials);
+  if (!before.empty() && before.front().trials != picture.trials)
+    text += fmt::format(" ({}: {})", picture.names.before, before.front().trials);
+  return text;
+}
 
 std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : ""; }
 
 }  // namespace
 
-std::string StabilitySvg(const DegradationResult& result, const std::string& session, int trials) {
-  XyChart rates, errors;
-  rates.title = session + ": " + result.degradation.name;
-  rates.subtitle = fmt::format("{} trials a level; success: every luminaire within 50 mm and 10 %", trials);
-  rates.x = {result.degradation.axis, result.degradation.is_log, {}, {}};
-  rates.y = {"of the trials, %", false, -4, 104};
-  rates.series = {
-      Series(result, "success", [](const LevelResult& l) { return 100 * l.summary.SuccessRate(); }),
-      Series(result, "wrong, and sure of it",
-             [](const LevelResult& l) { return 100 * l.summary.ConfidentWrongRate(); }),
-      Series(result, "intervals that hold",
-             [](const LevelResult& l) { return Percent(l.summary.intervals_held, l.summary.intervals); }),
-      Series(result, "warned, or no result",
-             [](const LevelResult& l) { return Percent(l.warned, l.summary.trials); })};
-  errors.title = "Median error";
-  errors.subtitle = "median over luminaires, then over trials";
-  errors.x = rates.x;
-  errors.y = {"mm, %", true, {}, {}};
-  errors.series = {
-      Series(result, "position, mm",
-             [](const LevelResult& l) { return 1e3 * l.summary.median_position_error_m; }),
-      Series(result, "flux, %", [](const LevelResult& l) { return 100 * l.summary.median_flux_error; }),
-      Series(result, "readings, % of their mean",
-             [](const LevelResult& l) { return l.median_lux_error_percent; })};
-  return XyChartsSvg({rates, errors});
+std::string StabilitySvg(const DegradationResult& result, const StabilityPicture& picture) {
+  const std::vector<StabilityRow> rows = RowsOf(result);
+  std::vector<StabilityRow> before;
+  std::copy_if(picture.before.begin(), picture.before.end(), std::back_inserter(before),
+               [&](const StabilityRow& row) { return row.degradation == result.degradation.name; });
+  const XyAxis level{result.degradation.axis, result.degradation.is_log, {}, {}};
+  XyChart rates = WithBefore(RatesChart(rows, level), RatesChart(before, level), picture.names);
+  rates.title = picture.session + ": " + result.degradation.name;
+  rates.subtitle = TrialsText(picture, before) + "; success: every luminaire within 50 mm and 10 %";
+  return XyChartsSvg(
+      {rates, WithBefore(ErrorsChart(rows, level), ErrorsChart(before, level), picture.names)});
 }
 
 std::string StabilityCsv(const std::vector<DegradationResult>& results) {
-  std::string text =
-      "degradation,level,unit,trials,success_percent,confident_wrong_percent,warned_percent,"
-      "undetermined_percent,intervals_held_percent,median_position_mm,median_flux_percent,"
-      "median_lux_percent\n";
+  std::string text = CsvLine(ColumnsOf(ChartKind::kStability));
   for (const DegradationResult& result : results) {
-    for (const LevelResult& l : result.levels) {
-      const LevelSummary& s = l.summary;
-      text += fmt::format("{},{:g},{},{},{},{},{},{},{},{},{},{}\n", result.degradation.name, l.level,
-                          result.degradation.unit, s.trials, Cell(100 * s.SuccessRate()),
-                          Cell(100 * s.ConfidentWrongRate()), Cell(Percent(l.warned, s.trials)),
-                          Cell(Percent(l.undetermined, s.trials)),
-                          Cell(Percent(s.intervals_held, s.intervals)), Cell(1e3 * s.median_position_error_m),
-                          Cell(100 * s.median_flux_error), Cell(l.median_lux_error_percent));
-    }
+    for (const StabilityRow& r : RowsOf(result))
+      text +=
+          fmt::format("{},{:g},{},{},{},{},{},{},{},{},{},{}\n", r.degradation, r.level, r.unit, r.trials,
+                      Cell(r.success_percent), Cell(r.confident_wrong_percent), Cell(r.warned_percent),
+                      Cell(r.undetermined_percent), Cell(r.intervals_held_percent),
+                      Cell(r.median_position_mm), Cell(r.median_flux_percent), Cell(r.median_lux_percent));
   }
   return text;
+}
+
+std::vector<StabilityRow> StabilityRowsOf(const CsvTable& table) {
+  std::vector<StabilityRow> rows;
+  rows.reserve(table.rows.size());
+  for (const CsvRow& row : table.rows) {
+    const auto figure = [&](const char* column) { return CsvNumberOrNan(table, row, column); };
+    rows.push_back({CsvText(table, row, "degradation"), CsvNumber(table, row, "level"),
+                    CsvText(table, row, "unit"), static_cast<int>(CsvNumber(table, row, "trials")),
+                    figure("success_percent"), figure("confident_wrong_percent"), figure("warned_percent"),
+                    figure("undetermined_percent"), figure("intervals_held_percent"),
+                    figure("median_position_mm"), figure("median_flux_percent"),
+                    figure("median_lux_percent")});
+  }
+  return rows;
 }
 
 }  // namespace luxfit

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/charts/before_after.h"
 #include "apps/stages/degrade/degradations.h"
+#include "apps/text/formats/csv_table.h"
 #include "inverse/study/stability_score.h"
 
 namespace luxfit {
@@ -23,10 +25,31 @@ struct DegradationResult {
   std::vector<LevelResult> levels;
 };
 
+// One level, as OUT/stability.csv has it. A figure that no trial has is NaN.
+struct StabilityRow {
+  std::string degradation;
+  double level = 0;
+  std::string unit;
+  int trials = 0;
+  double success_percent = 0, confident_wrong_percent = 0, warned_percent = 0, undetermined_percent = 0,
+         intervals_held_percent = 0;
+  double median_position_mm = 0, median_flux_percent = 0, median_lux_percent = 0;
+};
+
+struct StabilityPicture {
+  std::string session;  // its name
+  int trials = 0;
+  std::vector<StabilityRow> before;  // an earlier chart's, drawn below; empty: none
+  BeforeAfterNames names;
+};
+
 // Draws two charts, one above the other: rates in percent, and median errors of position (mm) and flux (%).
-std::string StabilitySvg(const DegradationResult& result, const std::string& session, int trials);
+std::string StabilitySvg(const DegradationResult& result, const StabilityPicture& picture);
 
 std::string StabilityCsv(const std::vector<DegradationResult>& results);
+
+// Throws std::runtime_error at the line of a field that is no number.
+std::vector<StabilityRow> StabilityRowsOf(const CsvTable& table);
 
 }  // namespace luxfit
 

@@ -48,6 +48,7 @@ struct BundleView {
 struct BundleTag {
   Eigen::Vector3d displacement_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  std::optional<SurfacePlane> surface;  // surface that it lies on, within its sigma
 };
 
 struct BundlePoint {

@@ -72,12 +72,23 @@ Eigen::MatrixXd InverseIfRegular(const Eigen::MatrixXd& normal) {
   return unit.asDiagonal() * inverse * unit.asDiagonal();
 }
 
+// Returns a covariance of poses in rotation vectors, symmetric to the last bit. The manifold's tangent is half
+// a rotation vector.
+Eigen::MatrixXd InRotationVectors(const Eigen::MatrixXd& of_tangents) {
+  Eigen::VectorXd factor = Eigen::VectorXd::Ones(of_tangents.rows());
+  for (Eigen::Index at = 0; at < factor.size(); at += 6) factor.segment<3>(at).setConstant(2);
+  const Eigen::MatrixXd symmetric = (of_tangents + of_tangents.transpose()) / 2;
+  return factor.asDiagonal() * symmetric * factor.asDiagonal();
+}
+
 }  // namespace
 
 BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdjustment& adjustment) {
   const bool has_frame_tag = adjustment.fixed_tag >= 0;
   const BundleProblem built =
       BuildBundleProblem(context, adjustment, has_frame_tag ? Frame::kFree : Frame::kHeld);
+  BundleCovariance covariance;
+  if (built.poses.empty()) return covariance;
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = built.poses;
   options.parameter_blocks.insert(options.parameter_blocks.end(), built.tag_parts.begin(),
@@ -88,7 +99,6 @@ BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdj
     kept += built.problem->ParameterBlockTangentSize(block);
   options.parameter_blocks.insert(options.parameter_blocks.end(), built.points.begin(), built.points.end());
   ceres::CRSMatrix jacobian;
-  BundleCovariance covariance;
   if (!built.problem->Evaluate(options, nullptr, nullptr, nullptr, &jacobian)) return covariance;
   Eigen::MatrixXd normal = ReducedNormalMatrix(jacobian, kept);
   if (has_frame_tag) {
@@ -100,17 +110,18 @@ BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdj
   const Eigen::MatrixXd inverse = InverseIfRegular(normal);
   covariance.determined = inverse.size() > 0;
   if (!covariance.determined) return covariance;
-  const double scale = built.points.empty() ? adjustment.reduced_chi2 : 1;
+  covariance.variance_factor = built.points.empty() ? adjustment.reduced_chi2 : 1;
   if (built.size_error != nullptr)
-    covariance.size_error_sigma = std::sqrt(scale * inverse(kept - 1, kept - 1));
-  // The manifold's tangent is half a rotation vector.
-  Eigen::Matrix<double, 6, 1> to_rotation_vector;
-  to_rotation_vector << 2, 2, 2, 1, 1, 1;
-  covariance.of_views.reserve(built.poses.size());
-  for (std::size_t i = 0; i < built.poses.size(); ++i) {
-    const Eigen::Index at = 6 * static_cast<Eigen::Index>(i);
-    covariance.of_views.emplace_back(scale * (to_rotation_vector.asDiagonal() * inverse.block<6, 6>(at, at) *
-                                              to_rotation_vector.asDiagonal()));
+    covariance.size_error_sigma = std::sqrt(covariance.variance_factor * inverse(kept - 1, kept - 1));
+  const auto pose_columns = static_cast<Eigen::Index>(6 * built.poses.size());
+  covariance.of_poses =
+      covariance.variance_factor * InRotationVectors(inverse.topLeftCorner(pose_columns, pose_columns));
+  if (has_frame_tag) return covariance;
+  covariance.displaced_tags = built.tag_ids;
+  covariance.of_displacements.reserve(built.tag_ids.size());
+  for (std::size_t i = 0; i < built.tag_ids.size(); ++i) {
+    const Eigen::Index at = pose_columns + 3 * static_cast<Eigen::Index>(i);
+    covariance.of_displacements.emplace_back(inverse.block<3, 3>(at, at));
   }
   return covariance;
 }

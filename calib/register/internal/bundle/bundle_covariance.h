@@ -1,4 +1,4 @@
-// Returns the covariance of a solved bundle adjustment: of every view's pose, with all other unknowns free.
+// Returns the covariance of a solved bundle adjustment: of all poses together, with all other unknowns free.
 //
 //   J^T J = [ B  E ; E^T  C ] with the points last,   Cov(poses, tags, size) = (B - E C^-1 E^T)^-1
 //
@@ -18,10 +18,14 @@
 namespace luxfit {
 
 struct BundleCovariance {
-  bool determined = false;  // false: the normal equations are singular, and the rest is empty
-  // By active view: (rotation vector in world axes, camera centre).
-  std::vector<Eigen::Matrix<double, 6, 6>> of_views;
+  bool determined = false;  // false: no view, or singular normal equations; the rest is empty
+  // 6V x 6V, by active view: (rotation vector in world axes rad, camera centre in world m). Poses share the
+  // errors of the tags, so their errors are correlated.
+  Eigen::MatrixXd of_poses;
   double size_error_sigma = 0;
+  double variance_factor = 1;                     // what the whole was scaled by
+  std::vector<int> displaced_tags;                // surveyed tags in use that may be off their places
+  std::vector<Eigen::Matrix3d> of_displacements;  // of each of these (m2), before that factor
 };
 BundleCovariance ComputeBundleCovariance(const BundleContext& context, BundleAdjustment& adjustment);
 

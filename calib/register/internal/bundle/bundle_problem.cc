@@ -32,6 +32,16 @@ void AddPoints(const BundleContext& context, BundleAdjustment& adjustment, Bundl
   }
 }
 
+// Returns W of the prior W d of a surveyed tag's displacement: along the normal of its surface, if it has one,
+// d is as small as the surface says, else as small as the survey does.
+Eigen::Matrix3d WhiteningOf(const BundleTag& tag, double survey_sigma_m) {
+  Eigen::Matrix3d whitening = Eigen::Matrix3d::Identity() / survey_sigma_m;
+  if (!tag.surface) return whitening;
+  const Eigen::Vector3d& n = tag.surface->normal;
+  whitening += (1 / tag.surface->sigma_m - 1 / survey_sigma_m) * n * n.transpose();
+  return whitening;
+}
+
 // Frees or holds the tags. A surveyed tag may be off its place but not turned. An unsurveyed tag is where the
 // photos put it, except the one that is the frame.
 void SettleTags(const BundleContext& context, BundleAdjustment& adjustment, const std::set<int>& ids,
@@ -49,7 +59,7 @@ void SettleTags(const BundleContext& context, BundleAdjustment& adjustment, cons
       built.tag_parts.push_back(displacement_m);
     }
     if (may_move && is_surveyed)
-      built.problem->AddResidualBlock(new ZeroPrior<3>(sigma_m), nullptr, displacement_m);
+      built.problem->AddResidualBlock(new ZeroPrior<3>(WhiteningOf(tag, sigma_m)), nullptr, displacement_m);
     if (!may_move) built.problem->SetParameterBlockConstant(displacement_m);
     if (may_turn) {
       built.problem->SetManifold(turn, built.turn_manifold.get());

@@ -75,20 +75,26 @@ class SurfaceCost : public ceres::SizedCostFunction<1, 3> {
   double offset_m_, sigma_m_;
 };
 
-// r = x / sigma: the survey's own uncertainty, x of n components with mean 0 (d in m, n = 3; e, n = 1).
+// r = W x: the survey's own uncertainty, x of n components with mean 0 (d in m, n = 3; e, n = 1) and covariance
+// (W^T W)^-1. W = I / sigma where all components are known equally well.
 template <int n>
 class ZeroPrior : public ceres::SizedCostFunction<n, n> {
  public:
-  explicit ZeroPrior(double sigma) : sigma_(sigma) {}
+  using Whitening = Eigen::Matrix<double, n, n>;
+
+  explicit ZeroPrior(double sigma) : whitening_(Whitening::Identity() / sigma) {}
+  explicit ZeroPrior(const Whitening& whitening) : whitening_(whitening) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    for (int i = 0; i < n; ++i) residuals[i] = parameters[0][i] / sigma_;
+    using Vector = Eigen::Matrix<double, n, 1>;
+    Eigen::Map<Vector>(residuals, n) = whitening_ * Eigen::Map<const Vector>(parameters[0]);
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    for (int i = 0; i < n * n; ++i) jacobians[0][i] = i % (n + 1) == 0 ? 1 / sigma_ : 0;
+    // Ceres stores Jacobians row by row.
+    Eigen::Map<Whitening>(jacobians[0], n, n) = whitening_.transpose();
     return true;
   }
 
  private:
-  double sigma_;
+  Whitening whitening_;
 };
 
 }  // namespace luxfit

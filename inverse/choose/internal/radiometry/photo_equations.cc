@@ -10,6 +10,7 @@
 #include <set>
 
 #include "calib/luminance/median.h"
+#include "inverse/model/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {
@@ -298,7 +299,7 @@ void PhotoEquations::Reweigh(const RadiometryUnknowns& unknowns, Fit& fit) const
   const double freedom = std::sqrt(count / std::max(1.0, count - own));
   fit.scale = std::max(1.0, kSigmaPerMad * freedom * Median(in_sigmas));
   fit.sigma = kSigmaPerMad * freedom * Median(absolute);
-  fit.weight = 1 / (1 + (z.array() / (kCauchy * fit.scale)).square());
+  fit.weight = z.unaryExpr([&](double size) { return CauchyWeight(size, kCauchy * fit.scale); });
 }
 
 GroupScores PhotoEquations::Score(const RadiometryUnknowns& unknowns, const Fit& fit,

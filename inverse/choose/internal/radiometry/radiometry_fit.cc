@@ -19,9 +19,6 @@ constexpr double kTail = 2;          // Cauchy scale of the gains' prior, in its
 constexpr double kUnseen = 1e-6;     // curvature of a direction that no data determine
 // Limits of q: light to the power 2 to that of 1/3, steeper than any display's curve.
 constexpr double kLeastExponent = -0.5, kMostExponent = 2;
-// Share of the best score. All elements of a view share its pose's error, and furniture that the mesh lacks
-// is at another place in each view. Gains absorb some of it, and then predict the data left out better, too.
-constexpr double kWorthHaving = 0.25;
 // Smallest spread between views of a surface. Below it they differ for reasons that no camera model contains.
 constexpr double kLeastRatioSigma = 1e-3;
 
@@ -65,6 +62,8 @@ int Choose(std::vector<RadiometryCandidate>& candidates, const std::vector<Group
     selectable.push_back(
         {scores[c], static_cast<double>(candidates[c].parameters), candidates[c].is_determined});
   SelectionOptions options;
+  // All elements of a view share its pose's error, and furniture that the mesh lacks is at another place in each
+  // view. Gains absorb some of it, and then predict the data left out better, too.
   options.worth_having = kWorthHaving;
   const Selection selection = SimplestWithinOneStandardError(selectable, options);
   for (size_t c = 0; c < candidates.size(); ++c) {

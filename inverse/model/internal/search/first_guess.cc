@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "forward/luminaire/distribution_ops.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
 
 namespace luxfit {
@@ -83,6 +84,7 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
     if (!is_held) luminaire.seen = seen.IndexAt(source.luminaire.position);
     luminaire.seen_candidates = is_held ? 0 : static_cast<int>(seen.index.size());
     luminaire.rivals = source.rivals;
+    luminaire.is_aimed = found.is_aimed && OpsOf(luminaire.distribution).has_aim;
     luminaire.was_searched = found.was_searched;
     luminaire.relative_residual = 0.1 * std::sqrt(found.mean_square);
   }

@@ -42,6 +42,7 @@ struct LuminaireGuess {
   Eigen::Vector3d aim{0, 0, -1};
   Distribution distribution = Distribution::kCosinePower;
   double cosine_exponent = 1;
+  bool is_aimed = false;         // the light tells the aim, which lies along no axis of the room
   double flux = 0;               // in units of the camera scale
   double relative_residual = 0;  // rms
   // Number of places seen in photos where it may hang, and the index of the one chosen. No index: the search

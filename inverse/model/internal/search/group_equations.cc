@@ -1,5 +1,6 @@
 #include "inverse/model/internal/search/group_equations.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -50,6 +51,10 @@ void GroupEquations::SetUp(const std::vector<int>& material, const Eigen::Vector
   }
 }
 
+LitPlace GroupEquations::Weighted(const LitPlace& place) const {
+  return {place.lx_per_cd(rows_).cwiseProduct(root_weight_.cast<float>()), place.rays(rows_, Eigen::all)};
+}
+
 void GroupEquations::Reweigh(const Eigen::MatrixXd& sources) {
   const Eigen::VectorXd residual = Solve(sources).residual;
   std::vector<double> sizes(residual.begin(), residual.end());
@@ -75,8 +80,9 @@ GroupEquations::Base GroupEquations::Solve(const Eigen::MatrixXd& sources) const
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (x[i] > 0) positive.push_back(i);
   }
-  base.positive = base.columns(Eigen::all, positive);
-  base.factor.compute(base.gram(positive, positive));
+  const Eigen::MatrixXd spanned = base.columns(Eigen::all, positive);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(spanned);
+  base.positive = (qr.householderQ() * Eigen::MatrixXd::Identity(spanned.rows(), qr.rank())).cast<float>();
   return base;
 }
 
@@ -90,12 +96,14 @@ GroupEquations::Solution GroupEquations::SolveWith(const Base& base, const Eigen
   return SolutionOf(SolveNonNegative(gram, moment), gram, moment);
 }
 
-double GroupEquations::Gain(const Base& base, const Eigen::VectorXd& source) {
-  const double pull = source.dot(base.residual), own = source.squaredNorm();
-  if (!(pull > 0)) return 0;
-  const Eigen::VectorXd cross = base.positive.transpose() * source;
-  const double apart = own - (cross.size() > 0 ? cross.dot(base.factor.solve(cross)) : 0.0);
-  return pull * pull / std::max(apart, 1e-9 * own);
+Eigen::VectorXf GroupEquations::Gains(const Base& base, const Eigen::MatrixXf& sources) {
+  const Eigen::ArrayXf pull = (sources.transpose() * base.residual.cast<float>()).array();
+  const Eigen::ArrayXf own = sources.colwise().squaredNorm().transpose().array();
+  const Eigen::MatrixXf shared = base.positive.transpose() * sources;
+  constexpr float kRounding = 1e-5F;  // of own, where a source repeats others
+  const Eigen::ArrayXf apart =
+      (own - shared.colwise().squaredNorm().transpose().array()).max(kRounding * own);
+  return (pull > 0).select(pull.square() / apart, 0);
 }
 
 GroupEquations::Solution GroupEquations::SolutionOf(const Eigen::VectorXd& x, const Eigen::MatrixXd& gram,

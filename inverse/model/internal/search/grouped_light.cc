@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace luxfit {
@@ -28,27 +27,6 @@ Eigen::MatrixXd ObservedDimming(const LightData& data) {
       table.row(r.state) = data.dimming[static_cast<size_t>(r.state)].transpose();
   }
   return table;
-}
-
-// Returns the groups and the dimming of each (states x groups, largest value 1).
-std::pair<std::vector<LuminaireGroup>, Eigen::MatrixXd> GroupsOf(const Eigen::MatrixXd& dimming) {
-  std::vector<LuminaireGroup> groups;
-  Eigen::MatrixXd of_groups(dimming.rows(), 0);
-  for (Eigen::Index k = 0; k < dimming.cols(); ++k) {
-    const double most = dimming.rows() > 0 ? dimming.col(k).maxCoeff() : 0;
-    if (most == 0) continue;  // never seen
-    const Eigen::VectorXd own = dimming.col(k) / most;
-    Eigen::Index g = 0;
-    while (g < of_groups.cols() && !of_groups.col(g).isApprox(own, 1e-6)) ++g;
-    if (g == of_groups.cols()) {
-      groups.emplace_back();
-      of_groups.conservativeResize(Eigen::NoChange, g + 1);
-      of_groups.col(g) = own;
-    }
-    groups[static_cast<size_t>(g)].luminaires.push_back(static_cast<int>(k));
-    groups[static_cast<size_t>(g)].share.push_back(most);
-  }
-  return {std::move(groups), std::move(of_groups)};
 }
 
 // Returns the groups' own (value, indirect) at a place: groups x 2, NaN where unknown.
@@ -110,8 +88,9 @@ std::vector<Place> PlacesOf(const Room& room, const LightData& data, int max_pla
 
 GroupedLight GroupLight(const Room& room, const LightData& data, int max_places) {
   GroupedLight light;
-  Eigen::MatrixXd dimming;
-  std::tie(light.groups, dimming) = GroupsOf(ObservedDimming(data));
+  DimmingGroups found = GroupByDimming(ObservedDimming(data));
+  light.groups = std::move(found.groups);
+  const Eigen::MatrixXd& dimming = found.dimming;
   light.separable =
       dimming.cols() > 0 && Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(dimming).rank() == dimming.cols();
   const std::vector<Place> places = PlacesOf(room, data, max_places);

@@ -1,7 +1,6 @@
 // Separates the light that each group of luminaires gives alone, at places spread through the room.
 //
-// Luminaires whose dimming is in one proportion in all observed states are one group: no sum of states tells
-// them apart. Luminaires that were never on belong to no group. States are sums of the groups' light, so
+// Groups are those of inverse/model/internal/dimming_groups.h over all observed states. States are sums of the groups' light, so
 // least squares at each place gives each group's own light. With photos, the values are the elements'
 // relative luminance Y and measured indirect light I (inverse/model/internal/measured_indirect.h); with
 // readings alone, the illuminance. Where too few states show a place, only states with one group alone
@@ -13,14 +12,10 @@
 #include <vector>
 
 #include "forward/light/room.h"
+#include "inverse/model/internal/dimming_groups.h"
 #include "inverse/model/light_state.h"
 
 namespace luxfit {
-
-struct LuminaireGroup {
-  std::vector<int> luminaires;
-  std::vector<double> share;  // one for each: its dimming over the group's
-};
 
 struct GroupedLight {
   std::vector<LuminaireGroup> groups;

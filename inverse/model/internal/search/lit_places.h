@@ -1,7 +1,9 @@
-// Computes the direct light that lobes of several widths and aims give from places where a luminaire may be.
+// Computes the direct light that a lobe gives from places where a luminaire may be.
 //
-// Columns hold D_il, the illuminance per lumen at sensor i by lobe l. It is 0 at sensors that the mesh hides
-// or that are nearer than 0.1 m. World frame; units m, lx/lm.
+//   D_il = V_i cos(theta_i) / d_i^2 I_l(gamma_i)
+//
+// D_il: illuminance per lumen at sensor i by lobe l. It is 0 at sensors that the mesh hides or that are nearer
+// than 0.1 m. Rays are traced once for each place, for lobes of any aim. World frame; units m, lx, cd, lm.
 // Source: forward/direct/direct_light.h.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_LIT_PLACES_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_LIT_PLACES_H_
@@ -11,22 +13,23 @@
 #include <vector>
 
 #include "forward/light/room.h"
+#include "inverse/model/internal/search/lobes.h"
 
 namespace luxfit {
 
-struct Lobe {
-  Distribution distribution;
-  double exponent;
-  Eigen::Vector3d aim;
+struct LitPlace {
+  Eigen::VectorXf lx_per_cd;                     // by sensor
+  Eigen::Matrix<float, Eigen::Dynamic, 3> rays;  // unit vectors to the sensors
 };
-// Returns the lobes that are tried.
-const std::vector<Lobe>& Lobes();
 
 struct LitPlaces {
   std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::MatrixXf> columns;  // one matrix per position: sensors x lobes
+  std::vector<LitPlace> light;  // one for each position
 };
 LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions);
+
+// Returns D, sensors x lobes. Throws std::invalid_argument for a lobe that is neither isotropic nor a cosine power.
+Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobes);
 
 // Returns the cell centres of a grid through the box, so that none lies on a wall.
 std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step);

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "inverse/model/internal/search/group_equations.h"
+#include "inverse/model/internal/search/lobe_trials.h"
 
 namespace luxfit {
 namespace {
@@ -32,52 +34,6 @@ constexpr double kExplained = 0.25;
 // their errors, so the few facets do not tell such places apart.
 constexpr double kRival = 1.5;
 
-struct Tried {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  size_t lobe = 0;
-  Eigen::VectorXd column;  // weighted
-  double cost = std::numeric_limits<double>::infinity();
-};
-
-bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }
-
-using Allowed = std::function<bool(const Eigen::Vector3d&)>;
-
-bool Anywhere(const Eigen::Vector3d&) { return true; }
-
-// Returns the best of the allowed places for every lobe.
-std::vector<Tried> BestOfLobes(const GroupEquations& equations, const Eigen::MatrixXd& others,
-                               const LitPlaces& places, const Allowed& allowed = Anywhere) {
-  const GroupEquations::Base base = equations.Solve(others);
-  const size_t lobes = Lobes().size();
-  const auto column_of = [&](size_t place, size_t lobe) {
-    return equations.Weighted(places.columns[place].col(static_cast<Eigen::Index>(lobe)));
-  };
-  std::vector<std::vector<std::pair<double, size_t>>> gains(lobes);  // gain, place
-  for (std::vector<std::pair<double, size_t>>& of_lobe : gains) of_lobe.resize(places.positions.size());
-  tbb::parallel_for(size_t{0}, places.positions.size(), [&](size_t i) {
-    const bool counts = allowed(places.positions[i]);
-    for (size_t l = 0; l < lobes; ++l)
-      gains[l][i] = {counts ? GroupEquations::Gain(base, column_of(i, l)) : 0, i};
-  });
-  constexpr size_t kExact = 6;  // places of each lobe, the most promising
-  std::vector<Tried> best(lobes);
-  tbb::parallel_for(size_t{0}, lobes, [&](size_t l) {
-    const auto end =
-        gains[l].begin() + static_cast<std::ptrdiff_t>(std::min(kExact, places.positions.size()));
-    std::partial_sort(gains[l].begin(), end, gains[l].end(), std::greater<>());
-    best[l].lobe = l;
-    for (auto promising = gains[l].begin(); promising != end; ++promising) {
-      if (!(promising->first > 0)) continue;
-      const Eigen::VectorXd column = column_of(promising->second, l);
-      const GroupEquations::Solution solution = equations.SolveWith(base, column);
-      if (!(solution.strength[solution.strength.size() - 1] > 0) || solution.cost >= best[l].cost) continue;
-      best[l] = {places.positions[promising->second], l, column, solution.cost};
-    }
-  });
-  return best;
-}
-
 // Returns the places of the cell about a place, in half steps.
 std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double step,
                                         const Eigen::AlignedBox3d& box) {
@@ -91,15 +47,17 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
-// Searches the sources of one group. It holds the sources so far, each with its column.
+// Searches the sources of one group with one set of lobes. It holds the sources so far, each with its column.
 class GroupSearch {
  public:
   GroupSearch(const Room& room, const std::vector<Sensor>& places, const Eigen::AlignedBox3d& box,
-              const GroupEquations& equations, double step_m, int refinements)
+              const GroupEquations& equations, LobeSet lobes, double step_m, int refinements)
       : room_(room),
         places_(places),
         box_(box),
         equations_(equations),
+        trials_(equations, places, step_m),
+        lobes_(lobes),
         step_m_(step_m),
         refinements_(refinements) {}
 
@@ -107,13 +65,12 @@ class GroupSearch {
     const LitPlaces here = Lit(room_, places_, {source.luminaire.position});
     Tried tried;
     tried.position = source.luminaire.position;
-    tried.lobe = source.lobe;
+    tried.lobe = source.is_held ? SimpleLobes().front() : LobeOf(source.luminaire);
     if (source.is_held) {
-      const std::vector<Tried> lobes = BestOfLobes(equations_, Others(sources_.size()), here);
-      const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
-      if (std::isfinite(best.cost)) tried.lobe = best.lobe;
+      const std::vector<Tried> lobes = Sorted(trials_.BestOfBins(lobes_, Others(sources_.size()), here));
+      if (!lobes.empty()) tried.lobe = TurnedInPlace(lobes.front(), Others(sources_.size())).lobe;
     }
-    tried.column = equations_.Weighted(here.columns[0].col(static_cast<Eigen::Index>(tried.lobe)));
+    tried.column = LobeColumns(equations_.Weighted(here.light[0]), {tried.lobe}).cast<double>();
     sources_.push_back(tried);
     is_held_.push_back(source.is_held);
   }
@@ -123,17 +80,12 @@ class GroupSearch {
   bool AddOne(const LitPlaces& grid, const LitPlaces& seen) {
     const Eigen::MatrixXd rest = Others(sources_.size());
     const double before = equations_.Solve(rest).solution.cost;
-    std::vector<Tried> lobes = BestOfLobes(equations_, rest, grid);
-    // Each lobe by itself: on the coarse grid a wrong one may win, with the height wrong to match.
-    for (Tried& lobe : lobes) {
-      if (!std::isfinite(lobe.cost)) continue;
-      for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
-    }
-    const std::vector<Tried> at_seen = BestOfLobes(equations_, rest, seen);
-    lobes.insert(lobes.end(), at_seen.begin(), at_seen.end());
-    const Tried& best = *std::min_element(lobes.begin(), lobes.end(), IsBetter);
-    if (!(best.cost < before)) return false;
-    sources_.push_back(best);
+    std::vector<Tried> lobes = RefinedBins(trials_.BestOfBins(lobes_, rest, grid), rest);
+    for (Tried& at_seen : trials_.BestOfBins(lobes_, rest, seen))
+      lobes.push_back(TurnedInPlace(at_seen, rest));
+    const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
+    if (best == lobes.end() || !(best->cost < before)) return false;
+    sources_.push_back(*best);
     is_held_.push_back(false);
     return true;
   }
@@ -155,21 +107,31 @@ class GroupSearch {
     const auto is_apart = [&](const Eigen::Vector3d& p) { return (p - own.position).norm() > step_m_; };
     const auto is_near = [&](const Eigen::Vector3d& p) { return !is_apart(p); };
     // Compares on the same coarse grid: rivals are nearly as good as the source's own surroundings.
-    const std::vector<Tried> near = BestOfLobes(equations_, rest, grid, is_near);
-    const double coarse = std::min_element(near.begin(), near.end(), IsBetter)->cost;
+    const std::vector<Tried> near = Sorted(trials_.BestOfBins(lobes_, rest, grid, is_near));
+    if (near.empty()) return {};
+    const double coarse = near.front().cost;
     const double fine = equations_.SolveWith(equations_.Solve(rest), own.column).cost;
-    std::vector<Tried> rivals;
-    for (Tried& lobe : BestOfLobes(equations_, rest, grid, is_apart)) {
-      if (!(lobe.cost <= kRival * coarse)) continue;
-      for (int r = 1; r <= refinements_; ++r) lobe = Refined(lobe, r, rest, false);
+    std::vector<Tried> promising, rivals;
+    for (const Tried& lobe : trials_.BestOfBins(lobes_, rest, grid, is_apart))
+      if (lobe.cost <= kRival * coarse) promising.push_back(lobe);
+    for (const Tried& lobe : RefinedBins(std::move(promising), rest))
       if (lobe.cost <= kRival * fine && is_apart(lobe.position)) rivals.push_back(lobe);
-    }
-    std::sort(rivals.begin(), rivals.end(), IsBetter);
-    return rivals;
+    return Sorted(std::move(rivals));
   }
 
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
   GroupEquations::Solution Solve() const { return equations_.Solve(Columns()).solution; }
+  // Returns the mean square that the sources leave of other rows, or of the same ones with other weights.
+  double MeanSquareIn(const GroupEquations& others) const {
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(others.rows().size()),
+                            static_cast<Eigen::Index>(sources_.size()));
+    for (size_t j = 0; j < sources_.size(); ++j) {
+      const LitPlaces here = Lit(room_, places_, {sources_[j].position});
+      columns.col(static_cast<Eigen::Index>(j)) =
+          LobeColumns(others.Weighted(here.light[0]), {sources_[j].lobe}).cast<double>();
+    }
+    return others.Solve(columns).solution.cost / static_cast<double>(others.rows().size());
+  }
   const std::vector<Tried>& sources() const { return sources_; }
   bool is_held(size_t source) const { return is_held_[source]; }
 
@@ -185,14 +147,48 @@ class GroupSearch {
     return columns;
   }
 
-  // Refines a source about its place, the step halved `halvings` times, with its own lobe or with any.
+  // Refines the best of each bin by itself: on the coarse grid a wrong lobe may win, with the height wrong to
+  // match. Aimed lobes are many; after each step only the better half of them goes on.
+  std::vector<Tried> RefinedBins(std::vector<Tried> bins, const Eigen::MatrixXd& rest) const {
+    size_t kept = bins.size();
+    constexpr size_t kMostAimed = 9, kFewestAimed = 3;
+    if (lobes_ == LobeSet::kAimed) kept = std::min(kept, kMostAimed);
+    for (int r = 1; r <= refinements_; ++r) {
+      if (lobes_ == LobeSet::kAimed) bins = Sorted(std::move(bins));
+      bins.resize(kept);
+      for (Tried& lobe : bins) lobe = Refined(lobe, r, rest, false);
+      if (lobes_ == LobeSet::kAimed) kept = std::min(kept, std::max(kFewestAimed, kept / 2));
+    }
+    return bins;
+  }
+
+  // Returns the lobes to try about a source, the step halved `halvings` times.
+  std::vector<Lobe> LobesAbout(const Lobe& lobe, int halvings) const {
+    if (lobes_ == LobeSet::kSimple) return {lobe};
+    const double shrunk = std::ldexp(1, -halvings);
+    return LobesNear(lobe, kAimStepRad * shrunk, 1 + shrunk);
+  }
+
+  // Refines a source about its place, the step halved `halvings` times: with its own lobe or, where `any_lobe`, with
+  // any simple one. Aimed lobes turn and change their width beside.
   Tried Refined(const Tried& source, int halvings, const Eigen::MatrixXd& rest, bool any_lobe) const {
     const std::vector<Eigen::Vector3d> near =
         Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
-    const std::vector<Tried> lobes = BestOfLobes(equations_, rest, Lit(room_, places_, near));
-    const Tried& best =
-        any_lobe ? *std::min_element(lobes.begin(), lobes.end(), IsBetter) : lobes[source.lobe];
+    const bool is_any = any_lobe && lobes_ == LobeSet::kSimple;
+    const Tried best = trials_.Best(is_any ? SimpleLobes() : LobesAbout(source.lobe, halvings), rest,
+                                    Lit(room_, places_, near));
     return IsBetter(best, source) ? best : source;
+  }
+
+  // Refines aim and width of a source, and leaves it at its place.
+  Tried TurnedInPlace(Tried source, const Eigen::MatrixXd& rest) const {
+    if (lobes_ == LobeSet::kSimple) return source;
+    const LitPlaces here = Lit(room_, places_, {source.position});
+    for (int r = 1; r <= std::max(1, refinements_); ++r) {
+      const Tried best = trials_.Best(LobesAbout(source.lobe, r), rest, here);
+      if (IsBetter(best, source)) source = best;
+    }
+    return source;
   }
 
   bool MoveEach(int from_halvings, int to_halvings) {
@@ -212,6 +208,8 @@ class GroupSearch {
   const std::vector<Sensor>& places_;
   const Eigen::AlignedBox3d& box_;
   const GroupEquations& equations_;
+  LobeTrials trials_;
+  LobeSet lobes_;
   double step_m_;
   int refinements_;
   std::vector<Tried> sources_;
@@ -219,17 +217,17 @@ class GroupSearch {
 };
 
 Luminaire LuminaireOf(const Tried& tried) {
-  const Lobe& lobe = Lobes()[tried.lobe];
   Luminaire luminaire;
   luminaire.position = tried.position;
-  luminaire.aim = lobe.aim;
-  luminaire.distribution = lobe.distribution;
-  luminaire.cosine_exponent = lobe.exponent;
+  luminaire.aim = tried.lobe.aim;
+  luminaire.distribution = tried.lobe.distribution;
+  luminaire.cosine_exponent = tried.lobe.exponent;
   return luminaire;
 }
 
-SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equations) {
+SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equations, LobeSet lobes) {
   SparseLuminaires found;
+  found.is_aimed = lobes == LobeSet::kAimed;
   const GroupEquations::Solution solution = search.Solve();
   found.mean_square = solution.cost / static_cast<double>(equations.rows().size());
   for (size_t j = 0; j < search.sources().size(); ++j) {
@@ -237,7 +235,6 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
     source.luminaire = LuminaireOf(search.sources()[j]);
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
-    source.lobe = search.sources()[j].lobe;
     found.sources.push_back(source);
   }
   for (size_t m = 0; m < equations.materials().size(); ++m) {
@@ -246,6 +243,14 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
   }
   return found;
 }
+
+// Holds one search of a group with one set of lobes.
+struct SparseRun {
+  std::unique_ptr<GroupEquations> equations;  // reweighed
+  std::unique_ptr<GroupSearch> search;
+  SparseLuminaires found;
+  double mean_square_of_all = 0;  // with no row's weight lowered
+};
 
 // Adds each place that photos show as a rival of the nearest source, before all others. It deserves its own
 // start even where this mesh does not explain its light.
@@ -285,40 +290,53 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
   constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
   if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
   const LitPlaces at_seen = Lit(room_, light_.places, seen);
-  const auto searched = [&](const GroupEquations& in, const LitPlaces& grid, int refinements) {
-    GroupSearch search(room_, light_.places, box_, in, step_m_, refinements);
-    for (const SparseSource& source : start) search.Start(source);
-    while (static_cast<int>(search.sources().size()) < count && search.AddOne(grid, at_seen))
-      search.MoveAll();
+  const auto searched = [&](const GroupEquations& in, LobeSet lobes, const LitPlaces& grid, int refinements) {
+    auto search = std::make_unique<GroupSearch>(room_, light_.places, box_, in, lobes, step_m_, refinements);
+    for (const SparseSource& source : start) search->Start(source);
+    while (static_cast<int>(search->sources().size()) < count && search->AddOne(grid, at_seen))
+      search->MoveAll();
     return search;
   };
   // The first search finds rows that it cannot explain. The second lowers their weight.
-  const auto reweighed_after = [&](const LitPlaces& grid, int refinements) {
-    GroupEquations reweighed = equations;
-    reweighed.Reweigh(searched(equations, grid, refinements).Columns());
-    return reweighed;
+  const auto run = [&](LobeSet lobes, const LitPlaces& grid, int refinements) {
+    constexpr int kRough = 2;
+    SparseRun result;
+    result.equations = std::make_unique<GroupEquations>(equations);
+    result.equations->Reweigh(searched(equations, lobes, grid, std::min(kRough, refinements))->Columns());
+    result.search = searched(*result.equations, lobes, grid, refinements);
+    result.found = Result(*result.search, *result.equations, lobes);
+    result.mean_square_of_all = result.search->MeanSquareIn(equations);
+    return result;
+  };
+  const auto is_complete = [&](const SparseRun& of) {
+    return static_cast<int>(of.found.sources.size()) == count;
+  };
+  // A narrow beam falls on few rows. Lowered weights would hide it, so all rows judge the lobes.
+  const auto best_lobes = [&](const LitPlaces& grid, int refinements) {
+    SparseRun simple = run(LobeSet::kSimple, grid, refinements);
+    if (is_complete(simple) && simple.mean_square_of_all < kExplained) return simple;
+    SparseRun aimed = run(LobeSet::kAimed, grid, refinements);
+    const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
+                           kRival * aimed.mean_square_of_all < simple.mean_square_of_all;
+    return is_turned ? std::move(aimed) : std::move(simple);
   };
   SparseLuminaires seen_alone;
   if (!seen.empty()) {
-    const GroupEquations reweighed = reweighed_after({}, 0);
-    seen_alone = Result(searched(reweighed, {}, 0), reweighed);
-    const bool is_complete = static_cast<int>(seen_alone.sources.size()) == count;
-    if (is_complete && seen_alone.mean_square < kExplained) {
+    const SparseRun at_places = best_lobes({}, 0);
+    seen_alone = at_places.found;
+    if (is_complete(at_places) && seen_alone.mean_square < kExplained) {
       seen_alone.was_searched = false;
       return seen_alone;
     }
   }
-  constexpr int kRough = 2;
-  const GroupEquations reweighed = reweighed_after(Grid(), std::min(kRough, refinements_));
-  const GroupSearch search = searched(reweighed, Grid(), refinements_);
-  SparseLuminaires found = Result(search, reweighed);
-  for (size_t j = 0; j < found.sources.size(); ++j) {
-    if (found.sources[j].is_held) continue;
-    for (const Tried& rival : search.RivalsOf(j, Grid()))
-      found.sources[j].rivals.push_back(LuminaireOf(rival));
+  SparseRun best = best_lobes(Grid(), refinements_);
+  for (size_t j = 0; j < best.found.sources.size(); ++j) {
+    if (best.found.sources[j].is_held) continue;
+    for (const Tried& rival : best.search->RivalsOf(j, Grid()))
+      best.found.sources[j].rivals.push_back(LuminaireOf(rival));
   }
-  AddSeenRivals(seen_alone.sources, step_m_, found.sources);
-  return found;
+  AddSeenRivals(seen_alone.sources, step_m_, best.found.sources);
+  return std::move(best.found);
 }
 
 }  // namespace luxfit

@@ -5,9 +5,13 @@
 //
 // The equations are those of inverse/model/internal/search/group_equations.h.
 //
-// D: direct illuminance per lumen. Places are the cells of a grid through the room, with a few lobes at each.
+// D: direct illuminance per lumen. Places are the cells of a grid through the room, with lobes at each.
 // Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
 // solved anew. Halving the grid about the place refines it; the other places are refined in turn.
+//
+// Simple lobes come first. Where they leave more than 5 % rms of the light, lobes of any aim are searched too
+// (inverse/model/internal/search/lobes.h), refined in place, aim and width at once. They are kept where simple ones
+// leave half more squares.
 //
 // For robustness the search runs twice. The second run lowers the weight of rows that the first did not
 // explain. Rows are weighted by a relative error of 10 %, with a floor where there is little light. Distances
@@ -33,7 +37,6 @@ struct SparseSource {
   Luminaire luminaire;  // position, aim, lobe
   double strength = 0;  // g
   bool is_held = false;
-  size_t lobe = 0;  // index into Lobes()
   // Luminaires at other places, at least a grid step away. Those of the places seen alone come first, then
   // those that leave less than half more squares, best first.
   std::vector<Luminaire> rivals;
@@ -44,6 +47,7 @@ struct SparseLuminaires {
   std::map<int, double> albedo;  // by material, from photos
   double mean_square = 0;        // mean square of the weighted residuals: 1 is 10 %
   bool was_searched = true;      // false: only the places seen were tried
+  bool is_aimed = false;         // true: lobes of any aim
 };
 
 class SparseSearch {

@@ -1,0 +1,216 @@
+#include "inverse/choose/internal/luminaire_types.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "forward/luminaire/photometry.h"
+
+namespace luxfit {
+namespace {
+
+constexpr double kSameAim = 0.9998;  // cosine of a degree
+
+bool IsOpen(const OpenChoice& open) { return open.distribution && open.shape; }
+
+bool AreOnTogether(const LightData& data, int a, int b) {
+  constexpr double kSameLevel = 1e-6;
+  return std::all_of(data.dimming.begin(), data.dimming.end(), [&](const Eigen::VectorXd& dimming) {
+    return std::abs(dimming[a] - dimming[b]) < kSameLevel;
+  });
+}
+
+bool HaveOneTable(const Luminaire& a, const Luminaire& b) {
+  if (!a.table || !b.table) return !a.table && !b.table;
+  return a.table->gamma_rad == b.table->gamma_rad && a.table->c_rad == b.table->c_rad;
+}
+
+// Returns whether two luminaires differ in numbers only.
+bool HaveOneForm(const Luminaire& a, const Luminaire& b) {
+  constexpr double kNearlyAlike = 0.98;  // cosine of 11 degrees: within that, a tilt or heading is a number
+  const bool is_turnable = a.shape == LuminaireShape::kRectangle;
+  return a.distribution == b.distribution && a.shape == b.shape && HaveOneTable(a, b) &&
+         a.emission.size() == 0 && b.emission.size() == 0 && a.aim.dot(b.aim) > kNearlyAlike &&
+         (!is_turnable || std::abs(AxesOf(a).along.dot(AxesOf(b).along)) > kNearlyAlike);
+}
+
+bool IsPlace(LuminaireQuantity quantity) {
+  return quantity == LuminaireQuantity::kPositionX || quantity == LuminaireQuantity::kPositionY ||
+         quantity == LuminaireQuantity::kPositionZ;
+}
+
+// Holds where a fit has the parameter of one number of the form; -1: it is held there.
+using Number = std::tuple<LuminaireQuantity, int, int>;  // quantity, part, reference
+std::map<Number, Eigen::Index> FormOf(const LuminaireFit& fit, int luminaire) {
+  std::map<Number, Eigen::Index> form;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Parameter& p = fit.parameters[i];
+    if (p.kind == ParameterKind::kLuminaire && p.index == luminaire && !IsPlace(p.quantity))
+      form[{p.quantity, p.part, p.reference}] = static_cast<Eigen::Index>(i);
+  }
+  return form;
+}
+
+// Returns x_a - x_b for the numbers that either has free.
+Eigen::VectorXd DifferenceOf(const LuminaireFit& fit, int a, int b, const std::set<Number>& numbers) {
+  LightState as_b = fit.state;
+  as_b.luminaires[static_cast<size_t>(a)] =
+      OfTypeOf(fit.state.luminaires[static_cast<size_t>(b)], fit.state.luminaires[static_cast<size_t>(a)]);
+  std::vector<Parameter> of_a;
+  of_a.reserve(numbers.size());
+  for (const auto& [quantity, part, reference] : numbers) {
+    Parameter p{ParameterKind::kLuminaire, a, quantity, -1e9, 1e9, ""};
+    p.part = part, p.reference = reference;
+    of_a.push_back(std::move(p));
+  }
+  of_a = Recentred(std::move(of_a), fit.state);
+  return PackParameters(fit.state, of_a) - PackParameters(as_b, of_a);
+}
+
+// Source: Wilson and Hilferty (1931).
+double Chi2Of95(double freedom) {
+  const double variance = 2 / (9 * freedom);
+  return freedom * std::pow(1 - variance + 1.6449 * std::sqrt(variance), 3);
+}
+
+// Returns the comparison of two types by their first luminaires; none where they cannot be one.
+std::optional<MergedTypes> Compared(const LuminaireFit& fit, int a, int b) {
+  if (!HaveOneForm(fit.state.luminaires[static_cast<size_t>(a)],
+                   fit.state.luminaires[static_cast<size_t>(b)]))
+    return {};
+  const std::map<Number, Eigen::Index> form_a = FormOf(fit, a), form_b = FormOf(fit, b);
+  std::set<Number> numbers;
+  for (const auto& [number, column] : form_a) numbers.insert(number);
+  for (const auto& [number, column] : form_b) numbers.insert(number);
+  const auto n = static_cast<Eigen::Index>(numbers.size());
+  MergedTypes merged{a, b, 0, static_cast<int>(n)};
+  if (n == 0) return merged;
+  Eigen::MatrixXd contrast = Eigen::MatrixXd::Zero(n, fit.covariance.cols());
+  Eigen::Index row = 0;
+  for (const Number& number : numbers) {
+    const auto of_a = form_a.find(number), of_b = form_b.find(number);
+    if (of_a != form_a.end()) contrast(row, of_a->second) = 1;
+    if (of_b != form_b.end()) contrast(row, of_b->second) = -1;
+    ++row;
+  }
+  const Eigen::VectorXd difference = DifferenceOf(fit, a, b, numbers);
+  const Eigen::LDLT<Eigen::MatrixXd> factor(contrast * fit.covariance * contrast.transpose());
+  if (!factor.isPositive()) return {};
+  merged.chi2 = difference.dot(factor.solve(difference));
+  if (!(merged.chi2 <= Chi2Of95(static_cast<double>(n)))) return {};
+  return merged;
+}
+
+// Returns whether the place is bright in states where the luminaire is on, and in no other.
+bool IsWhereOn(const SeenPlace& place, const LightData& data, int luminaire) {
+  return !place.states.empty() && std::all_of(place.states.begin(), place.states.end(), [&](int s) {
+    return data.dimming[static_cast<size_t>(s)][luminaire] > 0;
+  });
+}
+
+// Returns whether each place has a luminaire of its own near it.
+bool AreReached(const std::vector<Eigen::Vector3d>& places, const LightState& state,
+                const std::vector<int>& type) {
+  constexpr double kReachM = 0.3;
+  std::set<int> taken;
+  for (const Eigen::Vector3d& place : places) {
+    int nearest = -1;
+    double least = kReachM;
+    for (const int k : type) {
+      const double distance = (state.luminaires[static_cast<size_t>(k)].position - place).norm();
+      if (taken.count(k) == 0 && distance < least) nearest = k, least = distance;
+    }
+    if (nearest < 0) return false;
+    taken.insert(nearest);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<int> TypesBySwitching(const LightData& data, const LightState& start,
+                                  const std::vector<OpenChoice>& open) {
+  std::vector<int> first;
+  for (int k = 0; k < static_cast<int>(open.size()); ++k) {
+    const auto of = static_cast<size_t>(k);
+    first.push_back(k);
+    for (int j = 0; j < k && first.back() == k; ++j) {
+      const auto other = static_cast<size_t>(j);
+      const bool has_one_aim = (open[of].aim && open[other].aim) ||
+                               start.luminaires[of].aim.dot(start.luminaires[other].aim) > kSameAim;
+      if (IsOpen(open[of]) && IsOpen(open[other]) && AreOnTogether(data, j, k) && has_one_aim)
+        first.back() = first[other];
+    }
+  }
+  return first;
+}
+
+LightState WithTypes(LightState state, const std::vector<int>& first_of_type) {
+  state.first_of_type = first_of_type;
+  for (const std::vector<int>& type : TypesOf(state)) {
+    const auto likeness = [&](int k) {
+      double sum = 0;
+      for (const int j : type)
+        sum += state.luminaires[static_cast<size_t>(k)].aim.dot(state.luminaires[static_cast<size_t>(j)].aim);
+      return sum;
+    };
+    const int model = *std::max_element(type.begin(), type.end(),
+                                        [&](int a, int b) { return likeness(a) < likeness(b) - 1e-9; });
+    Luminaire& first = state.luminaires[static_cast<size_t>(type.front())];
+    first = OfTypeOf(state.luminaires[static_cast<size_t>(model)], first);
+    state.free[static_cast<size_t>(type.front())] = state.free[static_cast<size_t>(model)];
+  }
+  return WithLikeTypes(std::move(state));
+}
+
+std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, const LightData& data,
+                                          const LightState& state) {
+  std::vector<TypePlaces> all;
+  for (const std::vector<int>& type : TypesOf(state)) {
+    if (type.size() < 2) continue;
+    std::vector<SeenPlace> own;
+    for (const SeenPlace& place : seen)
+      if (IsWhereOn(place, data, type.front()) && place.area_m2 > 0) own.push_back(place);
+    if (own.size() < type.size()) continue;
+    std::stable_sort(own.begin(), own.end(),
+                     [](const SeenPlace& a, const SeenPlace& b) { return a.area_m2 > b.area_m2; });
+    own.resize(type.size());
+    TypePlaces places{type.front(), {}};
+    for (const SeenPlace& place : own) places.places.push_back(place.position);
+    std::sort(places.places.begin(), places.places.end(),
+              [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.x() < b.x(); });
+    if (!AreReached(places.places, state, type)) all.push_back(std::move(places));
+  }
+  return all;
+}
+
+TypedState WithMergedTypes(const LuminaireFit& fit, const std::vector<OpenChoice>& open) {
+  TypedState typed{fit.state, {}};
+  if (fit.covariance.size() == 0) return typed;
+  std::vector<int>& first = typed.state.first_of_type;
+  if (first.empty()) {
+    for (int k = 0; k < static_cast<int>(open.size()); ++k) first.push_back(k);
+  }
+  const std::vector<std::vector<int>> types = TypesOf(typed.state);
+  for (size_t t = 0; t < types.size(); ++t) {
+    const int own = types[t].front();
+    if (!IsOpen(open[static_cast<size_t>(own)])) continue;
+    for (size_t u = 0; u < t && first[static_cast<size_t>(own)] == own; ++u) {
+      const int other = types[u].front();
+      if (first[static_cast<size_t>(other)] != other || !IsOpen(open[static_cast<size_t>(other)])) continue;
+      const std::optional<MergedTypes> merged = Compared(fit, other, own);
+      if (!merged) continue;
+      typed.merged.push_back(*merged);
+      for (const int k : types[t]) first[static_cast<size_t>(k)] = other;
+    }
+  }
+  typed.state = WithLikeTypes(std::move(typed.state));
+  return typed;
+}
+
+}  // namespace luxfit

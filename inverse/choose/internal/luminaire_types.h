@@ -1,0 +1,52 @@
+// Decides which luminaires are of one type: alike but for place and flux.
+//
+// Luminaires that are always switched together are taken as alike at first: an installer puts one kind into a
+// row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen.
+//
+// Types whose models have the same form are merged where a fit of all luminaires does not tell their numbers
+// apart: exponents, sizes, tables, tilts, headings.
+//   (x_a - x_b)^T C_ab^-1 (x_a - x_b) <= chi2_95     C_ab: covariance of the difference
+//
+// Source: Wald (1943), "Tests of statistical hypotheses concerning several parameters".
+#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_LUMINAIRE_TYPES_H_
+#define LUXFIT_INVERSE_CHOOSE_INTERNAL_LUMINAIRE_TYPES_H_
+
+#include <vector>
+
+#include "inverse/choose/internal/choose_model.h"
+
+namespace luxfit {
+
+// Returns LightState::first_of_type where the luminaires of `open` distribution and shape that are always on
+// together at the same level are of one type. Given aims must be alike.
+std::vector<int> TypesBySwitching(const LightData& data, const LightState& start,
+                                  const std::vector<OpenChoice>& open);
+
+// Returns the state with these types. Luminaires of a type get the model of the one whose aim is nearest to the
+// others': a first guess sees some of them wrong.
+LightState WithTypes(LightState state, const std::vector<int>& first_of_type);
+
+// Returns for every type of several luminaires the places of photos that may be theirs: of those that are bright
+// where and only where the type is on, as many as it has luminaires, of largest area, in the order of x. No places
+// where photos show too few, and none where all are within reach of the state's.
+std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, const LightData& data,
+                                          const LightState& state);
+
+// Holds two types that became one: the first luminaire of each.
+struct MergedTypes {
+  int into = 0, merged = 0;
+  double chi2 = 0;
+  int parameters = 0;  // compared; 0: only the form was
+};
+
+struct TypedState {
+  LightState state;
+  std::vector<MergedTypes> merged;
+};
+
+// Merges types of a fit with a covariance. Luminaires whose distribution or shape is not open keep theirs.
+TypedState WithMergedTypes(const LuminaireFit& fit, const std::vector<OpenChoice>& open);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_LUMINAIRE_TYPES_H_

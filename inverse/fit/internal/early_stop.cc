@@ -1,0 +1,26 @@
+#include "inverse/fit/internal/early_stop.h"
+
+#include <fmt/format.h>
+
+namespace luxfit {
+
+std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason) {
+  if (!stop_reason) return {};
+  return [stop_reason] {
+    const std::string reason = stop_reason();
+    if (!reason.empty()) throw FitStopped(reason);
+  };
+}
+
+void WarnOfStop(const EarlyStop& stop, Findings& findings) {
+  findings.undetermined = true;
+  findings.warnings.push_back(
+      {"fit_stopped",
+       fmt::format(
+           "the fit was stopped in its step {}: {}; the numbers are those of the best state until then",
+           stop.step, stop.reason),
+       "run it again with a larger --budget, or photograph luminaires alone or in smaller groups: fewer "
+       "unknowns that are on together take less time"});
+}
+
+}  // namespace luxfit

@@ -1,0 +1,21 @@
+// Ends a fit on request, with what it has.
+#ifndef LUXFIT_INVERSE_FIT_INTERNAL_EARLY_STOP_H_
+#define LUXFIT_INVERSE_FIT_INTERNAL_EARLY_STOP_H_
+
+#include <functional>
+#include <string>
+
+#include "inverse/fit/fit_room.h"
+
+namespace luxfit {
+
+// Returns a LightData::checkpoint that throws FitStopped with the reason that stop_reason
+// (FitRoomOptions::stop_reason) gives; empty where that is empty.
+std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason);
+
+// Warns ("fit_stopped") that the fit is not done. What was asked for is then undetermined.
+void WarnOfStop(const EarlyStop& stop, Findings& findings);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_FIT_INTERNAL_EARLY_STOP_H_

@@ -1,0 +1,125 @@
+#include "inverse/choose/internal/luminaire_types.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace luxfit {
+namespace {
+
+// A fit by hand of three discs that look down, with sigmas of 1 cm and 1 %.
+class LuminaireTypes : public testing::Test {
+ protected:
+  LuminaireTypes() : open_(3) {
+    fit_.status = FitStatus::kConverged;
+    fit_.state.luminaires.resize(3);
+    fit_.state.free.resize(3);
+    for (size_t k = 0; k < 3; ++k) {
+      Luminaire& luminaire = fit_.state.luminaires[k];
+      luminaire.distribution = Distribution::kCosinePower;
+      luminaire.shape = LuminaireShape::kDisc;
+      luminaire.cosine_exponent = 3;
+      luminaire.size_m.setConstant(0.3);
+      luminaire.position = Eigen::Vector3d(static_cast<double>(k), 0, 2);
+      fit_.state.free[k].exponent = fit_.state.free[k].size = true;
+    }
+    fit_.state.camera_scale_free = false;
+  }
+
+  std::vector<int> Merged() {
+    fit_.parameters = FreeParameters(MakeRoom(Scene{}), fit_.state);
+    const auto n = static_cast<Eigen::Index>(fit_.parameters.size());
+    fit_.covariance = 1e-4 * Eigen::MatrixXd::Identity(n, n);
+    return WithMergedTypes(fit_, open_).state.first_of_type;
+  }
+
+  static LightData States(const std::vector<Eigen::Vector3d>& dimming) {
+    LightData data;
+    for (const Eigen::Vector3d& d : dimming) data.dimming.emplace_back(d);
+    return data;
+  }
+
+  LuminaireFit fit_;
+  std::vector<OpenChoice> open_;
+};
+
+TEST_F(LuminaireTypes, WhatIsAlwaysOnTogetherIsOfOneType) {
+  const LightState& start = fit_.state;
+  EXPECT_EQ(TypesBySwitching(States({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 0.5}}), start, open_),
+            (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(TypesBySwitching(States({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 1}}), start, open_),
+            (std::vector<int>{0, 1, 2}));
+}
+
+TEST_F(LuminaireTypes, AGivenModelOrAnotherAimStaysApart) {
+  LightState start = fit_.state;
+  const LightData together = States({{1, 1, 1}});
+  open_[1].distribution = false;
+  EXPECT_EQ(TypesBySwitching(together, start, open_), (std::vector<int>{0, 1, 0}));
+  start.luminaires[2].aim = Eigen::Vector3d(1, 0, -1).normalized();
+  open_[2].aim = false;
+  EXPECT_EQ(TypesBySwitching(together, start, open_), (std::vector<int>{0, 1, 2}));
+}
+
+TEST_F(LuminaireTypes, AnAimThatTheFirstGuessSeesWrongIsThatOfTheOthers) {
+  LightState start = fit_.state;
+  start.luminaires[0].aim = Eigen::Vector3d(1, 0, -1).normalized();
+  const LightState typed = WithTypes(start, TypesBySwitching(States({{1, 1, 1}}), start, open_));
+  for (const Luminaire& luminaire : typed.luminaires) EXPECT_EQ(luminaire.aim, Eigen::Vector3d(0, 0, -1));
+  EXPECT_EQ(typed.luminaires[0].position, start.luminaires[0].position);
+}
+
+TEST_F(LuminaireTypes, PlacesThatPhotosShowAreASecondStart) {
+  LightState state = WithTypes(fit_.state, {0, 0, 2});
+  const LightData data = States({{1, 1, 0}, {0, 0, 1}});
+  const auto place = [](double x, double area_m2, std::vector<int> states) {
+    SeenPlace seen;
+    seen.position = Eigen::Vector3d(x, 0, 2);
+    seen.area_m2 = area_m2;
+    seen.states = std::move(states);
+    return seen;
+  };
+  // A highlight is smaller than a luminaire, and the third is on in another state.
+  std::vector<SeenPlace> seen{place(3, 0.1, {0}), place(1.5, 0.01, {0}), place(2, 1, {1})};
+  EXPECT_TRUE(SeenPlacesOfTypes({seen[0], seen[2]}, data, state).empty());
+  seen.push_back(place(0, 0.1, {0}));
+  const std::vector<TypePlaces> places = SeenPlacesOfTypes(seen, data, state);
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].first, 0);
+  ASSERT_EQ(places[0].places.size(), 2U);
+  EXPECT_EQ(places[0].places[0].x(), 0);
+  EXPECT_EQ(places[0].places[1].x(), 3);
+  state.luminaires[1].position.x() = 2.9;
+  EXPECT_TRUE(SeenPlacesOfTypes(seen, data, state).empty()) << "the fit is there";
+}
+
+// Sigma of a difference: 1.4 cm and 1.4 %.
+TEST_F(LuminaireTypes, AreMergedWhereTheFitDoesNotTellThemApart) {
+  fit_.state.luminaires[1].size_m.setConstant(0.32);
+  fit_.state.luminaires[2].size_m.setConstant(0.38);
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 0, 2}));
+}
+
+TEST_F(LuminaireTypes, AnotherExponentStaysApart) {
+  fit_.state.luminaires[1].cosine_exponent = 3.3;
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 1, 0}));
+}
+
+TEST_F(LuminaireTypes, AnotherFormStaysApart) {
+  fit_.state.luminaires[0].shape = LuminaireShape::kRectangle;
+  fit_.state.luminaires[1].distribution = Distribution::kLambertian;
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 1, 2}));
+}
+
+TEST_F(LuminaireTypes, WithoutACovarianceNothingIsMerged) {
+  fit_.covariance.resize(0, 0);
+  EXPECT_TRUE(WithMergedTypes(fit_, open_).merged.empty());
+}
+
+TEST_F(LuminaireTypes, TypesKeepTheirMembersWhenTheyMerge) {
+  fit_.state.first_of_type = {0, 1, 1};
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace luxfit
