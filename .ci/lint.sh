@@ -1,24 +1,45 @@
 #!/bin/sh
-# Format of every source, then clang-tidy over the libraries and the program, after a configured build.
-#   .ci/lint.sh [BUILD_FOLDER [--changed | --analyze]]
-# --changed: clang-tidy over what the last fifteen commits touched only; everything takes 12 to 20 minutes. Where the history
-#            is not there, or .clang-tidy itself was touched, over everything.
-# --analyze adds clang's static analyzer, which takes as long again: run by hand before a release.
+# Reports what clang-tidy finds in the libraries and the program, and clang-format in every source, after a configured build: one line a
+# finding (FILE:LINE: text [check]), worst first, forty at most. Exit status 1 where there is any.
+#   .ci/lint.sh [BUILD_FOLDER] [--since REV] [--analyze] [--seconds N]
+# BUILD_FOLDER  default build/release; the whole report is left in its lint.txt
+# --since       clang-tidy over what REV..HEAD touched; without it over everything, which takes 12 to 20 minutes
+# --analyze     adds clang's static analyzer, which takes as long again: before a release
+# --seconds     stops clang-tidy after N seconds; sources that were touched last come first
 set -eu
-root=$(cd "$(dirname "$0")/.." && pwd)
-cd "$root"
-.ci/setup.sh clang-format clang-tidy
-build=${1:-build/release} mode=${2:-}
-git ls-files -z '*.h' '*.cc' | xargs -0 clang-format --dry-run --Werror
+cd "$(dirname "$0")/.."
+build=build/release since='' analyzer='' seconds=7200
+while [ $# -gt 0 ]; do
+  case $1 in
+    --since) since=$2; shift ;;
+    --seconds) seconds=$2; shift ;;
+    --analyze) analyzer=--checks='clang-analyzer-core.*,clang-analyzer-cplusplus.*,clang-analyzer-deadcode.*' ;;
+    -*) echo "lint.sh: $1: expected --since REV, --analyze or --seconds N" >&2; exit 2 ;;
+    *) build=$1 ;;
+  esac
+  shift
+done
+[ -f "$build/compile_commands.json" ] || { echo "lint.sh: $build is not configured: cmake --preset release" >&2; exit 2; }
+.ci/setup.sh clang-format clang-tidy >&2
+raw=$(mktemp)
+trap 'rm -f "$raw"' EXIT
 
-analyzer=
-[ "$mode" != --analyze ] || analyzer=--checks='clang-analyzer-core.*,clang-analyzer-cplusplus.*,clang-analyzer-deadcode.*'
-base=
-if [ "$mode" = --changed ] && base=$(git rev-parse --quiet --verify HEAD~15); then
-  git diff --quiet "$base" -- .clang-tidy || base=
-fi
-list() {
-  set -- 'calib/*.cc' 'forward/*.cc' 'inverse/*.cc' 'apps/*.cc'
-  if [ -n "$base" ]; then git diff -z --name-only --diff-filter=d "$base" -- "$@"; else git ls-files -z "$@"; fi
-}
-list | xargs -0 -r -n 4 -P 2 clang-tidy --quiet ${analyzer:+"$analyzer"} -p "$build"
+# The sources of clang-tidy, those of the newest commits first.
+git log --name-only --format= ${since:+"$since..HEAD"} -- 'calib/*.cc' 'forward/*.cc' 'inverse/*.cc' 'apps/*.cc' |
+  awk 'NF && !seen[$0]++' | while read -r file; do if [ -f "$file" ]; then echo "$file"; fi; done |
+  timeout "$seconds" xargs -r -n 2 -P 2 clang-tidy --quiet ${analyzer:+"$analyzer"} -p "$build" >"$raw" 2>&1 || {
+    [ $? -ne 124 ] || echo "clang-tidy was stopped after $seconds s: not every source was looked at" >&2
+  }
+# One finding a file is enough of what .ci/format.sh mends.
+git ls-files -z '*.h' '*.cc' | xargs -0 clang-format --dry-run 2>&1 |
+  awk -F: '/Wclang-format-violations/ && !seen[$1]++' >>"$raw" || true
+
+# Compiler errors, then possible bugs, then the rest, then format.
+grep -E '^[^ ]+:[0-9]+:[0-9]+: (error|warning): .*\[[a-zA-Z0-9.,-]+\]$' "$raw" |
+  sed -E "s#^$PWD/##; s/^([^:]+:[0-9]+):[0-9]+: (error|warning):/\1:/" |
+  awk '{ rank = /clang-diagnostic-error/ ? 0 : /\[(bugprone|clang-analyzer)/ ? 1 : /clang-format/ ? 3 : 2; print rank " " $0 }' |
+  sort -u | sed 's/^. //' >"$build/lint.txt" || true
+head -n 40 "$build/lint.txt"
+found=$(wc -l <"$build/lint.txt")
+[ "$found" -eq 0 ] || { echo "lints: $found findings, all of them in $build/lint.txt"; exit 1; }
+echo "lints: none"

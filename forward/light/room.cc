@@ -28,6 +28,23 @@ void FillSensorRows(const Room& room, const Receivers& receivers, const std::vec
   });
 }
 
+// Returns the rows as one matrix; they are appended, since a row that is assigned moves all those behind it.
+Eigen::SparseMatrix<float, Eigen::RowMajor> FromRows(const std::vector<Eigen::SparseVector<float>>& rows,
+                                                     Eigen::Index columns) {
+  Eigen::SparseMatrix<float, Eigen::RowMajor> matrix(static_cast<Eigen::Index>(rows.size()), columns);
+  Eigen::Index entries = 0;
+  for (const Eigen::SparseVector<float>& row : rows) entries += row.nonZeros();
+  matrix.reserve(entries);
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const auto index = static_cast<Eigen::Index>(i);
+    matrix.startVec(index);
+    for (Eigen::SparseVector<float>::InnerIterator it(rows[i]); it; ++it)
+      matrix.insertBack(index, it.index()) = it.value();
+  }
+  matrix.finalize();
+  return matrix;
+}
+
 // Returns the bytes of form factors (elements x patches) and coupling (patches x patches).
 double MatrixBytes(const Patches& patches) {
   const double n = static_cast<double>(patches.patches.size());
@@ -78,9 +95,7 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
   tbb::parallel_for(size_t{0}, count == 0 ? 0 : sensors.size(), [&](size_t i) {
     rows[i] = SensorFormFactors(room.rays, room.patches, sensors[i], rays_per_sensor).sparseView();
   });
-  receivers.sensor_to_element.resize(static_cast<Eigen::Index>(sensors.size()), count);
-  for (size_t i = 0; i < rows.size() && count > 0; ++i)
-    receivers.sensor_to_element.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
+  receivers.sensor_to_element = FromRows(rows, count);
   return receivers;
 }
 

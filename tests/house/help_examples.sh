@@ -1,8 +1,8 @@
 #!/bin/sh
-# The examples of --help, typed one after the other on the fixtures: every line that help shows is one of the real output, in its
-# order, whatever its figures. A line `...` stands for any lines, a trailing ` ...` for the rest of its line.
+# The --help examples of a first session (doctor, run, check, report), typed one after the other on the fixture: every line that help
+# shows is one of the real output, in its order, whatever its figures. A line `...` stands for any lines, a trailing ` ...` for the rest
+# of its line.
 #   help_examples.sh SOURCE PROGRAM
-# Not typed: fit and calibrate, whose data may not be shipped; completion and man, which want a shell and a pager.
 set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -11,31 +11,13 @@ mkdir "$work/bin"
 ln -s "$2" "$work/bin/luxfit"
 PATH=$work/bin:$PATH
 cd "$work"
-cp -r "$fixtures/office" "$fixtures/forward_reference/spots" .
-cp office/photos/v00_evening.png evening.png
-cat >design.toml <<'END'
-[[luminaire]]
-id = "A"
-photometry = "lambertian"
-shape = "rectangle"
-size_m = [0.6, 0.6]
-position_m = [1.5, 2.0, 2.79]
-flux_lm = 3600
-[[luminaire]]
-id = "B"
-photometry = "lambertian"
-shape = "rectangle"
-size_m = [0.6, 0.6]
-position_m = [4.2, 2.6, 2.79]
-flux_lm = 3600
-END
+cp -r "$fixtures/office" .
 
 # Figures become #, their padding one space; files are named from where one stands.
 shape() { sed -E "s#$work/##g; s/[-+]?[0-9]+(\.[0-9]+)?/#/g; s/[[:space:]]+/ /g; s/^ //; s/ \$//"; }
 
 failed=0
-for command in board explain doctor init demo formfactors simulate chart run linearize register albedo check report export luxmap \
-  commission dim; do
+for command in doctor run check report; do
   luxfit "$command" --help | sed -n '/^ *Example:$/,$p' | sed '1d; s/^ *//' >example
   typed=$(sed -n 's/^\$ //p' example)
   [ -n "$typed" ] || { echo "$command: no example" >&2; exit 1; }

@@ -106,6 +106,13 @@ Eigen::MatrixXd KnownVariance(const WeightedRows& rows, const Eigen::MatrixXd& w
          rows.alone_scatter * jacobian.transpose() * jacobian;
 }
 
+// Returns the whitened covariance with no eigenvalue below 1, that of independent rows. Fewer clusters than parameters
+// leave directions across the axes in which their scatter is 0.
+Eigen::MatrixXd AtLeastPlain(const Eigen::MatrixXd& whitened) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(whitened);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1).asDiagonal() * eigen.eigenvectors().transpose();
+}
+
 }  // namespace
 
 double DesignEffect(const WeightedRows& rows) {
@@ -169,7 +176,7 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
   for (Eigen::Index d = 0; d < n; ++d) {
     if (whitened(d, d) > 0) raised[d] = std::sqrt(std::max(1.0, least[d] / whitened(d, d)));
   }
-  whitened = raised.asDiagonal() * whitened * raised.asDiagonal();
+  whitened = AtLeastPlain(raised.asDiagonal() * whitened * raised.asDiagonal());
   if (rows.biases.size() > 0) {
     const Eigen::MatrixXd moved = root.transpose() * (rows.jacobian.transpose() * rows.biases);
     whitened += moved * moved.transpose();

@@ -106,6 +106,23 @@ TEST(FitCovarianceTest, IntervalsHoldTheTruthWithFewClusters) {
   }
 }
 
+// Six parameters and two clusters: their scatter alone has rank two. C - H^-1 has no negative eigenvalue.
+TEST(FitCovarianceTest, FewerClustersThanParametersLeaveNoDirectionWithoutVariance) {
+  std::mt19937_64 rng = support::TestRng();
+  std::normal_distribution<double> normal;
+  constexpr int kRows = 40, kParameters = 6;
+  WeightedRows rows;
+  rows.jacobian = Eigen::MatrixXd::NullaryExpr(kRows, kParameters, [&] { return normal(rng); });
+  const Eigen::VectorXd error = Eigen::VectorXd::NullaryExpr(kRows, [&] { return 5 * normal(rng); });
+  rows.residual = rows.jacobian * rows.jacobian.colPivHouseholderQr().solve(error) - error;
+  for (int i = 0; i < kRows; ++i) rows.cluster.push_back(i / 20);
+  rows.prior_information = Eigen::MatrixXd::Zero(kParameters, kParameters);
+  const Eigen::MatrixXd plain = (rows.jacobian.transpose() * rows.jacobian).inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(CovarianceOf(rows).covariance - plain);
+  EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff());
+  EXPECT_GT(eigen.eigenvalues().maxCoeff(), plain.trace());  // clusters do say something
+}
+
 // One parameter and clusters of unequal information, so that draws differ in it. With one axis the variance is the
 // largest of the plain one, the jackknife's and the bootstrap's.
 TEST(FitCovarianceTest, TheLargerOfJackknifeAndBootstrapCounts) {
