@@ -23,7 +23,8 @@ void ExpectWhole(const Room& room, const RoomObservations& given) {
       given.pose_covariance.rows() % 6 == 0 && given.pose_covariance.rows() == given.pose_covariance.cols(),
       "a pose covariance of six rows and columns a view, or none");
   for (const SeenOutline& outline : given.outlines)
-    expect(given.pose_covariance.size() == 0 || Eigen::Index{6} * (outline.view + 1) <= given.pose_covariance.rows(),
+    expect(given.pose_covariance.size() == 0 ||
+               Eigen::Index{6} * (outline.view + 1) <= given.pose_covariance.rows(),
            "outlines of views that the pose covariance has");
   expect(given.albedo.empty() || given.albedo.size() == room.scene.materials.size(),
          "one albedo a material, or none");

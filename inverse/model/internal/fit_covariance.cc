@@ -50,14 +50,13 @@ Eigen::MatrixXd WithoutCluster(const Eigen::MatrixXd& information) {
 // Holds, along the axes of H, the variance that clusters give: as their scatter estimates it, and as
 // independent rows would.
 struct ClusterVariance {
-  Eigen::MatrixXd estimated;
-  Eigen::VectorXd if_independent;
+  Eigen::MatrixXd estimated, if_independent;
   Eigen::VectorXd share, share_squares;  // sums of v_c and v_c^2
 };
 
 ClusterVariance VarianceOfClusters(const ClusteredRows& whitened) {
   const Eigen::Index n = whitened.jacobian.cols();
-  ClusterVariance sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n),
+  ClusterVariance sum{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
                       Eigen::VectorXd::Zero(n)};
   const ClusterSums sums = SumClusters(whitened);
   for (Eigen::Index c = 0; c < sums.count(); ++c) {
@@ -65,7 +64,7 @@ ClusterVariance VarianceOfClusters(const ClusteredRows& whitened) {
     const Eigen::MatrixXd without = WithoutCluster(information);
     const Eigen::VectorXd moved = without * sums.gradient.col(c);
     sum.estimated += moved * moved.transpose();
-    sum.if_independent += information.diagonal();
+    sum.if_independent += information;
     const Eigen::VectorXd share = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
     sum.share += share;
     sum.share_squares += share.cwiseAbs2();
@@ -106,11 +105,20 @@ Eigen::MatrixXd KnownVariance(const WeightedRows& rows, const Eigen::MatrixXd& w
          rows.alone_scatter * jacobian.transpose() * jacobian;
 }
 
-// Returns the whitened covariance with no eigenvalue below 1, that of independent rows. Fewer clusters than parameters
-// leave directions across the axes in which their scatter is 0.
-Eigen::MatrixXd AtLeastPlain(const Eigen::MatrixXd& whitened) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(whitened);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(1).asDiagonal() * eigen.eigenvectors().transpose();
+// Returns the clusters' covariance raised where it is below that of independent rows, S: eigenvalues relative to S are at
+// least 1. Fewer clusters than parameters leave directions across the axes in which their scatter is 0.
+Eigen::MatrixXd AtLeastIndependent(const Eigen::MatrixXd& estimated, const Eigen::MatrixXd& independent) {
+  constexpr double kTold = 1e-9;  // least share of a direction's information that is the clusters'
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_rows(independent);
+  const Eigen::Index told = (of_rows.eigenvalues().array() > kTold).count();  // the last ones: they ascend
+  if (told == 0) return estimated;
+  const Eigen::VectorXd scale = of_rows.eigenvalues().tail(told).cwiseSqrt();
+  const Eigen::MatrixXd axes = of_rows.eigenvectors().rightCols(told),
+                        inverse = axes * scale.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> relative(inverse.transpose() * estimated * inverse);
+  const Eigen::MatrixXd back = axes * scale.asDiagonal() * relative.eigenvectors();
+  const Eigen::VectorXd lacking = (1 - relative.eigenvalues().array()).cwiseMax(0);
+  return estimated + back * lacking.asDiagonal() * back.transpose();
 }
 
 }  // namespace
@@ -122,9 +130,9 @@ double DesignEffect(const WeightedRows& rows) {
   // Where other knowledge gives nearly all, the ratio says nothing.
   constexpr double kLeastShare = 0.1;
   std::vector<double> ratio;
-  for (Eigen::Index d = 0; d < clusters.if_independent.size(); ++d) {
-    if (clusters.if_independent[d] > kLeastShare)
-      ratio.push_back(clusters.estimated(d, d) / clusters.if_independent[d]);
+  for (Eigen::Index d = 0; d < clusters.if_independent.rows(); ++d) {
+    if (clusters.if_independent(d, d) > kLeastShare)
+      ratio.push_back(clusters.estimated(d, d) / clusters.if_independent(d, d));
   }
   return ratio.empty() ? 1 : std::max(1.0, Median(std::move(ratio)));
 }
@@ -171,12 +179,12 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
     const double enlarged = std::max(of_fine.Enlarged(), of_coarse.Enlarged());
     larger[d] = std::sqrt(enlarged / of_fine.variance);
   }
-  Eigen::MatrixXd whitened =
-      known + Eigen::MatrixXd(larger.asDiagonal() * fine.estimated * larger.asDiagonal());
+  const Eigen::MatrixXd enlarged = larger.asDiagonal() * fine.estimated * larger.asDiagonal();
+  Eigen::MatrixXd whitened = known + AtLeastIndependent(enlarged, fine.if_independent);
   for (Eigen::Index d = 0; d < n; ++d) {
     if (whitened(d, d) > 0) raised[d] = std::sqrt(std::max(1.0, least[d] / whitened(d, d)));
   }
-  whitened = AtLeastPlain(raised.asDiagonal() * whitened * raised.asDiagonal());
+  whitened = raised.asDiagonal() * whitened * raised.asDiagonal();
   if (rows.biases.size() > 0) {
     const Eigen::MatrixXd moved = root.transpose() * (rows.jacobian.transpose() * rows.biases);
     whitened += moved * moved.transpose();

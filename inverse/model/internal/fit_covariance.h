@@ -23,7 +23,8 @@
 //
 // T enlarges the clusters' part to t_975(nu) / 1.96 of itself, so that 1.96 sigma is the 95 % interval. nu
 // and T belong to the principal axes of the scaled H, so that what cancels in a prediction stays cancelled.
-// In no direction is the covariance below the plain H^-1: eigenvalues in whitened parameters are at least 1.
+// Along these axes the covariance is never below the plain H^-1. In no direction is the clusters' part below that of
+// independent rows, sum_c J_c^T J_c in the place of the sum over g_c': the covariance is singular only where H is.
 //
 // b_theta = H^-1 J^T b is the effect of an error b of the model that all rows share on the parameters. Each has
 // a known form and an amplitude of 1 sigma: what remains of the discretisation's bias

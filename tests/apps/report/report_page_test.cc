@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "apps/text/formats/base64.h"
 
@@ -19,7 +20,14 @@ TEST(ReportPage, NoTextOfTheUserEndsTheData) {
   EXPECT_EQ(json::parse(text), data);
 }
 
-TEST(ReportPage, BytesThatAreNotUtf8DoNotStopIt) { EXPECT_NO_THROW(JsonForHtml({{"id", "caf\xe9"}})); }
+// Each such byte becomes U+FFFD, and what stands around it stays.
+TEST(ReportPage, BytesThatAreNotUtf8AreReplaced) {
+  const json data = {{"at the end", "caf\xe9"}, {"within", "caf\xe9 noir"}, {"none", "caf\xc3\xa9"}};
+  const json read = json::parse(JsonForHtml(data));
+  EXPECT_EQ(read["at the end"], "caf\xef\xbf\xbd");
+  EXPECT_EQ(read["within"], "caf\xef\xbf\xbd noir");
+  EXPECT_EQ(read["none"], "caf\xc3\xa9");
+}
 
 TEST(ReportPage, IsWholeAndAsksForNothing) {
   const std::string page = ReportPage("a <b> & \"c\" <!--DATA-->", {{"x", 1}});
@@ -34,7 +42,26 @@ TEST(ReportPage, IsWholeAndAsksForNothing) {
   size_t scripts = 0;
   for (size_t at = 0; (at = page.find("</script", at)) != std::string::npos; ++at) ++scripts;
   EXPECT_EQ(scripts, 2U);
-  EXPECT_GT(GetReportAssets().script.size(), 300'000U);  // three.js is in it
+}
+
+// Every part that a reader looks for, by its heading; the program makes them from the data in the browser.
+TEST(ReportPage, HoldsEveryPartOfTheReport) {
+  const std::string page = ReportPage("office", {{"x", 1}});
+  for (const char* heading :
+       {"The answer", "Measured against predicted", "The room", "Work planes", "Glare", "Light distribution",
+        "Photos and predictions", "Reflectances", "All readings", "Measurement conditions", "Choices and why",
+        "Speed and accuracy of this run", "Provenance"})
+    EXPECT_NE(page.find('"' + std::string(heading) + '"'), std::string::npos) << heading;
+  // The program reads the element of the data, and three.js draws the room.
+  EXPECT_NE(page.find("<script type=\"application/json\" id=\"report-data\">{\"x\":1}</script>"),
+            std::string::npos);
+  for (const char* used : {"report-data", "WebGLRenderer", "gives no WebGL"})
+    EXPECT_NE(GetReportAssets().script.find(used), std::string_view::npos) << used;
+  EXPECT_NE(page.find(std::string(GetReportAssets().css)), std::string::npos);
+  EXPECT_FALSE(GetReportAssets().css.empty());
+  // A browser without scripts says what is missing.
+  EXPECT_NE(page.find("<noscript>"), std::string::npos);
+  EXPECT_NE(page.find("read result.json beside it"), std::string::npos);
 }
 
 // RFC 4648, sec. 10.

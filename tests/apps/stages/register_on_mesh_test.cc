@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/apps/program.h"
@@ -92,18 +94,23 @@ TEST_F(RegisterOnMeshTest, AModelWithoutTagsIsLaidOntoTheMesh) {
   const auto result = nlohmann::json::parse(folder_.Read("out/stages/register.json"));
   EXPECT_EQ(result["frame"], "surface");
   ASSERT_EQ(result["views"].size(), 8u);
+  double largest_sigma_m = 0;
   for (std::size_t v = 0; v < 8; ++v) {
     const auto& view = result["views"][v];
     auto matrix = view["cam_from_world"].get<std::vector<double>>();
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.matrix().topRows<3>() = Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(matrix.data());
     const Eigen::Vector3d error = pose.inverse().translation() - room_.poses[v].inverse().translation();
-    // 0.3 px on 960 and points strewn by 4 mm leave a centimetre or two, and the sigmas say so.
-    const auto sigma_m = view["position_sigma_m"].get<std::vector<double>>();
-    EXPECT_LT(error.norm(), 4 * Eigen::Vector3d(sigma_m[0], sigma_m[1], sigma_m[2]).norm()) << v;
+    // Pixels of 0.3, points strewn by 4 mm and sides of the mesh known to 2 mm: the normal equations give up to 8.7 mm.
+    const auto axes_m = view["position_sigma_m"].get<std::vector<double>>();
+    const double sigma_m = Eigen::Vector3d(axes_m[0], axes_m[1], axes_m[2]).norm();
+    largest_sigma_m = std::max(largest_sigma_m, sigma_m);
+    EXPECT_LT(error.norm(), 4 * sigma_m) << v;
+    EXPECT_LT(sigma_m, 0.013) << v;
     EXPECT_LT(error.norm(), 0.03) << v;
     EXPECT_EQ(view["method"], "colmap");
   }
+  std::printf("largest sigma of a camera's place %.2f mm\n", 1000 * largest_sigma_m);
 }
 
 TEST_F(RegisterOnMeshTest, WithoutAStartTheRemedyIsNamed) {

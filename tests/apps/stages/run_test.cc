@@ -1,12 +1,10 @@
 // `luxfit run` on the photos of fixtures/office, as a user runs it, against the truth.
 //
-// The photos come from an independent renderer (fixtures/office/README.md). A limit is 1.5 times the larger of two
-// figures: what this session reaches (docs/accuracy.md), and what is asked for (3 mm, 0.004 of albedo, 0.8 % of a
-// reading).
+// The photos come from an independent renderer (fixtures/office/README.md). Where README.md or docs/accuracy.md states a
+// figure of this session, the limit is 1.5 times that figure, or less.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <chrono>
@@ -24,6 +22,7 @@
 #include "tests/paths.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/apps/report_data.h"
+#include "tests/support/apps/stated_errors.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 
@@ -51,13 +50,14 @@ class OfficeRun : public testing::Test {
                         Out() + ".txt 2>&1");
     if (status_ == 0) {
       result_ = Read(Out() + "/result.json");
-      comparison_ = CompareWithTruth(result_, Read(std::string(LUXFIT_FIXTURES) + "/office/truth.json"));
+      comparison_ = CompareWithTruth(result_, Truth());
     }
   }
   static void TearDownTestSuite() { delete folder_; }
   void SetUp() override { ASSERT_EQ(status_, 0); }
 
   static std::string Out() { return folder_->Path("out"); }
+  static json Truth() { return Read(std::string(LUXFIT_FIXTURES) + "/office/truth.json"); }
 
   static TempFolder* folder_;
   static int status_;
@@ -71,9 +71,10 @@ TruthComparison OfficeRun::comparison_;
 
 TEST_F(OfficeRun, FindsEveryLuminaire) {
   EXPECT_EQ(comparison_.luminaires_missing, 0);
-  // 1.5 times what is asked for, 3 mm, and 1.5 times 1.06 % of a scale reading that is good to 1 %.
-  EXPECT_LE(comparison_.worst_position_mm, 4.5);
-  EXPECT_LE(comparison_.worst_flux_percent, 1.6);
+  std::printf("worst position %.2f mm, worst flux %.2f %%\n", comparison_.worst_position_mm,
+              comparison_.worst_flux_percent);
+  EXPECT_LE(comparison_.worst_position_mm, 3.5);    // 2.3 mm
+  EXPECT_LE(comparison_.worst_flux_percent, 1.55);  // 1.03 %
 }
 
 // The photos show all four, and washed-out tags and walls; where a fit starts is said.
@@ -90,15 +91,19 @@ TEST_F(OfficeRun, StartsWhereThePhotosShowLuminaires) {
 
 TEST_F(OfficeRun, FindsReflectances) {
   EXPECT_EQ(comparison_.albedo_error.size(), 7u);
-  EXPECT_LE(comparison_.worst_albedo, 0.011);
+  std::printf("worst reflectance off by %.4f\n", comparison_.worst_albedo);
+  EXPECT_LE(comparison_.worst_albedo, 0.0044);  // 0.0029
   for (const json& material : result_["materials"]) EXPECT_EQ(material["albedo_rgb"].size(), 3u);
 }
 
 TEST_F(OfficeRun, RegistersTheViewsThatSeeTags) {
   // v08 sees none; v07 sees one small tag and a clipped one at this resolution and may be left out.
   EXPECT_GE(result_["views"].size(), 8u);
-  EXPECT_LE(comparison_.median_camera_mm, 5);
-  EXPECT_LE(comparison_.worst_camera_mm, 20);
+  std::printf("cameras: median %.2f mm, worst %.2f mm; reprojection %.3f px rms\n",
+              comparison_.median_camera_mm, comparison_.worst_camera_mm,
+              result_["reprojection_rms_px"].get<double>());
+  EXPECT_LE(comparison_.median_camera_mm, 1.5);  // 1.0 mm
+  EXPECT_LE(comparison_.worst_camera_mm, 9);     // 6.0 mm
   EXPECT_LE(result_["reprojection_rms_px"].get<double>(), 0.3);
   bool named = false;
   for (const json& warning : result_["warnings"]) {
@@ -110,8 +115,8 @@ TEST_F(OfficeRun, RegistersTheViewsThatSeeTags) {
 
 TEST_F(OfficeRun, PredictsTheReadingsThatOnlyCheck) {
   EXPECT_EQ(result_["summary"]["readings_checked"], 47);
-  EXPECT_LE(result_["summary"]["mean_abs_error_percent"].get<double>(), 1.35);
-  EXPECT_LE(result_["summary"]["max_abs_error_percent"].get<double>(), 4.5);
+  EXPECT_LE(result_["summary"]["mean_abs_error_percent"].get<double>(), 1.35);  // 0.99 %
+  EXPECT_LE(result_["summary"]["max_abs_error_percent"].get<double>(), 4.5);    // 3.1 %
 }
 
 // One reading alone fixes the scale of the photos, so that nothing contradicts it.
@@ -133,91 +138,75 @@ TEST_F(OfficeRun, ChoosesModelsWithReasons) {
     if (id == "A" || id == "B") {
       EXPECT_EQ(l["photometry"], "lambertian") << id;
       EXPECT_EQ(l["shape"], "rectangle") << id;
-      for (const json& side_m : l["size_m"]) EXPECT_NEAR(side_m.get<double>(), 0.6, 0.02) << id;
+      for (const json& side_m : l["size_m"]) {
+        std::printf("side of %s: %.4f m\n", id.c_str(), side_m.get<double>());
+        EXPECT_NEAR(side_m.get<double>(), 0.6, 0.015) << id;  // 0.609 to 0.610 m
+      }
     } else {
       EXPECT_EQ(l["photometry"], "cosine_power") << id;
-      EXPECT_NEAR(l["cosine_exponent"].get<double>(), 3, 0.1) << id;
+      std::printf("exponent of %s: %.4f\n", id.c_str(), l["cosine_exponent"].get<double>());
+      EXPECT_NEAR(l["cosine_exponent"].get<double>(), 3, 0.023) << id;  // 2.99 to 3.00: 0.015 off at most
     }
   }
   for (const json& choice : result_["choices"]) EXPECT_FALSE(choice["because"].get<std::string>().empty());
 }
 
-// Holds the errors of positions (m), log fluxes and reflectances, and their covariance as the fit states it.
-struct StatedErrors {
-  std::vector<std::string> kind;
-  Eigen::VectorXd error;
-  Eigen::MatrixXd covariance;
-
-  // Returns chi2 of the errors of one kind ("": of all), over their number.
-  double Chi2Each(const std::string& of) const {
-    std::vector<Eigen::Index> own;
-    for (size_t i = 0; i < kind.size(); ++i)
-      if (of.empty() || kind[i] == of) own.push_back(static_cast<Eigen::Index>(i));
-    const Eigen::VectorXd part = error(own);
-    return part.dot(Eigen::MatrixXd(covariance(own, own)).ldlt().solve(part)) /
-           static_cast<double>(own.size());
-  }
-};
-
-StatedErrors ErrorsOf(const json& fit, const json& truth) {
-  std::map<std::string, json> lamps;
-  for (const json& lamp : truth["lamps"]) lamps[lamp["id"]] = lamp;
-  const Eigen::Vector3d weights(0.265, 0.670, 0.065);
-  StatedErrors errors;
-  std::vector<Eigen::Index> own;
-  std::vector<double> error;
-  for (size_t i = 0; i < fit["parameters"].size(); ++i) {
-    const json& p = fit["parameters"][i];
-    const std::string kind = p["kind"], quantity = p.value("quantity", "");
-    double true_value = 0;
-    if (kind == "luminaire" && quantity.rfind("position_", 0) == 0) {
-      true_value = lamps[p["luminaire"]]["position"][static_cast<size_t>(quantity.back() - 'x')];
-    } else if (kind == "log_flux") {
-      true_value = std::log(lamps[p["luminaire"]]["flux_lm"].get<double>());
-    } else if (kind == "albedo") {
-      const json& rgb = truth["materials"][p["material"].get<std::string>()];
-      for (size_t c = 0; c < 3; ++c)
-        true_value += weights[static_cast<Eigen::Index>(c)] * rgb[c].get<double>();
-    } else {
-      continue;
-    }
-    own.push_back(static_cast<Eigen::Index>(i));
-    errors.kind.push_back(kind);
-    error.push_back(p["value"].get<double>() - true_value);
-  }
-  const size_t n = fit["covariance"].size();
-  Eigen::MatrixXd covariance(n, n);
-  for (size_t i = 0; i < n; ++i)
-    for (size_t j = 0; j < n; ++j)
-      covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = fit["covariance"][i][j];
-  errors.error = Eigen::Map<Eigen::VectorXd>(error.data(), static_cast<Eigen::Index>(error.size()));
-  errors.covariance = covariance(own, own);
-  return errors;
-}
-
-// 23 parameters at once, correlations included: chi2 each of 3 is far out, for correct sigmas give 1 +- 0.3.
+// 23 parameters at once, correlations included: chi2 each of 3 is far out, for correct sigmas give 1 +- 0.3. Sigmas that are
+// too large would pass, so they have limits: 1.5 times what docs/accuracy.md states of them, 4.4 mm, 2 % and 0.0039.
 TEST_F(OfficeRun, StatedErrorsHoldTogether) {
-  const StatedErrors errors =
-      ErrorsOf(Read(Out() + "/stages/fit.json"), Read(std::string(LUXFIT_FIXTURES) + "/office/truth.json"));
+  const support::StatedErrors errors = support::ErrorsOf(Read(Out() + "/stages/fit.json"), Truth());
   ASSERT_EQ(errors.kind.size(), 23u);
   for (const char* kind : {"luminaire", "log_flux", "albedo", ""}) {
     std::printf("chi2 each of %s: %.2f\n", *kind == '\0' ? "all" : kind, errors.Chi2Each(kind));
     EXPECT_LT(errors.Chi2Each(kind), 3) << kind;
   }
-  for (size_t a = 0; a < errors.kind.size(); ++a) {
+  const std::map<std::string, double> most_sigma{
+      {"luminaire", 0.0066}, {"log_flux", 0.03}, {"albedo", 0.0059}};
+  for (const auto& [kind, most] : most_sigma) {
+    std::printf("largest sigma of %s: %.5f\n", kind.c_str(), errors.LargestSigma(kind));
+    EXPECT_LT(errors.LargestSigma(kind), most) << kind;
+  }
+}
+
+// The scale reading's 2 % cancels in a ratio. The errors of ratios reach 0.70 % (README.md); no sigma is above 1.5 times
+// that.
+TEST_F(OfficeRun, RatiosOfFluxesAreWithinTheirSigmas) {
+  const support::StatedErrors errors = support::ErrorsOf(Read(Out() + "/stages/fit.json"), Truth());
+  const std::vector<Eigen::Index> rows = errors.RowsOf("log_flux");
+  ASSERT_EQ(rows.size(), 4u);
+  double worst = 0, largest_sigma = 0;
+  for (size_t a = 0; a < rows.size(); ++a) {
     for (size_t b = 0; b < a; ++b) {
-      if (errors.kind[a] != "log_flux" || errors.kind[b] != "log_flux") continue;
       Eigen::VectorXd ratio = Eigen::VectorXd::Zero(errors.error.size());
-      ratio[static_cast<Eigen::Index>(a)] = 1, ratio[static_cast<Eigen::Index>(b)] = -1;
-      EXPECT_LT(std::abs(ratio.dot(errors.error)), 3 * std::sqrt(ratio.dot(errors.covariance * ratio)));
+      ratio[rows[a]] = 1, ratio[rows[b]] = -1;
+      const double error = std::abs(ratio.dot(errors.error));
+      const double sigma = std::sqrt(ratio.dot(errors.covariance * ratio));
+      worst = std::max(worst, error), largest_sigma = std::max(largest_sigma, sigma);
+      EXPECT_LT(error, 3 * sigma);
     }
   }
-  const auto positive = std::count_if(errors.kind.begin(), errors.kind.end(), [&](const std::string& kind) {
-    const auto i = static_cast<Eigen::Index>(&kind - errors.kind.data());
-    return kind == "luminaire" && errors.error[i] > 0;
-  });
-  EXPECT_GE(positive, 2);  // twelve coordinates do not err to one side
-  EXPECT_LE(positive, 10);
+  std::printf("worst ratio of two fluxes off by %.2f %%, largest sigma %.2f %%\n", 100 * worst,
+              100 * largest_sigma);
+  EXPECT_LT(worst, 0.0105);
+  EXPECT_LT(largest_sigma, 0.0105);
+}
+
+// What all luminaires share along an axis, such as an error of the cameras' frame, hides among their own errors but not in
+// their mean. One of three means exceeds 2.4 standard errors by chance in 5 of 100 rooms. The standard error follows from
+// the joint covariance. It holds errors of the cameras only where registration doubts the survey (PoseErrorsOf in
+// apps/stages/stages.h); otherwise only their share in the residuals of facets and outlines. Errors that are independent
+// leave half of the largest sigma, 2.2 mm; the limit is 1.5 times that.
+TEST_F(OfficeRun, LuminairesDoNotErrToOneSide) {
+  const support::StatedErrors errors = support::ErrorsOf(Read(Out() + "/stages/fit.json"), Truth());
+  for (const char axis : {'x', 'y', 'z'}) {
+    const std::vector<Eigen::Index> rows = errors.RowsOf("luminaire", std::string("position_") + axis);
+    ASSERT_EQ(rows.size(), 4u) << axis;
+    const support::MeanError mean = errors.MeanOf(rows);
+    std::printf("mean error of the four luminaires along %c: %+.2f mm +- %.2f mm, z %+.2f\n", axis,
+                1000 * mean.mean, 1000 * mean.standard_error, mean.Z());
+    EXPECT_LT(std::abs(mean.Z()), 2.4) << axis;
+    EXPECT_LT(mean.standard_error, 0.0033) << axis;
+  }
 }
 
 TEST_F(OfficeRun, WritesTheDocumentedKeys) {
@@ -316,10 +305,12 @@ TEST_F(AllOnRun, CountsTheLuminairesAndFindsThem) {
   ASSERT_EQ(result["luminaires"].size(), 4u);
   const TruthComparison comparison = CompareWithTruth(result, Read(office_ / "truth.json"));
   EXPECT_EQ(comparison.luminaires_missing, 0);
-  // 1.5 times what docs/accuracy.md states of this session: 7.1 mm, 1.50 %, 0.0088.
-  EXPECT_LT(comparison.worst_position_mm, 11);
-  EXPECT_LT(comparison.worst_flux_percent, 2.3);
-  EXPECT_LT(comparison.worst_albedo, 0.0135);
+  // 1.5 times what docs/accuracy.md states of this session ("all on only, number unknown"): 4.4 mm, 0.83 %, 0.0054.
+  std::printf("all on: worst position %.2f mm, flux %.2f %%, reflectance %.4f\n",
+              comparison.worst_position_mm, comparison.worst_flux_percent, comparison.worst_albedo);
+  EXPECT_LT(comparison.worst_position_mm, 6.6);
+  EXPECT_LT(comparison.worst_flux_percent, 1.25);
+  EXPECT_LT(comparison.worst_albedo, 0.0081);
 }
 
 // Named, they are the same four, in some order.

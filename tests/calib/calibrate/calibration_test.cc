@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "tests/support/calib/board_views.h"
 #include "tests/support/test_rng.h"
@@ -48,16 +49,27 @@ const CalibrationNote* NoteOf(const Calibration& calibration, const std::string&
   return nullptr;
 }
 
+// Returns the sigma of fx, px, which it prints and expects below `most_px`: an error within some sigmas says nothing
+// where a sigma may be anything. The limits are 1.5 times what the normal equations of the corners give.
+double SigmaFxPx(const CalibratedCamera& camera, double most_px) {
+  const double sigma_px = std::sqrt(camera.uncertainty.covariance(0, 0));
+  std::printf("sigma of fx %.3f px, expected below %.3f px\n", sigma_px, most_px);
+  EXPECT_GT(sigma_px, 0);
+  EXPECT_LT(sigma_px, most_px);
+  return sigma_px;
+}
+
 TEST(Calibration, RecoversALensWithinItsOwnSigma) {
   auto rng = TestRng();
   const Camera truth = OpenCv8Camera();
   const Calibration result = CalibrateCameras(ViewsOf(truth, Views(20), rng), Only("opencv8"));
   ASSERT_TRUE(result.IsUsable()) << result.message;
   const CalibratedCamera& camera = result.cameras.front();
-  const Eigen::VectorXd sigma_px = camera.uncertainty.covariance.diagonal().cwiseSqrt();
-  EXPECT_NEAR(camera.camera.fx_px, truth.fx_px, 4 * sigma_px[0]);
-  EXPECT_NEAR(camera.camera.cy_px, truth.cy_px, 4 * sigma_px[3]);
-  EXPECT_LT(sigma_px[0], 1e-3 * truth.fx_px);
+  const double sigma_cy_px = std::sqrt(camera.uncertainty.covariance(3, 3));
+  std::printf("sigma of cy %.3f px\n", sigma_cy_px);
+  EXPECT_NEAR(camera.camera.fx_px, truth.fx_px, 4 * SigmaFxPx(camera, 0.57));  // 0.38 px
+  EXPECT_NEAR(camera.camera.cy_px, truth.cy_px, 4 * sigma_cy_px);
+  EXPECT_LT(sigma_cy_px, 0.47);  // 0.31 px
   // 3 600 residuals: their rms is known to 1.2 %.
   EXPECT_NEAR(result.noise_px, kNoisePx, 0.04 * kNoisePx);
   EXPECT_NEAR(result.held_out_px, kNoisePx, 0.06 * kNoisePx);
@@ -77,7 +89,7 @@ TEST(Calibration, OpenCvsBackEndFindsTheSameLens) {
   const Calibration by_opencv = CalibrateCameras(input, options);
   ASSERT_TRUE(by_mrcal.converged && by_opencv.converged);
   // The same least squares but for mrcal's regularisation: far less apart than their uncertainty.
-  const double sigma_px = std::sqrt(by_mrcal.cameras[0].uncertainty.covariance(0, 0));
+  const double sigma_px = SigmaFxPx(by_mrcal.cameras[0], 0.59);  // 0.39 px
   EXPECT_NEAR(by_opencv.cameras[0].camera.fx_px, by_mrcal.cameras[0].camera.fx_px, 0.1 * sigma_px);
   EXPECT_NEAR(by_opencv.rms_px, by_mrcal.rms_px, 1e-3 * by_mrcal.rms_px);
 }
@@ -107,7 +119,8 @@ TEST(Calibration, OutliersAreFoundAndQuestioned) {
     views.outlier_share = share;
     const Calibration result = CalibrateCameras(ViewsOf(truth, views, rng), Only("opencv5"));
     ASSERT_TRUE(result.converged) << result.message;
-    const double sigma_px = std::sqrt(result.cameras[0].uncertainty.covariance(0, 0));
+    // 0.34 px from nine tenths of the corners, 0.45 px from six tenths.
+    const double sigma_px = SigmaFxPx(result.cameras[0], share < 0.2 ? 0.52 : 0.67);
     EXPECT_NEAR(result.cameras[0].camera.fx_px, truth.fx_px, 4 * sigma_px) << share;
     EXPECT_NEAR(result.outlier_share, share, 0.03);
     const CalibrationNote* const note = NoteOf(result, "outliers");
@@ -162,7 +175,9 @@ TEST(Calibration, ABentBoardIsMeasuredAlongWithTheLens) {
   ASSERT_TRUE(result.IsUsable()) << result.message;
   EXPECT_NEAR(result.board_bend_m.x(), 0.002, 4 * result.board_bend_sigma_m.x());
   EXPECT_NEAR(result.board_bend_m.y(), -0.001, 4 * result.board_bend_sigma_m.y());
-  EXPECT_LT(result.board_bend_sigma_m.maxCoeff(), 1e-4);
+  std::printf("sigma of the bend %.4f and %.4f mm\n", 1000 * result.board_bend_sigma_m.x(),
+              1000 * result.board_bend_sigma_m.y());
+  EXPECT_LT(result.board_bend_sigma_m.maxCoeff(), 4e-5);  // 0.027 and 0.023 mm by the normal equations
 }
 
 // A second camera half a metre to the right, turned inwards.
@@ -181,9 +196,14 @@ void ExpectSecondCamera(const Calibration& result) {
     EXPECT_NEAR(second.cam_from_rig.translation()[axis], SecondCamera().translation()[axis],
                 4 * second.cam_from_rig_sigma[3 + axis]);
   }
-  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 4 * second.cam_from_rig_sigma.head<3>().norm());
+  const double sigma_rad = second.cam_from_rig_sigma.head<3>().norm();
+  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 4 * sigma_rad);
   EXPECT_GT(second.cam_from_rig_sigma.minCoeff(), 0);
-  EXPECT_LT(second.cam_from_rig_sigma.tail<3>().maxCoeff(), 1e-3) << "metres: a rig worth the name";
+  // The normal equations give 0.58 mrad and 0.11 mm for twelve chessboards, 0.47 mrad and 0.09 mm for fifteen grids.
+  std::printf("sigma of the second camera's turn %.3f mrad, of its place %.3f mm\n", 1000 * sigma_rad,
+              1000 * second.cam_from_rig_sigma.tail<3>().maxCoeff());
+  EXPECT_LT(sigma_rad, 0.87e-3);
+  EXPECT_LT(second.cam_from_rig_sigma.tail<3>().maxCoeff(), 0.16e-3);
 }
 
 TEST(Calibration, RigsBeforeAChessboardAreSolvedWhole) {
@@ -211,7 +231,7 @@ TEST(Calibration, AprilGridsCalibrateCamerasAndRigs) {
   const Calibration single = CalibrateCameras(ViewsOf(truth, Views(16), rng, AprilGrid()), Only("opencv5"));
   ASSERT_TRUE(single.IsUsable()) << single.message;
   EXPECT_NEAR(single.cameras[0].camera.fx_px, truth.fx_px,
-              4 * std::sqrt(single.cameras[0].uncertainty.covariance(0, 0)));
+              4 * SigmaFxPx(single.cameras[0], 0.68));  // 0.45 px
   const BoardViews rig(AprilGrid(), {truth, truth}, {Eigen::Isometry3d::Identity(), SecondCamera()},
                        Views(15), rng);
   ExpectSecondCamera(CalibrateCameras(rig.input(), Only("opencv5")));
@@ -264,8 +284,8 @@ TEST(Calibration, SurveyedTagsOfARoomCalibrateACamera) {
   }
   const Calibration result = CalibrateCameras(input, Only("opencv5"));
   ASSERT_TRUE(result.converged) << result.message;
-  EXPECT_NEAR(result.cameras[0].camera.fx_px, truth.fx_px,
-              4 * std::sqrt(result.cameras[0].uncertainty.covariance(0, 0)));
+  // 0.068 px: 1700 corners of 0.1 px that do not lie in a plane.
+  EXPECT_NEAR(result.cameras[0].camera.fx_px, truth.fx_px, 4 * SigmaFxPx(result.cameras[0], 0.10));
   EXPECT_NEAR(result.held_out_px, 0.1, 0.01);
   EXPECT_GT(result.outlier_share, 0);
   EXPECT_FALSE(result.cameras[0].coverage.is_flat);
@@ -323,7 +343,7 @@ TEST(Calibration, AnImageThatKeepsTooFewCornersIsNamedAndCountsForNothing) {
   ASSERT_NE(note, nullptr);
   EXPECT_THAT(note->message, HasSubstr("cam0_4"));
   EXPECT_EQ(NoteOf(expected, "image_rejected"), nullptr);
-  const double sigma_px = std::sqrt(expected.cameras[0].uncertainty.covariance(0, 0));
+  const double sigma_px = SigmaFxPx(expected.cameras[0], 0.52);  // 0.34 px
   // Outliers of the other images may be judged otherwise, by the noise of earlier rounds.
   EXPECT_NEAR(result.cameras[0].camera.fx_px, expected.cameras[0].camera.fx_px, 0.2 * sigma_px);
   EXPECT_NEAR(result.noise_px, expected.noise_px, 0.02 * expected.noise_px);

@@ -229,6 +229,8 @@ TEST(FindBrightBlobs, ThePhotosEdgeIsNoContour) {
   }
 }
 
+// The contour of 2 x 2 pixels has their four corners. Along a row of pixels it returns on itself, and its two ends have
+// no normal: 4 x 1 pixels leave two points on either side, 1 x 5 leave three.
 TEST(FindBrightBlobs, FourPixelsHaveAContourToo) {
   for (const Eigen::Vector2i& size : {Eigen::Vector2i(2, 2), Eigen::Vector2i(4, 1), Eigen::Vector2i(1, 5)}) {
     Photo photo = Floor(60, 40);
@@ -236,9 +238,16 @@ TEST(FindBrightBlobs, FourPixelsHaveAContourToo) {
     const auto blobs = FindBrightBlobs(ToRelativeLuminance(photo, 0.1));
     ASSERT_EQ(blobs.size(), 1u) << size.transpose();
     EXPECT_EQ(blobs[0].area_px2, size.prod());
-    for (const Eigen::Vector2d& p : blobs[0].contour_px)
+    const std::vector<Eigen::Vector2d>& contour = blobs[0].contour_px;
+    ASSERT_GE(contour.size(), 4u) << size.transpose();
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+    for (const Eigen::Vector2d& p : contour) {
+      mean += p / static_cast<double>(contour.size());
       EXPECT_LT((p - blobs[0].center_px).cwiseAbs().maxCoeff(), 0.5 * size.maxCoeff() + 0.5)
           << size.transpose();
+    }
+    // Both sides have points: the blob is symmetric. A side alone would be half a pixel off.
+    EXPECT_LT((mean - blobs[0].center_px).norm(), 0.05) << size.transpose();
   }
 }
 

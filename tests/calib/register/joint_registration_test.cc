@@ -7,6 +7,7 @@
 
 #include "calib/register/registration.h"
 #include "tests/support/calib/feature_room.h"
+#include "tests/support/calib/position_sigmas.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
@@ -75,8 +76,8 @@ TEST(JointRegistrationTest, ViewsWithoutTagsComeInThroughFeatures) {
   for (std::size_t v = 0; v < 10; ++v) {
     EXPECT_EQ(both.views[v].tags_used == 0, v == 1 || v == 4 || v == 7);
     EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikely) << v;
-    EXPECT_LT(both.views[v].position_sigma_m.norm(), 0.01);
   }
+  support::ExpectPositionSigmasBelow(6.5, both);  // 4.3 mm: view 7, blind
 }
 
 // A wrong similarity, views that share one tag only, one that shows it so frontally that tags alone refuse
@@ -92,6 +93,8 @@ TEST(JointRegistrationTest, OneTagSharedByTwoViewsIsEnough) {
   ASSERT_EQ(both.views.size(), 10u);
   for (std::size_t v = 0; v < 10; ++v)
     EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikely) << v;
+  // 24 mm: one tag of 0.2 m turns a room of 6 m by 4.5 mrad.
+  support::ExpectPositionSigmasBelow(37, both);
 }
 
 // e^T C^-1 e has 6 degrees of freedom; views of one draw share the tags' errors, so one speaks for all. Over
@@ -139,6 +142,7 @@ TEST(JointRegistrationTest, OutliersAmongFeaturesDoNoHarm) {
   ASSERT_EQ(registration.views.size(), 8u) << registration.message;
   for (std::size_t v = 0; v < 8; ++v)
     EXPECT_LT(support::NormalisedError(registration.views[v], room.poses[v]), kLikely) << v;
+  support::ExpectPositionSigmasBelow(8.8, registration);  // 5.9 mm from the four fifths that are no outliers
 }
 
 // The model has one view in another place than its tags say: the tags are believed, and it is named.

@@ -1,6 +1,7 @@
 #include "calib/register/registration.h"
 #include "tests/support/calib/look_at.h"
 #include "tests/support/calib/office_camera.h"
+#include "tests/support/calib/position_sigmas.h"
 #include "tests/support/test_rng.h"
 
 #include <gmock/gmock.h>
@@ -247,6 +248,7 @@ TEST(RegistrationTest, ATagSeenTwiceIsLeftOutOfThatView) {
   EXPECT_EQ(registration.notes[0].view, "v0");
   EXPECT_EQ(registration.notes[0].tag_id, copy.id);
   EXPECT_LT(NormalisedError(registration.views[0], FourPoses()[0]), kLikely);
+  support::ExpectPositionSigmasBelow(6.4, registration);  // 4.3 mm: view 0, without its first tag
 }
 
 // A gross change is caught by the start, a small one (1 cm: a twentieth of the tag) by the adjustment.
@@ -265,6 +267,7 @@ TEST(RegistrationTest, MovedTagsAreNamedAndLeftOut) {
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_LT(NormalisedError(registration.views[i], FourPoses()[i]), kLikely) << moved_m;
     }
+    support::ExpectPositionSigmasBelow(4.8, registration);  // 3.2 mm by the five tags left
   }
 }
 
@@ -290,6 +293,7 @@ TEST(RegistrationTest, OneBadDetectionDoesNotBreakAView) {
   EXPECT_EQ(registration.views[2].corners_rejected, 4);
   EXPECT_EQ(registration.views[2].tags_used, static_cast<int>(detections[2].tags.size()) - 1);
   EXPECT_LT(NormalisedError(registration.views[2], FourPoses()[2]), kLikely);
+  support::ExpectPositionSigmasBelow(2.6, registration);  // 1.7 mm
 }
 
 TEST(RegistrationTest, TwoTagsThatContradictEachOtherAreNoPose) {
@@ -311,6 +315,8 @@ TEST(RegistrationTest, OneObliqueTagIsEnough) {
   ASSERT_TRUE(registration.IsUsable());
   ASSERT_EQ(registration.views.size(), 1u);
   EXPECT_LT(NormalisedError(registration.views[0], pose), kLikely);
+  // 0.77 mm; the reduced chi2 of two degrees of freedom exceeds 4, and doubles it, in one of 55 draws.
+  support::ExpectPositionSigmasBelow(1.6, registration);
 }
 
 // A far frontal tag: two tilts fit, or the one that fits is loose. Either way there is a note and no pose.

@@ -12,6 +12,7 @@
 #include "calib/register/internal/tag_surfaces.h"
 #include "calib/register/registration.h"
 #include "tests/support/calib/feature_room.h"
+#include "tests/support/calib/position_sigmas.h"
 #include "tests/support/calib/survey_draws.h"
 #include "tests/support/test_rng.h"
 
@@ -184,6 +185,7 @@ TEST(TagsOnSurfacesTest, ATagOnABoardLeavesTheWall) {
     EXPECT_EQ(laid.used, laid.candidates - 1) << laid.reason;
     EXPECT_THAT(laid.reason, HasSubstr("off theirs by more than 4 sigma: 1"));
     EXPECT_LT(Chi2(registration, room), kMostChi2);
+    support::ExpectPositionSigmasBelow(2.9, registration);  // 1.9 mm without the tag on the board
   }
 }
 
@@ -223,6 +225,8 @@ TEST(TagsOnSurfacesTest, AWallThatTheMeshHasWrongMovesNoCamera) {
                       support::DetectTagsInAll(room, Hung(room, rng), kNoise_px, rng), On(walls));
     ASSERT_EQ(registration.views.size(), room.poses.size()) << registration.message;
     EXPECT_LT(Chi2(registration, room), kMostChi2) << registration.tags_on_surfaces.reason;
+    // 2.1 mm where the two tags leave their wall, 6.1 mm by the survey alone.
+    support::ExpectPositionSigmasBelow(registration.tags_on_surfaces.used > 0 ? 3.2 : 9.2, registration);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "calib/register/registration.h"
 #include "tests/support/calib/feature_room.h"
+#include "tests/support/calib/position_sigmas.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
@@ -112,6 +113,7 @@ TEST(UnsurveyedTagsTest, FeaturesConnectViewsThatShareNoTag) {
   ASSERT_EQ(both.views.size(), 10u) << both.message;
   EXPECT_LT(alone.placed_tags.size(), both.placed_tags.size());
   ExpectTheTruth(both, InFrameOf(room, both));
+  support::ExpectPositionSigmasBelow(6.8, both);  // 4.5 mm
 }
 
 TEST(UnsurveyedTagsTest, WhatDoesNotConnectIsNamed) {

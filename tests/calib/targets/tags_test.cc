@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -55,6 +56,8 @@ TEST(TagsTest, DetectsRenderedTagsWhereTheyAre) {
     EXPECT_EQ(found[0].id, 0);
     EXPECT_NEAR(found[0].side_px, 50, 0.6);  // 0.3 px at either end
     EXPECT_GT(found[0].decision_margin, 20);
+    // 0.35 px by the display's curve and 0.05 px at 50 px a side, in quadrature.
+    EXPECT_NEAR(found[0].corner_sigma_px, std::hypot(0.35, 0.05), 0.005);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const Eigen::Vector2d error =
           found[0].corners_px[corner] - Project(camera, TagCornersInWorld(tag)[corner]);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 
@@ -115,10 +116,15 @@ class Dimmed : public testing::Test {
 TEST_F(Dimmed, DimmingIsFoundAndOffIsOff) {
   const CurrentDimming current = EstimateDimming(light_, Measure({0.3, 0, 1}, 0, 0.01));
   ASSERT_TRUE(current.is_determined);
-  EXPECT_NEAR(current.dimming[0], 0.3, 4 * std::sqrt(current.covariance(0, 0)));
-  EXPECT_NEAR(current.dimming[1], 0, 4 * std::sqrt(current.covariance(1, 1)));
-  EXPECT_NEAR(current.dimming[2], 1, 4 * std::sqrt(current.covariance(2, 2)));
-  EXPECT_LT(std::sqrt(current.covariance(0, 0)), 0.02);
+  // The normal equations of 400 elements of 1.4 % (noise and the least error of the model), of which 25 count as one,
+  // give 0.0043, 0.0025 and 0.0061. The limits are 1.5 times that.
+  const Eigen::Vector3d truth(0.3, 0, 1), most_sigma(0.0065, 0.0038, 0.0092);
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double sigma = std::sqrt(current.covariance(k, k));
+    std::printf("luminaire %d: dimming %.4f, sigma %.4f\n", static_cast<int>(k), current.dimming[k], sigma);
+    EXPECT_NEAR(current.dimming[k], truth[k], 4 * sigma) << k;
+    EXPECT_LT(sigma, most_sigma[k]) << k;
+  }
   EXPECT_LT(current.unexplained_share, 0.02);
 }
 

@@ -139,10 +139,12 @@ TEST_F(WrongEyes, TheLightTellsThePlacesWhereErrorsOfPosesAreKnown) {
   ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.message;
   for (size_t k = 0; k < places_.size(); ++k) {
     const Eigen::Vector3d error = ErrorOf(fit, k), sigma = SigmasOf(fit, static_cast<int>(k));
-    std::printf("%zu: off by %.2f mm with errors of poses, sigma %.2f mm; by %.2f mm without\n", k,
-                1000 * error.norm(), 1000 * sigma.norm(), 1000 * ErrorOf(held, k).norm());
+    std::printf("%zu: off by %.2f mm with errors of poses, largest sigma %.2f mm; by %.2f mm without\n", k,
+                1000 * error.norm(), 1000 * sigma.maxCoeff(), 1000 * ErrorOf(held, k).norm());
     EXPECT_LT(error.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 3) << k;
-    EXPECT_LT(sigma.maxCoeff(), 0.5 * kCommonM) << k;  // the light, not the outlines
+    // The light, not the outlines: 348 elements of 0.36 % (noise and the least error of the model) leave 0.4 mm. The six
+    // facets may make that twice as much, and the limit is 1.5 times this.
+    EXPECT_LT(sigma.maxCoeff(), 1.2e-3) << k;
     EXPECT_LT(error.norm(), ErrorOf(held, k).norm() / 3) << k;
     // Outlines alone say that the luminaires moved with the eyes; the means of their own errors are 1 mm.
     EXPECT_LT((ErrorOf(held, k) - common_m_).norm(), 0.004) << k;

@@ -391,31 +391,5 @@ TEST_F(SmallRoom, IndicesOutOfRangeAreRefused) {
   EXPECT_THROW(LightModel(room_, wrong_element), std::invalid_argument);
 }
 
-TEST_F(SmallRoom, ALampHalfBehindTheScreenIsInPenumbra) {
-  // On the floor beyond the screen, seen past its edge: some elements see part of A, which is 0.2 m long.
-  LightModel model(room_, data_);
-  model.FreezeVisibility(state_);
-  const std::vector<bool> penumbra = model.InPenumbra();
-  ASSERT_EQ(penumbra.size(), data_.observations.size() + data_.readings.size());
-  // A reading is the mean over its own small head: no edge spoils it.
-  EXPECT_EQ(std::count(penumbra.begin() + FirstReadingRow(data_), penumbra.end(), true), 0);
-  const LuminaireVisibility visibility =
-      ComputeVisibility(room_, MakeReceivers(room_, {}, {}), state_.luminaires);
-  int mixed = 0;
-  for (size_t i = 0; i < data_.observations.size(); ++i) {
-    const Observation& o = data_.observations[i];
-    bool partly = false;
-    for (int k = 0; k < 2; ++k) {
-      const float share = visibility.elements(o.element, k);
-      partly =
-          partly || (data_.dimming[static_cast<size_t>(o.state)][k] > 0 && share > 0.001f && share < 0.999f);
-    }
-    EXPECT_EQ(penumbra[i], partly) << i;
-    mixed += partly;
-  }
-  EXPECT_GT(mixed, 0);
-  EXPECT_LT(mixed, static_cast<int>(penumbra.size()) / 2);
-}
-
 }  // namespace
 }  // namespace luxfit
