@@ -40,7 +40,7 @@ void AddRunOptions(const Added<Options>& added) {
       ->add_option(
           "--budget", added.options->budget_s,
           "seconds after which the fit ends with the best state so far, marked as stopped (exit 1); Ctrl-C "
-          "ends it likewise")
+          "and SIGTERM end it likewise")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
 }

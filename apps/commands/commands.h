@@ -21,7 +21,7 @@ struct SessionCommandOptions {
   bool json = false;         // print the result as JSON on standard output
 };
 
-constexpr double kFitBudgetS = 600;
+constexpr double kFitBudgetS = 120;
 
 struct RunCommandOptions : SessionCommandOptions {
   bool dry_run = false;            // tell what would run and why

@@ -1,4 +1,4 @@
-// Says when a fit has to end with what it has: its budget is spent, or Ctrl-C was pressed.
+// Says when a fit has to end with what it has: its budget is spent, or Ctrl-C or SIGTERM came.
 #ifndef LUXFIT_APPS_STAGES_FIT_STOP_H_
 #define LUXFIT_APPS_STAGES_FIT_STOP_H_
 

@@ -149,7 +149,24 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   return luminaires;
 }
 
-void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit, json& result) {
+void WarnOfContradiction(const std::vector<CheckedReading>& checked, RunContext& context) {
+  if (!ContradictTheFit(checked)) return;
+  context.undetermined = true;
+  context.warnings.push_back(
+      {"readings_contradict",
+       fmt::format(
+           "the {} readings that check differ from their predictions by {:.1f} % in the mean, of which the "
+           "meter's own error explains {:.1f} %: the numbers of this result are in doubt, beyond their "
+           "sigmas",
+           checked.size(), SummarizeLuxmeter(checked).mean_abs_error_percent,
+           ExplainedByTheMeterPercent(checked)),
+       "see which readings differ (luxfit check), and compare the mesh, [states] and the scale reading with "
+       "the "
+       "room"});
+}
+
+void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit, RunContext& context,
+                 json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
@@ -177,6 +194,7 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
     result["luxmeter"].push_back(entry);
     if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
   }
+  WarnOfContradiction(checked, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);
   for (const char* part : {"luxmeter", "summary", "check"}) AddFormerKeys(result[part]);
@@ -230,10 +248,11 @@ json WarningsJson(const RunContext& context) {
 
 json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings, const Room& room,
                 const RegisteredSession& registered, const RoomFit& fit,
-                const std::vector<LuminaireFiles>& files, const RunContext& context) {
+                const std::vector<LuminaireFiles>& files, RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
   result["session_file"] = session.path;
+  AddLuxmeter(readings, fit, context, result);
   result["status"] = context.undetermined ? "undetermined" : "done";
   if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
   result["views"] = ViewsJson(session, registered.registration);
@@ -244,7 +263,6 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
   result["luminaire_bodies"] = ToString(fit.fit.state.bodies);
-  AddLuxmeter(readings, fit, result);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);

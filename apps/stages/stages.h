@@ -159,10 +159,10 @@ struct LuminaireFiles {
 };
 
 // Return OUT/result.json and the tables for the terminal. `registered` may be empty (no photos); `files` is
-// by luminaire.
+// by luminaire. ResultJson warns in `context` where the readings that check contradict the fit.
 nlohmann::json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings,
                           const Room& room, const RegisteredSession& registered, const RoomFit& fit,
-                          const std::vector<LuminaireFiles>& files, const RunContext& context);
+                          const std::vector<LuminaireFiles>& files, RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);
 std::string RegistrationTable(const nlohmann::json& artifact);

@@ -2,19 +2,22 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 
 namespace luxfit {
 namespace {
 
+constexpr std::array<int, 2> kWishes = {SIGINT, SIGTERM};
 std::atomic<bool> was_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may write it");
 
 void OnInterrupt(int /*signal*/) {
   const int error = errno;
   was_interrupted = true;
-  constexpr char kWords[] = "\nluxfit: stopping with the best state so far; Ctrl-C again ends at once\n";
+  constexpr char kWords[] =
+      "\nluxfit: stopping with the best state so far; the same signal again (Ctrl-C) ends at once\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kWords, sizeof(kWords) - 1);
   errno = error;
 }
@@ -27,11 +30,15 @@ InterruptListener::InterruptListener() {
   action.sa_handler = OnInterrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, nullptr, &before_);
-  if (before_.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
+  for (size_t i = 0; i < kWishes.size(); ++i) {
+    sigaction(kWishes[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kWishes[i], &action, nullptr);
+  }
 }
 
-InterruptListener::~InterruptListener() { sigaction(SIGINT, &before_, nullptr); }
+InterruptListener::~InterruptListener() {
+  for (size_t i = 0; i < kWishes.size(); ++i) sigaction(kWishes[i], &before_[i], nullptr);
+}
 
 bool InterruptListener::WasInterrupted() { return was_interrupted; }
 

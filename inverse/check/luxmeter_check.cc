@@ -134,6 +134,22 @@ LuxmeterSummary SummarizeLuxmeter(const std::vector<CheckedReading>& readings) {
   return summary;
 }
 
+double ExplainedByTheMeterPercent(const std::vector<CheckedReading>& readings) {
+  double sigma = 0, measured = 0;
+  for (const CheckedReading& r : readings) {
+    sigma += r.measured_sigma_lx;
+    measured += r.measured_lx;
+  }
+  constexpr double kMeanOverSigma = 0.7979;  // sqrt(2 / pi), of |N(0, 1)|
+  return measured > 0 ? 100 * kMeanOverSigma * sigma / measured : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool ContradictTheFit(const std::vector<CheckedReading>& readings) {
+  constexpr double kLargePercent = 5, kTimesExplained = 2;
+  return SummarizeLuxmeter(readings).mean_abs_error_percent >
+         std::max(kLargePercent, kTimesExplained * ExplainedByTheMeterPercent(readings));
+}
+
 double ZScore(const CheckedReading& reading) {
   const double sigma = std::hypot(reading.measured_sigma_lx, reading.predicted_sigma_lx);
   return sigma > 0 ? (reading.measured_lx - reading.predicted_lx) / sigma : 0;

@@ -10,6 +10,9 @@
 // share. The factor is beyond chance where it differs from 1 by more than 1.96 standard errors, with at least
 // three readings.
 //
+// The readings contradict the fit where their mean error is above 5 % and above twice the one that the meter explains,
+// E |N(0, sigma)| = 0.8 sigma. Whatever the sigmas of such a fit say, its numbers are in doubt.
+//
 // A reading disagrees where |z| exceeds a two-sided limit. One of n readings exceeds this limit by chance in
 // 5 % of cases (Bonferroni: 0.05 / n each). A common factor beyond chance is removed from z first. Where all
 // readings of one place disagree, the place is named; where most readings of one state disagree, the state is
@@ -41,6 +44,11 @@ struct LuxmeterSummary {
 };
 
 LuxmeterSummary SummarizeLuxmeter(const std::vector<CheckedReading>& readings);
+
+// Returns the mean |error| that the sigmas of the measured values explain, in percent of the mean measured value; NaN
+// without readings.
+double ExplainedByTheMeterPercent(const std::vector<CheckedReading>& readings);
+bool ContradictTheFit(const std::vector<CheckedReading>& readings);
 
 // Returns z; 0 where both sigmas are 0.
 double ZScore(const CheckedReading& reading);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "forward/luminaire/photometry.h"
@@ -157,7 +158,10 @@ class RoomFitter {
     }
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
-    for (const StartComparison& c : starts.comparisons) RecordStarts(given_, c, result_.findings);
+    for (const StartComparison& c : starts.comparisons) {
+      RecordStarts(given_, c, result_.findings);
+      if (!c.rivals.empty()) ambiguous_.insert(c.luminaire);
+    }
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
     state = WithNamesInOrder(given_, ChooseModels(data, starts.state));
@@ -193,7 +197,12 @@ class RoomFitter {
     typed.first_of_type = TypesBySwitching(data, state, open_);
     const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, start_.priors,
                                                      SeenPlacesOfTypes(given_.seen, data, typed));
-    for (const PlacesChoice& c : choice.places) RecordPlaces(given_, c, result_.findings);
+    for (const PlacesChoice& c : choice.places) {
+      RecordPlaces(given_, c, result_.findings);
+      if (!c.is_seen) continue;
+      for (const int k : c.luminaires) ambiguous_.erase(k);
+    }
+    result_.findings.undetermined |= !ambiguous_.empty();
     for (const LuminaireChoice& c : choice.choices) RecordChoice(given_, c, result_.findings);
     for (const AimChoice& c : choice.aims)
       RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
@@ -369,6 +378,8 @@ class RoomFitter {
   LightState best_;   // of all luminaires, so far
   bool is_scale_settled_ = false;
   std::vector<OpenChoice> open_;
+  std::set<int>
+      ambiguous_;  // luminaires of several places that explain the light equally, and no photo tells
   bool is_textured_ = false;          // elements depart from their materials
   TakenRows taken_;                   // elements of the last fit
   std::vector<HeldDirections> held_;  // by luminaire, before aims and headings were chosen

@@ -60,7 +60,7 @@ struct FitRoomOptions {
   // Called after each round of a fit of all luminaires. Empty: no calls.
   std::function<void(const FitRound&)> on_round;
   // Asked before each round, from any thread, once there is a first guess: a text ends the fit with the best state
-  // so far and says why ("its budget of 600 s is spent"). Empty: the fit runs to its end.
+  // so far and says why ("its budget of 120 s is spent"). Empty: the fit runs to its end.
   std::function<std::string()> stop_reason;
 };
 

@@ -277,6 +277,7 @@ void RecordOutcome(const RoomObservations& given, const RoomFit& result, Finding
     findings.choices.push_back(
         {"number of luminaires", std::to_string(given.luminaires.size()), {}, "given by the session"});
   if (fit.status == FitStatus::kNotConverged && !result.stopped) {
+    findings.undetermined = true;
     findings.warnings.push_back(
         {"not_converged", fit.message,
          "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});

@@ -62,7 +62,7 @@ TEST(FitStop, SaysWhichLimitWasReached) {
   EXPECT_EQ(spent.Reason(), "its budget of 1e-09 s is spent");
   EXPECT_EQ(spent.LeftS(), 0);
   raise(SIGINT);
-  EXPECT_EQ(spent.Reason(), "it was interrupted (Ctrl-C)");
+  EXPECT_EQ(spent.Reason(), "it was interrupted (Ctrl-C or SIGTERM)");
 }
 
 TEST(FitStop, ASpentBudgetLeavesAMarkedResultThatTheNextRunTakesUp) {
@@ -99,7 +99,7 @@ TEST(FitStop, CtrlCEndsWithTheBestStateSoFar) {
   ASSERT_TRUE(WIFEXITED(status)) << folder.Read("words");
   EXPECT_EQ(WEXITSTATUS(status), 1) << folder.Read("words");
   const json result = json::parse(folder.Read("out/result.json"));
-  EXPECT_EQ(result["stopped"]["reason"], "it was interrupted (Ctrl-C)");
+  EXPECT_EQ(result["stopped"]["reason"], "it was interrupted (Ctrl-C or SIGTERM)");
   EXPECT_EQ(result["stopped"]["step"], "refine");
   EXPECT_TRUE(WarnsOfStop(result));
   EXPECT_LT(WorstPositionError(result), 0.02) << "the models were chosen before";

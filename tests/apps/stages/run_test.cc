@@ -305,11 +305,11 @@ TEST_F(AllOnRun, CountsTheLuminairesAndFindsThem) {
   ASSERT_EQ(result["luminaires"].size(), 4u);
   const TruthComparison comparison = CompareWithTruth(result, Read(office_ / "truth.json"));
   EXPECT_EQ(comparison.luminaires_missing, 0);
-  // 1.5 times what docs/accuracy.md states of this session ("all on only, number unknown"): 4.4 mm, 0.83 %, 0.0054.
+  // 1.5 times what docs/accuracy.md states of this session ("all on only, number unknown"): 8.8 mm, 1.08 %, 0.0055.
   std::printf("all on: worst position %.2f mm, flux %.2f %%, reflectance %.4f\n",
               comparison.worst_position_mm, comparison.worst_flux_percent, comparison.worst_albedo);
-  EXPECT_LT(comparison.worst_position_mm, 6.6);
-  EXPECT_LT(comparison.worst_flux_percent, 1.25);
+  EXPECT_LT(comparison.worst_position_mm, 13);
+  EXPECT_LT(comparison.worst_flux_percent, 1.6);
   EXPECT_LT(comparison.worst_albedo, 0.0081);
 }
 

@@ -6,16 +6,18 @@ namespace luxfit {
 namespace {
 
 TEST(InterruptTest, TheFirstIsAWishAndTheSecondEndsTheProgram) {
-  ASSERT_EXIT(
-      {
-        const InterruptListener listener;
-        if (InterruptListener::WasInterrupted()) _exit(1);
-        raise(SIGINT);
-        if (!InterruptListener::WasInterrupted()) _exit(2);
-        raise(SIGINT);
-        _exit(3);
-      },
-      testing::KilledBySignal(SIGINT), "Ctrl-C again ends at once");
+  for (const int wish : {SIGINT, SIGTERM}) {
+    ASSERT_EXIT(
+        {
+          const InterruptListener listener;
+          if (InterruptListener::WasInterrupted()) _exit(1);
+          raise(wish);
+          if (!InterruptListener::WasInterrupted()) _exit(2);
+          raise(wish);
+          _exit(3);
+        },
+        testing::KilledBySignal(wish), "the same signal again");
+  }
 }
 
 TEST(InterruptTest, ListensOnlyWhileItLives) {

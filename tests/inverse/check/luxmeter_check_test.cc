@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace luxfit {
 namespace {
@@ -35,6 +36,21 @@ TEST(SummarizeLuxmeter, AReadingOfNothingHasNoPercentOfItsOwn) {
   EXPECT_NEAR(summary.max_abs_error_percent, 1, 1e-12);   // double rounding
   EXPECT_NEAR(summary.mean_abs_error_percent, 4, 1e-12);  // 2 of 50 lx
   EXPECT_EQ(SummarizeLuxmeter({Checked(0, 3)}).mean_abs_error_percent, 0);
+}
+
+// Predictions that are 8 % too large, in turn for meters of 2, 4 and 6 %: these explain 1.6, 3.2 and 4.8 % in the mean.
+TEST(ContradictTheFit, WhereTheMeterExplainsLessThanHalf) {
+  for (const double sigma : {0.02, 0.04, 0.06}) {
+    const std::vector<CheckedReading> readings = {{100, 108, 100 * sigma, 0}, {300, 324, 300 * sigma, 0}};
+    EXPECT_NEAR(ExplainedByTheMeterPercent(readings), 100 * sigma * std::sqrt(2 / M_PI), 1e-2);
+    EXPECT_EQ(ContradictTheFit(readings), sigma < 0.05) << sigma;
+  }
+}
+
+TEST(ContradictTheFit, SmallErrorsAndNoReadingsDoNot) {
+  EXPECT_FALSE(ContradictTheFit({{100, 104.9, 0.1, 0}}));
+  EXPECT_TRUE(ContradictTheFit({{100, 105.1, 0.1, 0}}));
+  EXPECT_FALSE(ContradictTheFit({}));
 }
 
 TEST(ZScore, AddsTheSigmasInSquares) {
