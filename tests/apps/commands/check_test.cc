@@ -117,8 +117,12 @@ TEST_F(Check, OneWrongReadingIsNamedWithARemedy) {
   EXPECT_THAT(text, Not(HasSubstr("L3 in state A")));
 }
 
+// The readings contradict the fit as a whole, so that its exit status is not 0.
 TEST_F(Check, ACommonErrorIsAScale) {
-  ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.2; }), 0);
+  ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.2; }), 1);
+  const json result = json::parse(folder_.Read("out/result.json"));
+  EXPECT_EQ(result["status"], "undetermined");
+  EXPECT_THAT(result["warnings"].dump(), HasSubstr("readings_contradict"));
   const std::string text = Run().output;
   EXPECT_THAT(text, HasSubstr("all readings are off alike: 20."));
   EXPECT_THAT(text, HasSubstr("the absolute scale is off"));
