@@ -73,8 +73,8 @@ TEST_F(OfficeRun, FindsEveryLuminaire) {
   EXPECT_EQ(comparison_.luminaires_missing, 0);
   std::printf("worst position %.2f mm, worst flux %.2f %%\n", comparison_.worst_position_mm,
               comparison_.worst_flux_percent);
-  EXPECT_LE(comparison_.worst_position_mm, 3.5);    // 2.3 mm
-  EXPECT_LE(comparison_.worst_flux_percent, 1.55);  // 1.03 %
+  EXPECT_LE(comparison_.worst_position_mm, 3.5);    // 2.4 mm
+  EXPECT_LE(comparison_.worst_flux_percent, 1.55);  // 1.05 %
 }
 
 // The photos show all four, and washed-out tags and walls; where a fit starts is said.
@@ -168,7 +168,7 @@ TEST_F(OfficeRun, StatedErrorsHoldTogether) {
   }
 }
 
-// The scale reading's 2 % cancels in a ratio. The errors of ratios reach 0.70 % (README.md); no sigma is above 1.5 times
+// The scale reading's 2 % cancels in a ratio. The errors of ratios reach 0.72 % (README.md); no sigma is above 1.5 times
 // that.
 TEST_F(OfficeRun, RatiosOfFluxesAreWithinTheirSigmas) {
   const support::StatedErrors errors = support::ErrorsOf(Read(Out() + "/stages/fit.json"), Truth());
