@@ -20,11 +20,11 @@ luxfit_test(calib/targets board_detect_test LINK luxfit::calib opencv_core openc
 luxfit_test(calib/targets real_boards_test LINK luxfit::calib)
 luxfit_test(calib/register reprojection_cost_test LINK luxfit::calib Ceres::ceres)
 luxfit_test(calib/register registration_test LINK luxfit::calib)
-luxfit_test(calib/register registration_faults_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/register registration_faults_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register unsurveyed_tags_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register mesh_alignment_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register focal_length_test LINK luxfit::calib opencv_core opencv_calib3d)
-luxfit_test(calib/register survey_accuracy_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/register survey_accuracy_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register tags_on_surfaces_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/register joint_registration_test LINK luxfit::calib opencv_core opencv_calib3d)
 
