@@ -22,6 +22,7 @@ Eigen::Index ColumnOf(const LuminaireFit& fit, int luminaire) {
 Eigen::VectorXd VariancesAboutMean(const LuminaireFit& fit, const std::vector<int>& luminaires) {
   const auto n = static_cast<Eigen::Index>(luminaires.size());
   std::vector<Eigen::Index> columns;
+  columns.reserve(luminaires.size());
   for (const int k : luminaires) columns.push_back(ColumnOf(fit, k));
   if (fit.covariance.size() == 0) return Eigen::VectorXd::Zero(n);
   const Eigen::MatrixXd contrast =
