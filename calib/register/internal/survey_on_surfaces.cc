@@ -101,7 +101,7 @@ std::string WhyNot(int off, const SurfaceScale& scale, const SurveyAttempt& with
 
 // Says why they can.
 std::string Why(const TagsOnSurfaces& laid, double given_sigma_m) {
-  const std::string agree =
+  std::string agree =
       fmt::format("the tags' distances from their surfaces agree with {:.2g} mm (chi-square test, 99 %)",
                   1000 * given_sigma_m);
   if (laid.used == laid.candidates) return agree;
