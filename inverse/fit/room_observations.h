@@ -66,7 +66,7 @@ struct RoomObservations {
   std::vector<Observation> observations;  // all views (inverse/observe/observe.h)
   std::vector<SeenPlace> seen;            // where luminaires show in photos
   std::vector<SeenOutline> outlines;      // how they show there
-  // Of the views that SeenOutline::view numbers, 6 rows and columns each: rotation vector in world axes (rad), camera
+  // Covers the views that SeenOutline::view numbers, 6 rows and columns each: rotation vector in world axes (rad), camera
   // centre in world (m) (calib/register/registration.h). Empty: poses are exact.
   Eigen::MatrixXd pose_covariance;
   Meter meter;

@@ -107,7 +107,7 @@ struct LuminaireFit {
   std::vector<ParameterId> at_bound;           // parameters that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
-  // What the last equations aimed at, and their root weights (inverse/model/internal/row_weights.h).
+  // Hold the target of the last equations, and their root weights (inverse/model/internal/row_weights.h).
   Eigen::VectorXd target, root_weight;
   // Departure of the row's element from its material's reflectance, relative, and the sigma it was allowed; 0
   // where there is none (inverse/model/internal/element_texture.h).

@@ -90,7 +90,7 @@ constexpr double kLeastCosinePower = 0.2, kGreatestCosinePower = 500;
 struct LightState {
   std::vector<Luminaire> luminaires;
   std::vector<FreeQuantities> free;  // one for each luminaire
-  // Of each luminaire the first of its type. Luminaires of a type are alike but for place and flux: the first
+  // Names, by luminaire, the first of its type. Luminaires of a type are alike but for place and flux: the first
   // one's parameters of distribution, size, emission and direction are those of all. Empty: each its own type.
   std::vector<int> first_of_type = {};
   Eigen::VectorXd albedo;  // by material

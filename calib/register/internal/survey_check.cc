@@ -127,7 +127,7 @@ SurveyVerdict CheckSurvey(const SurveyEvidence& evidence, const RegisterViewsOpt
   if (!accuracy.is_refused && LeaveOutMovedTag(accuracy, verdict)) return verdict;
   const SurveyVerdict as_given = verdict;
   SettleSurveySigma(options.survey_sigma_m, verdict);
-  // What no sigma mends is no matter of accuracy.
+  // A survey that no sigma makes consistent has another fault than its accuracy.
   const Accuracy settled = AccuracyOf(verdict.evidence, verdict.options, verdict.attempt);
   // A survey that was refused for another fault must be mended wholly, by a tape's error.
   constexpr double kTapeSigma_m = 0.03;

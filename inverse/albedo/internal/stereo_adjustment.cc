@@ -151,7 +151,7 @@ std::vector<Eigen::Matrix3d> StereoCovariance(const StereoProblem& problem,
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(shared.count(), shared.count());
   if (shared.count() > 0) {
     const StereoEquations equations = ReducedEquations(problem, weight, state);
-    // What is held has no sigma: the albedo is known up to that factor.
+    // Held directions have no sigma: the albedo is known up to that factor.
     const Eigen::MatrixXd determined =
         Eigen::MatrixXd::Identity(shared.count(), shared.count()) - shared.held() * shared.held().transpose();
     const Eigen::MatrixXd inverse =

@@ -1,7 +1,7 @@
 // Maps each parameter of a fit to columns of the light's derivatives.
 //
-// What a row's light adds up anyway is added up before it is reflected: luminaires that are dimmed in one proportion
-// (inverse/model/internal/dimming_groups.h), and a number that luminaires of one type share. Twenty panels in four
+// The light of luminaires that are dimmed in one proportion (inverse/model/internal/dimming_groups.h), or that share a
+// number of their type, is added up before it is reflected: a row sees their sum alone. Twenty panels in four
 // rows need the columns of four luminaires for each reflectance and for each number of their type. A column holds
 // lx at the group's full dimming.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_DERIVATIVE_COLUMNS_H_

@@ -18,7 +18,7 @@ struct VisibleModes {
   Eigen::VectorXd squares;   // z^2
 };
 
-// What the residuals hold besides t: their number without parameters, and their sum of squares.
+// Holds the residuals without the part of t: their number without parameters, and their sum of squares.
 struct FreeRows {
   double count = 0, squares = 0;
 };

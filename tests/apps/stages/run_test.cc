@@ -191,11 +191,11 @@ TEST_F(OfficeRun, RatiosOfFluxesAreWithinTheirSigmas) {
   EXPECT_LT(largest_sigma, 0.0105);
 }
 
-// What all luminaires share along an axis, such as an error of the cameras' frame, hides among their own errors but not in
-// their mean. One of three means exceeds 2.4 standard errors by chance in 5 of 100 rooms. The standard error follows from
-// the joint covariance. It holds errors of the cameras only where registration doubts the survey (PoseErrorsOf in
-// apps/stages/stages.h); otherwise only their share in the residuals of facets and outlines. Errors that are independent
-// leave half of the largest sigma, 2.2 mm; the limit is 1.5 times that.
+// An error that all luminaires share along an axis, such as one of the cameras' frame, shows in the mean of their errors. One of
+// three means exceeds 2.4 standard errors by chance in 5 of 100 rooms. The standard error follows from the joint covariance. It holds
+// errors of the cameras only where registration doubts the survey (PoseErrorsOf in apps/stages/stages.h); otherwise only their
+// share in the residuals of facets and outlines. Errors that are independent leave half of the largest sigma, 2.2 mm; the limit is
+// 1.5 times that.
 TEST_F(OfficeRun, LuminairesDoNotErrToOneSide) {
   const support::StatedErrors errors = support::ErrorsOf(Read(Out() + "/stages/fit.json"), Truth());
   for (const char axis : {'x', 'y', 'z'}) {
