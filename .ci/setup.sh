@@ -1,9 +1,10 @@
 #!/bin/sh
-# Installs what is missing of a list of Debian packages (default: what building and testing luxfit needs).
+# Installs what is missing of a list of Debian packages. Default: those that building the program takes (packages.txt), and those
+# of its tests, its documentation, its Python module and its Debian packages (packages_development.txt).
 #   .ci/setup.sh [PACKAGE ...]
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-[ $# -gt 0 ] || set -- $(cat "$root/.ci/packages.txt")
+[ $# -gt 0 ] || set -- $(cat "$root/.ci/packages.txt" "$root/.ci/packages_development.txt")
 missing=
 for package in "$@"; do
   dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"

@@ -5,7 +5,8 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 out=$(realpath -m "${1:-$root/out/office}")
 cd "$root"
-.ci/setup.sh
+# shellcheck disable=SC2046
+.ci/setup.sh $(cat .ci/packages.txt)
 cmake --preset package >/dev/null
 cmake --build build/package --target luxfit
 build/package/apps/luxfit demo -o "$out"

@@ -66,5 +66,6 @@ luxfit_test(inverse/fit from_photos_test LINK luxfit_apps nlohmann_json::nlohman
 luxfit_test(inverse/fit indirect_albedo_test SLOW LINK luxfit::inverse)
 luxfit_test(inverse/fit luminaire_shapes_test SLOW WHOLE LINK luxfit::inverse)
 luxfit_test(inverse/fit name_in_order_test LINK luxfit::inverse)
+luxfit_test(inverse/fit ambiguous_place_test LINK luxfit::inverse)
 luxfit_test(inverse/fit textured_room_test SLOW WHOLE LINK luxfit::inverse)
 luxfit_test(inverse/fit type_fluxes_test LINK luxfit::inverse)

@@ -34,7 +34,7 @@ void AddSimulate(CLI::App& app, Invocation& invocation) {
     options->command_line = invocation.command_line;
     invocation.run = [options] { return SimulateCommand(*options); };
   });
-  AddExample(*command, "luxfit simulate spots/session.toml -o out",
+  AddExample(*command, "luxfit simulate fixtures/forward_reference/spots/session.toml -o out",
              "session spots: simulated\n"
              "\n"
              "reading      state               lx      direct    indirect  measured lx  error %\n"
@@ -116,14 +116,15 @@ void AddChart(CLI::App& app, Invocation& invocation) {
     options->threads = invocation.threads;
     invocation.run = [options] { return ChartCommand(*options); };
   });
-  AddExample(*command, "luxfit chart spots/session.toml -o out --budget 4",
+  AddExample(*command, "luxfit chart fixtures/forward_reference/spots/session.toml -o out --budget 4",
              "session spots: 21 points, 153 skipped; reference ± 0.69 %\n"
              "\n"
              "on the front:\n"
              "method               rays patch m element m bounces solver                 time s   error %\n"
              "malley_stratified      32     0.8       0.2 ...\n"
              "...\n"
-             "$ luxfit chart spots/session.toml -o again --budget 4 --before out --before-name yesterday\n"
+             "$ luxfit chart fixtures/forward_reference/spots/session.toml -o again --budget 4 --before out "
+             "--before-name yesterday\n"
              "...\n"
              "done      again/chart.svg");
 }

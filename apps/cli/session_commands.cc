@@ -69,12 +69,11 @@ void AddRun(CLI::App& app, Invocation& invocation) {
   const auto fit = AddSessionCommand(
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
   AddLuminairesOption(fit);
-  AddExample(*fit.command, "luxfit fit chamber/session.toml -o out",
-             "session chamber BlackFelt: done\n"
+  AddExample(*fit.command, "luxfit fit office/session.toml -o out",
+             "session office: done\n"
+             "8 views registered, reprojection RMS 0.031 px\n"
              "\n"
              "luminaire  position m (x, y, z), 1 sigma mm             flux lm           distribution\n"
-             "LED         0.560  0.596  0.085  ± 1.2 2.1 7.5              528 ± 97          table rectangle "
-             "0.86 x 0.75 m\n"
              "...");
 }
 
@@ -82,7 +81,8 @@ void AddCalibrate(CLI::App& app, Invocation& invocation) {
   const auto calibrate = AddSessionCommand(
       app, invocation, "calibrate",
       "intrinsics of cameras and rigs, from images of a board or of the room's tags", CalibrateCommand);
-  AddExample(*calibrate.command, "luxfit calibrate rig/session.toml -o out",
+  AddExample(*calibrate.command,
+             "luxfit calibrate mine/session.toml -o out   # a session whose cameras name images of a board",
              "session stereo: done\n"
              "13 images, opencv4: RMS per axis 0.120 px, held out 0.120 px, 0.1 % outliers\n"
              "  left     f 534.03 534.16 px (± 0.43), c 341.60 234.28; direction uncertain by 0.12 px in the "

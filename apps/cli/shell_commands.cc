@@ -1,6 +1,7 @@
 #include "apps/cli/shell_commands.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -45,6 +46,19 @@ int Manual(const CLI::App& app, const std::string& name, const std::string& fold
   throw std::runtime_error("man: COMMAND: " + ExpectedOneOf(known, name));
 }
 
+int Help(const CLI::App& app, const std::string& name) {
+  if (name.empty()) {
+    Print(app.help());
+    return 0;
+  }
+  std::vector<std::string> known;
+  for (const CLI::App* const command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw std::runtime_error("help: COMMAND: " + ExpectedOneOf(known, name));
+  Print(app.get_subcommand(name)->help());
+  return 0;
+}
+
 }  // namespace
 
 void AddShellCommands(CLI::App& app, Invocation& invocation) {
@@ -65,6 +79,12 @@ void AddShellCommands(CLI::App& app, Invocation& invocation) {
   });
   AddExample(*man, "luxfit man fit | man -l -",
              "LUXFIT-FIT(1)                    luxfit                   LUXFIT-FIT(1)\n...");
+
+  CLI::App* const help = app.add_subcommand("help", "what --help says of luxfit or of a command");
+  const auto of = std::make_shared<std::string>();
+  help->add_option("COMMAND", *of, "the command to describe (default: luxfit itself)");
+  help->final_callback([&app, &invocation, of] { invocation.run = [&app, of] { return Help(app, *of); }; });
+  AddExample(*help, "luxfit help run", "");
 }
 
 }  // namespace luxfit

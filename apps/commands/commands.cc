@@ -13,7 +13,6 @@
 #include "apps/stages/check_report.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/stages.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/terminal.h"
 
@@ -35,9 +34,9 @@ int ChartStability(const ChartCommandOptions& options, const Session& session) {
   StabilityOptions stability = options.stability_options;
   stability.before = options.before;
   const nlohmann::json artifact = StabilityOfSession(session, stability, context);
-  PrintText(options.json ? artifact.dump(2) + "\n" : StabilityTable(artifact));
+  PrintText(options.json ? JsonText(artifact) : StabilityTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/stability.csv").c_str());
-  return context.undetermined ? 1 : 0;
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 int ChartWholeFit(const ChartCommandOptions& options, const Session& session) {
@@ -45,7 +44,7 @@ int ChartWholeFit(const ChartCommandOptions& options, const Session& session) {
   const nlohmann::json artifact = FitChartOfSession(
       session, {options.stability_options.elements, options.stability_options.truth_path, options.before},
       context);
-  PrintText(options.json ? artifact.dump(2) + "\n" : FitChartTable(artifact));
+  PrintText(options.json ? JsonText(artifact) : FitChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/fit.csv").c_str());
   return 0;
 }
@@ -77,19 +76,19 @@ int AlbedoCommand(const AlbedoCommandOptions& options) {
   }
   result["timing_s"] = context.timing_s;
   WriteJson(context.out + "/result.json", result);
-  PrintText(options.json ? result.dump(2) + "\n" : StereoTable(result));
+  PrintText(options.json ? JsonText(result) : StereoTable(result));
   std::fprintf(stderr, "done      %.1f s, %s\n", context.timing_s["total"],
                (context.out + "/result.json").c_str());
-  return context.undetermined ? 1 : 0;
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 int SimulateCommand(const SimulateCommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = SimulateSession(session, options.error_percent, context);
-  PrintText(options.json ? artifact.dump(2) + "\n" : SimulationTable(artifact));
+  PrintText(options.json ? JsonText(artifact) : SimulationTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/illuminance.csv").c_str());
-  return 0;
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 int ChartCommand(const ChartCommandOptions& options) {
@@ -100,7 +99,7 @@ int ChartCommand(const ChartCommandOptions& options) {
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = ChartSession(
       session, {options.error_percent, options.budget_s, options.threads, options.before}, context);
-  PrintText(options.json ? artifact.dump(2) + "\n" : ChartTable(artifact));
+  PrintText(options.json ? JsonText(artifact) : ChartTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/chart.svg").c_str());
   return 0;
 }
@@ -112,8 +111,7 @@ int LinearizeCommand(const SessionCommandOptions& options) {
     throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
   LinearizeSession(session, context);
   const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
-  PrintText(options.json ? artifact.dump(2) + "\n"
-                         : LinearizeTable(session, artifact) + WarningText(artifact));
+  PrintText(options.json ? JsonText(artifact) : LinearizeTable(session, artifact) + WarningText(artifact));
   return 0;
 }
 
@@ -121,9 +119,9 @@ int CalibrateCommand(const SessionCommandOptions& options) {
   const Session session = ReadRoomSession(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = CalibrateSession(session, context);
-  PrintText(options.json ? artifact.dump(2) + "\n" : CalibrationTable(artifact));
+  PrintText(options.json ? JsonText(artifact) : CalibrationTable(artifact));
   std::fprintf(stderr, "done      %s\n", (context.out + "/stages/calibrate.json").c_str());
-  return context.undetermined ? 1 : 0;
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 int RegisterCommand(const SessionCommandOptions& options) {
@@ -135,26 +133,20 @@ int RegisterCommand(const SessionCommandOptions& options) {
   RegisterKept(session, linearized.photos, inputs, context);
   nlohmann::json result = ReadJson(context.out + "/stages/register.json");
   if (options.json) {
-    PrintText(result.dump(2) + "\n");
-    return context.undetermined ? 1 : 0;
+    PrintText(JsonText(result));
+    return context.IsUndetermined() ? 1 : 0;
   }
-  nlohmann::json warnings;
-  warnings["warnings"] = nlohmann::json::array();
-  for (const Warning& w : context.warnings)
-    warnings["warnings"].push_back({{"message", w.message}, {"remedy", w.remedy}});
-  PrintText(RegistrationTable(result) + WarningText(warnings));
-  return context.undetermined ? 1 : 0;
+  result["warnings"] = WarningsJson(context);
+  AddStatus(context, result);
+  PrintText(RegistrationTable(result) + WarningText(result));
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 int CheckCommand(const CheckCommandOptions& options) {
   const nlohmann::json result = ReadResult(options.out + "/result.json");
-  nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
-  AddFormerKeys(check);
+  const nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
   if (options.json) {
-    PrintText(
-        nlohmann::json{{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}
-            .dump(2) +
-        "\n");
+    PrintText(JsonText({{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}));
   } else {
     PrintText(LuxmeterTable(result) + CheckText(check));
   }

@@ -11,7 +11,7 @@
 
 #include "apps/commands/internal/examine_session.h"
 #include "apps/session/session.h"
-#include "apps/text/formats/former_keys.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/process.h"
 #include "apps/text/terminal.h"
 #include "apps/version.h"
@@ -70,8 +70,7 @@ int DoctorCommand(const DoctorCommandOptions& options) {
     nlohmann::json list = nlohmann::json::array();
     for (const DoctorFinding& f : findings)
       list.push_back({{"health", Name(f.health)}, {"what", f.what}, {"fix", f.remedy}});
-    AddFormerKeys(list);
-    text = nlohmann::json{{"findings", list}}.dump(2) + "\n";
+    text = JsonText(nlohmann::json{{"findings", list}});
   }
   PrintText(text);
   return is_bad ? 1 : 0;

@@ -154,7 +154,7 @@ int FormFactorsCommand(const FormFactorsCommandOptions& options) {
     WriteJson(options.file, whole);
   }
   if (options.json) {
-    fmt::print("{}\n", summary.dump(2));
+    fmt::print("{}", JsonText(summary));
     return 0;
   }
   fmt::print("{} patches, {}, {:.3g} M rays, {:.3g} s\n", computed.patches.patches.size(),

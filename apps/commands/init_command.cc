@@ -186,7 +186,7 @@ int InitCommand(const InitCommandOptions& options) {
   text += "check the lines that end in GUESS; then:\n";
   for (const std::string& item : to_do) text += "- " + item + "\n";
   if (options.json)
-    text = nlohmann::json{{"session", (folder / "session.toml").string()}, {"to_do", to_do}}.dump(2) + "\n";
+    text = JsonText(nlohmann::json{{"session", (folder / "session.toml").string()}, {"to_do", to_do}});
   PrintText(text);
   return 0;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "calib/targets/tags.h"
+
 namespace luxfit {
 namespace {
 
@@ -112,7 +114,7 @@ std::vector<PrintPage> TagSheets(const std::string& family, const std::vector<in
     const int place = static_cast<int>(i) % grid.prod();
     if (place == 0) {
       pages.push_back({size_mm, {}, {}, {}});
-      AddFoot(fmt::format("luxfit room tags: {}, black square {:g} mm (size_m = {:g})", family,
+      AddFoot(fmt::format("luxfit room tags: {}, {} {:g} mm (size_m = {:g})", family, TagSquareWords(family),
                           kMmPerM * size_m, size_m),
               pages.back());
     }

@@ -293,7 +293,7 @@ void BindFit(py::module_& module) {
       .def_property_readonly(
           "status",
           [](const FoundLight& f) {
-            return f.fit.IsUsable() && !f.fit.findings.undetermined ? "done" : "undetermined";
+            return f.fit.IsUsable() && !f.fit.findings.IsUndetermined() ? "done" : "undetermined";
           },
           "done, or undetermined (see warnings).")
       .def_property_readonly("warnings", &WarningList, "dicts of code, message, remedy.")

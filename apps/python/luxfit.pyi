@@ -382,6 +382,9 @@ class Result(_Fitted):
     def whole(self) -> dict[str, Any]:
         """All of result.json."""
     @property
+    def status_because(self) -> list[str]:
+        """The codes of the warnings that say what is undetermined; empty where nothing is."""
+    @property
     def status(self) -> str:
         """done, or undetermined (see warnings)."""
     @property

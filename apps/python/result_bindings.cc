@@ -95,7 +95,11 @@ void AddLists(ResultClass& result) {
       "whole", [](const Result& r) { return PythonFrom(r.whole); }, "All of result.json.");
   result.def_property_readonly(
       "status", [](const Result& r) { return r.whole.value("status", ""); },
-      "done, or undetermined (see warnings).");
+      "done, or undetermined (see status_because).");
+  result.def_property_readonly(
+      "status_because",
+      [](const Result& r) { return r.whole.value("status_because", std::vector<std::string>()); },
+      "The codes of the warnings that say what is undetermined; empty where nothing is.");
 }
 
 // Adds properties that are arrays, with one row for each entry of those lists.

@@ -123,7 +123,7 @@ json ReportLuminairesJson(const FittedRoom& fitted, const FitUncertainty& fit) {
     const GivenLuminaire given = ReadGivenLuminaire(fitted.session.luminaires[k]);
     if (given.file && given.file->luminaire_flux_lm > 0) {
       Luminaire stated = luminaire;
-      stated.flux_lm = given.file->luminaire_flux_lm;
+      stated.flux_lm = given.file->luminaire_flux_lm * TiltFactor(*given.file, luminaire.aim);
       entry["given"] = CurvesJson(stated);
       entry["given"]["flux_lm"] = stated.flux_lm;
       entry["given"]["file"] = fitted.session.luminaires[k].photometry;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/text/formats/artifact.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 
@@ -84,12 +83,11 @@ std::string RunFolderOf(const std::string& named) {
 }
 
 json ReadResult(const std::string& path) {
-  json result = ReadJson(path);
+  const json result = ReadJson(path);
   if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
     throw InputError({path, 0}, "format",
                      "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
                      "wrote");
-  AddPresentKeys(result);
   return result;
 }
 

@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/text/formats/text_file.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 
@@ -20,14 +19,6 @@ using Json = nlohmann::json;
 // or a wrong axis.
 constexpr double kUnitTolerance = 0.02;
 constexpr double kPerpendicularTolerance = 0.02;
-
-std::string ReadText(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw InputError({path}, "",
-                     "expected a tag map that can be read, got none; check the path and its rights");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 int LineOf(const std::string& text, size_t byte) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + std::min(byte, text.size()), '\n'));
@@ -124,10 +115,12 @@ SurveyedTag ReadEntry(const TagEntry& entry) {
     throw entry.Error("id",
                       "expected a whole number >= 0, got " + id.dump() + "; write the number of the tag");
   tag.id = id.get<int>();
-  tag.size_m = NumberMember(entry, "size_m", "the side of the black square in metres");
+  tag.size_m =
+      NumberMember(entry, "size_m",
+                   "the side of the tag's square in metres (black; of tagStandard41h12 the white one in it)");
   if (tag.size_m <= 0)
     throw entry.Error("size_m", "expected > 0, got " + Rounded(tag.size_m) +
-                                    "; write the side of the black square in metres");
+                                    "; write the side of the tag's square in metres");
   tag.center_in_world = VectorMember(entry, "center_m", "the tag's centre in metres [x, y, z]");
   tag.normal_in_world = UnitMember(entry, "normal");
   const Eigen::Vector3d up = UnitMember(entry, "up");
@@ -154,7 +147,7 @@ Json ParseText(const std::string& path, const std::string& text) {
 }  // namespace
 
 std::vector<SurveyedTag> ReadTagMap(const std::string& path) {
-  const std::string text = ReadText(path);
+  const std::string text = ReadTextFile(path, "a tag map");
   const Json root = ParseText(path, text);
   if (!root.is_array() || root.empty())
     throw InputError({path, 1}, "",

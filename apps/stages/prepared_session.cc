@@ -1,8 +1,10 @@
 #include "apps/stages/prepared_session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "apps/stages/linearize/photo_store.h"
 #include "apps/stages/observe/observations_json.h"
 #include "apps/stages/register/registration_json.h"
+#include "apps/stages/session_check.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
 #include "inverse/check/luxmeter_check.h"
@@ -44,12 +47,17 @@ double MeanCheckError(const std::vector<LuminaireReading>& readings, const RoomF
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
   for (size_t i = 0; i < predictions.size(); ++i) {
     const SessionReading& given = readings[i].given;
-    if (given.role != ReadingRole::kCheck || !given.is_measured || !predictions[i].is_known) continue;
+    const bool is_checked = given.role == ReadingRole::kCheck && given.is_measured && !readings[i].is_outside;
+    if (!is_checked || !predictions[i].is_known) continue;
     checked.push_back({readings[i].illuminance_lx, predictions[i].illuminance_lx,
                        fit.data.readings[i].sigma_lx, predictions[i].sigma_lx});
   }
   return checked.empty() ? std::numeric_limits<double>::quiet_NaN()
                          : SummarizeLuxmeter(checked).mean_abs_error_percent;
+}
+
+void LeaveOutReadings(const std::set<int>& lines, std::vector<LuminaireReading>& readings) {
+  for (LuminaireReading& reading : readings) reading.is_outside = lines.count(reading.given.line) > 0;
 }
 
 }  // namespace
@@ -90,22 +98,39 @@ SessionObservations ObserveKept(const Session& session, const LinearizedPhotos& 
 PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context) {
   Room room = LoadRoom(session, context);
   LinearizedSession linearized = LinearizeKept(session, inputs, context);
+  const SessionCheck check = CheckSession(session, room.rays);
+  context.warnings.insert(context.warnings.end(), check.warnings.begin(), check.warnings.end());
+  LeaveOutReadings(check.readings.lines, linearized.readings);
   context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
   SessionObservations observed = ObserveKept(session, linearized.photos, registered, room, inputs, context);
   context.photos.reset();
-  return {session,
-          std::move(linearized),
-          std::move(room),
-          std::move(registered),
-          std::move(observed.observations),
-          std::move(observed.seen),
-          std::move(observed.outlines)};
+  return {session, std::move(linearized), std::move(room), std::move(registered), std::move(observed)};
 }
 
 PreparedSession PrepareSession(const Session& session, RunContext& context) {
   return PrepareSession(session, InputsOfStages(session, ""), context);
+}
+
+SessionObservations ObserveKeptPhotos(const PreparedSession& prepared,
+                                      const std::function<bool(const LinearizedPhoto&)>& is_kept,
+                                      RunContext& context) {
+  const Session& session = prepared.session;
+  LinearizedPhotos photos = prepared.linearized.photos;
+  std::vector<LinearizedPhoto>& list = photos.photos;
+  list.erase(std::remove_if(list.begin(), list.end(),
+                            [&](const LinearizedPhoto& photo) {
+                              const auto state = static_cast<size_t>(StateIndex(session, photo.state));
+                              return !IsAmbient(session, session.states[state]) && !is_kept(photo);
+                            }),
+             list.end());
+  return ObserveSession(session, photos, prepared.registered, prepared.room, context);
+}
+
+SessionObservations Thinned(SessionObservations observed, int max_elements) {
+  observed.observations = ThinElements(observed.observations, max_elements);
+  return observed;
 }
 
 Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
@@ -116,8 +141,8 @@ Refit RefitSession(const Session& session, const LinearizedSession& linearized, 
   Refit refit;
   refit.fit = FitSession(session, linearized, room, observed, own);
   refit.luminaires = EstimatedLuminaires(refit.fit);
-  for (const Warning& warning : own.warnings) refit.warnings.push_back(warning.code);
-  refit.undetermined = own.undetermined;
+  refit.warnings = own.warnings;
+  refit.undetermined = own.IsUndetermined();
   refit.mean_lux_error_percent = MeanCheckError(linearized.readings, refit.fit);
   return refit;
 }

@@ -11,6 +11,7 @@
 #define LUXFIT_APPS_STAGES_PREPARED_SESSION_H_
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,20 @@ struct PreparedSession {
   LinearizedSession linearized;
   Room room;
   RegisteredSession registered;
-  std::vector<Observation> observations;  // from every view, not thinned
-  std::vector<SeenPlace> seen;            // where luminaires are visible
-  std::vector<SeenOutline> outlines;      // how they look there
+  SessionObservations observed;  // from every view, not thinned
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
 PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context);
 PreparedSession PrepareSession(const Session& session, RunContext& context);
+
+// Observes the registered views again in the photos that `is_kept` names; those of a state with all luminaires
+// off are kept in any case. Views keep their numbers.
+SessionObservations ObserveKeptPhotos(const PreparedSession& prepared,
+                                      const std::function<bool(const LinearizedPhoto&)>& is_kept,
+                                      RunContext& context);
+
+// Returns the same of at most `max_elements` elements; outlines and places stay.
+SessionObservations Thinned(SessionObservations observed, int max_elements);
 
 // Runs the first stages alone.
 LinearizedSession LinearizeKept(const Session& session, const SessionInputs& inputs, RunContext& context);
@@ -43,9 +51,9 @@ RegisteredSession RegisterKept(const Session& session, const LinearizedPhotos& p
 struct Refit {
   RoomFit fit;
   std::vector<EstimatedLuminaire> luminaires;  // as found; flux is relative where no scale is known
-  std::vector<std::string> warnings;           // codes
-  bool undetermined = false;                   // exit status 1
-  double mean_lux_error_percent = 0;           // over the readings that only check; NaN: there are none
+  std::vector<Warning> warnings;
+  bool undetermined = false;          // exit status 1
+  double mean_lux_error_percent = 0;  // over the readings that only check; NaN: there are none
 };
 Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
                    const SessionObservations& observed, const RunContext& context);

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/check_report.h"
+#include "apps/stages/check_warnings.h"
 #include "apps/stages/stages.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/formats/json_vectors.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
@@ -107,7 +107,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
     const DistributionOps& ops = OpsOf(luminaire.distribution);
     const int index = static_cast<int>(k);
     const auto sigma = [&](LuminaireQuantity quantity) {
-      return SigmaOf(fit.fit, ParameterKind::kLuminaire, index, quantity);
+      return SigmaOf(fit, ParameterKind::kLuminaire, index, quantity);
     };
     json entry = {{"id", luminaire.id},
                   {"position_m", Vector(luminaire.position)},
@@ -122,7 +122,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
     const bool is_known = IsFluxKnown(fit, k);
     entry["flux_lm"] = is_known ? json(luminaire.flux_lm) : json();
     entry["flux_sigma_lm"] =
-        is_known ? json(luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index)) : json();
+        is_known ? json(luminaire.flux_lm * SigmaOf(fit, ParameterKind::kLogFlux, index)) : json();
     if (!fit.absolute) entry["flux_relative"] = luminaire.flux_lm;
     if (fit.fit.state.free[k].tilt) {
       constexpr double kDegrees = 180 / M_PI;
@@ -149,26 +149,11 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   return luminaires;
 }
 
-void WarnOfContradiction(const std::vector<CheckedReading>& checked, RunContext& context) {
-  if (!ContradictTheFit(checked)) return;
-  context.undetermined = true;
-  context.warnings.push_back(
-      {"readings_contradict",
-       fmt::format(
-           "the {} readings that check differ from their predictions by {:.1f} % in the mean, of which the "
-           "meter's own error explains {:.1f} %: the numbers of this result are in doubt, beyond their "
-           "sigmas",
-           checked.size(), SummarizeLuxmeter(checked).mean_abs_error_percent,
-           ExplainedByTheMeterPercent(checked)),
-       "see which readings differ (luxfit check), and compare the mesh, [states] and the scale reading with "
-       "the "
-       "room"});
-}
-
 void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit, RunContext& context,
                  json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
+  std::vector<NamedReading> named;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
   for (size_t i = 0; i < predictions.size(); ++i) {
     const SessionReading& given = readings[i].given;
@@ -179,8 +164,9 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
                   {"state", given.state},
                   {"role", ToString(given.role)},
                   {"measured_lx", given.is_measured ? json(reading.measured_lx) : json()}};
-    const bool predicted = prediction.is_known;
+    const bool predicted = prediction.is_known && !readings[i].is_outside;
     entry["predicted_lx"] = predicted ? json(reading.predicted_lx) : json();
+    for (const std::string name : {"measured", "predicted"}) entry[name + "_lux"] = entry[name + "_lx"];
     entry["direct_lx"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx) : json();
     entry["sigma_lx"] = predicted ? json(prediction.parameter_sigma_lx) : json();
     entry["prediction_sigma_lx"] = predicted ? json(prediction.sigma_lx) : json();
@@ -192,12 +178,14 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
     if (given.is_measured) entry["measured_sigma_lx"] = reading.measured_sigma_lx;
     if (given.is_measured && predicted) entry["z"] = ZScore(reading);
     result["luxmeter"].push_back(entry);
-    if (given.role == ReadingRole::kCheck && given.is_measured && predicted) checked.push_back(reading);
+    if (given.role == ReadingRole::kCheck && given.is_measured && predicted) {
+      checked.push_back(reading);
+      named.push_back({given.id, given.state, reading});
+    }
   }
-  WarnOfContradiction(checked, context);
+  WarnOfCheck(named, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);
-  for (const char* part : {"luxmeter", "summary", "check"}) AddFormerKeys(result[part]);
 }
 
 json DirectShareJson(const DirectShare& share) {
@@ -239,6 +227,16 @@ json TypesJson(const RoomFit& fit) {
   return types;
 }
 
+void AddStatus(const RunContext& context, json& artifact) {
+  std::vector<std::string> because;
+  for (const Warning& w : context.warnings) {
+    if (w.is_of_outcome && std::count(because.begin(), because.end(), w.code) == 0) because.push_back(w.code);
+  }
+  artifact["status"] = because.empty() ? "done" : "undetermined";
+  artifact.erase("status_because");  // the artifact may be an earlier one
+  if (!because.empty()) artifact["status_because"] = because;
+}
+
 json WarningsJson(const RunContext& context) {
   json warnings = json::array();
   for (const Warning& w : context.warnings)
@@ -253,7 +251,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["session"] = session.name;
   result["session_file"] = session.path;
   AddLuxmeter(readings, fit, context, result);
-  result["status"] = context.undetermined ? "undetermined" : "done";
+  AddStatus(context, result);
   if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;

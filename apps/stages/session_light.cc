@@ -55,7 +55,7 @@ Meter MeterOf(const Session& session, const std::vector<LuminaireReading>& readi
     taken.state = std::max(0, StateIndex(session, reading.state));
     taken.illuminance_lx = measured.illuminance_lx;
     taken.ambient_lx = measured.ambient_lx;
-    taken.used = reading.role != ReadingRole::kCheck;
+    taken.used = reading.role != ReadingRole::kCheck && !measured.is_outside;
     if (!reading.sensor.empty())
       taken.sensor_index = sensors.emplace(reading.sensor, static_cast<int>(sensors.size())).first->second;
     meter.readings.push_back(taken);

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char kFormat[] = "luxfit-stage-1";
+constexpr char kFormat[] = "luxfit-stage-2";
 
 std::string PathOf(const std::string& out, const std::string& stage) {
   return out + "/stages/" + stage + ".cbor";
@@ -43,16 +43,15 @@ json Sayings(const RunContext& context, const StageMark& mark) {
   }
   for (size_t i = mark.warnings; i < context.warnings.size(); ++i) {
     const Warning& w = context.warnings[i];
-    warnings.push_back({w.code, w.message, w.remedy});
+    warnings.push_back({w.code, w.message, w.remedy, w.is_of_outcome});
   }
-  return {{"choices", choices}, {"warnings", warnings}, {"undetermined", context.undetermined}};
+  return {{"choices", choices}, {"warnings", warnings}};
 }
 
 void Repeat(const json& said, RunContext& context) {
   for (const json& c : said.at("choices"))
     context.choices.push_back({c.at(0), c.at(1), c.at(2).get<std::vector<std::string>>(), c.at(3)});
-  for (const json& w : said.at("warnings")) context.warnings.push_back({w.at(0), w.at(1), w.at(2)});
-  context.undetermined = context.undetermined || said.at("undetermined").get<bool>();
+  for (const json& w : said.at("warnings")) context.warnings.push_back({w.at(0), w.at(1), w.at(2), w.at(3)});
 }
 
 }  // namespace

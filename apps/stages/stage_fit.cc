@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -16,10 +17,12 @@ namespace luxfit {
 namespace {
 
 // Writes parameters as fitted (logarithms included) with their whole covariance, for further propagation.
-void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
+void WriteArtifact(const RoomFit& room_fit, const RunContext& context) {
+  const LuminaireFit& fit = room_fit.fit;
   nlohmann::json artifact = ProvenanceJson("luxfit-fit-1", context.provenance);
   artifact["message"] = fit.message;
   artifact["outer_iterations"] = fit.outer_iterations;
+  artifact["rounds"] = room_fit.rounds;
   artifact["relative_model_error"] = fit.relative_sigma;
   artifact["undetermined"] = NamesOf(fit.undetermined);
   artifact["parameters"] = nlohmann::json::array();
@@ -38,6 +41,10 @@ void WriteArtifact(const LuminaireFit& fit, const RunContext& context) {
   for (const auto row : fit.covariance.rowwise())
     artifact["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
   WriteJson(context.out + "/stages/fit.json", artifact);
+}
+
+std::string TimeLeft(const RunContext& context) {
+  return context.stop ? fmt::format(", at most {:.0f} s to go", context.stop->LeftS()) : "";
 }
 
 }  // namespace
@@ -59,18 +66,25 @@ RoomFit FitSession(const Session& session, const LinearizedSession& linearized, 
                              "or fit = [\"*\"] to [luxmeter]");
   }
   FitRoomOptions options;
+  const std::string models =
+      "choose";  // compares fits of single luminaires: its rounds have no residual of the whole
+  std::atomic<bool> is_choosing = false;
+  std::atomic<int> rounds = 0;
   options.on_step = [&](const std::string& step, const std::string& words) {
+    is_choosing = step == models;
     return std::make_shared<StageTimer>(context, step, words);
   };
   options.on_round = [&](const FitRound& round) {
-    const std::string left =
-        context.stop ? fmt::format(", at most {:.0f} s to go", context.stop->LeftS()) : "";
-    Say(context, fmt::format("round {}, residual {:.2f} %{}", round.round, 100 * round.relative_sigma, left));
+    Say(context, fmt::format("round {}, residual {:.2f} %{}", round.round, 100 * round.relative_sigma,
+                             TimeLeft(context)));
   };
-  if (context.stop) options.stop_reason = [stop = context.stop] { return stop->Reason(); };
+  options.stop_reason = [&] {
+    if (is_choosing) Say(context, fmt::format("{} rounds of its fits{}", ++rounds, TimeLeft(context)));
+    return context.stop ? context.stop->Reason() : "";
+  };
   RoomFit fit = FitRoom(room, RoomObservationsOf(session, linearized, room, observed), options);
   context.Add(fit.findings);
-  WriteArtifact(fit.fit, context);
+  WriteArtifact(fit, context);
   return fit;
 }
 

@@ -48,7 +48,6 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
 void RunContext::Add(const Findings& more) {
   warnings.insert(warnings.end(), more.warnings.begin(), more.warnings.end());
   choices.insert(choices.end(), more.choices.begin(), more.choices.end());
-  undetermined = undetermined || more.undetermined;
 }
 
 StageTimer::StageTimer(RunContext& context, std::string stage, const std::string& line)

@@ -152,6 +152,9 @@ nlohmann::json ChartSession(const Session& session, const ChartOptions& options,
 // Return parts that any artifact may have.
 nlohmann::json ChoicesJson(const RunContext& context);
 nlohmann::json WarningsJson(const RunContext& context);
+// Adds `status` (done or undetermined) and, where it is undetermined, `status_because`: the codes of the warnings that
+// say what is not determined.
+void AddStatus(const RunContext& context, nlohmann::json& artifact);
 
 // Names the photometric files of a luminaire, relative to OUT; empty where none were written.
 struct LuminaireFiles {
@@ -169,6 +172,9 @@ std::string RegistrationTable(const nlohmann::json& artifact);
 std::string SimulationTable(const nlohmann::json& artifact);
 std::string ChartTable(const nlohmann::json& artifact);
 std::string LuxmeterTable(const nlohmann::json& result);
+// Returns the session's name, and the status with its cause.
+std::string StatusLine(const nlohmann::json& result);
+// Returns the warnings of an artifact; those that leave it undetermined come first.
 std::string WarningText(const nlohmann::json& result);
 
 }  // namespace luxfit

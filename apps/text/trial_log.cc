@@ -35,7 +35,8 @@ void TrialLog::Append(const std::string& trial, nlohmann::json result) {
     is_cut = tail.get() != '\n';
   }
   std::ofstream file(path_, std::ios::app | std::ios::binary);
-  file << (is_cut ? "\n" : "") + result.dump() + "\n" << std::flush;
+  file << (is_cut ? "\n" : "") + result.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
+       << std::flush;
   if (!file)
     throw std::runtime_error(path_ + ": expected a writable place; check the folder and the free space");
   lines_[trial] = std::move(result);

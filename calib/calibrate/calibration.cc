@@ -307,7 +307,7 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
         {"held_out_error", true,
          fmt::format("images held out of the fit are off by {:.2f} px per axis, more than {:g}",
                      out.held_out_px, gates.max_held_out_px),
-         "check the board's size and flatness, and the photos' sharpness; try a splined lens"});
+         "check the target's size and flatness, and the photos' sharpness; try a splined lens"});
   } else if (out.held_out_px > gates.max_held_out_ratio * out.noise_px) {
     out.notes.push_back({"held_out_error", true,
                          fmt::format("images held out of the fit are off by {:.2f} px per axis, {:.1f} times "
@@ -330,7 +330,7 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
              "{:.1f} % of the corners were left out, most in {} ({} of {}); a good set has under {:g} %",
              100 * out.outlier_share, ShortName(input.images[static_cast<std::size_t>(worst->image)].name),
              worst->outliers, worst->corners, 100 * gates.questioned_outliers),
-         "look at the images with most outliers: blur, a bent board, reflections, a wrong board"});
+         "look at the images with most outliers: blur, a bent target, reflections, a wrong target"});
   }
 }
 

@@ -22,6 +22,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -57,8 +58,11 @@ std::string KalibrCamchainYaml(const std::vector<FiledCamera>& cameras);
 Eigen::Vector2d FromColmapPixel(const Eigen::Vector2d& colmap_px);
 Eigen::Vector2d ToColmapPixel(const Eigen::Vector2d& pixel);
 
+// COLMAP numbers cameras and images from 0 to 2^32 - 1.
+using ColmapId = std::int64_t;
+
 // Reads cameras.txt, or cameras.bin where the name ends in .bin. Returns the cameras by their ids.
-std::map<int, Camera> ReadColmapCameras(const std::string& path);
+std::map<ColmapId, Camera> ReadColmapCameras(const std::string& path);
 
 // Holds a model's name and its parameters, in COLMAP's order and convention.
 struct ColmapCameraModel {
@@ -71,7 +75,7 @@ struct ColmapCameraModel {
 ColmapCameraModel ToColmapModel(const Camera& camera);
 
 // Returns the content of cameras.txt.
-std::string ColmapCamerasText(const std::map<int, Camera>& cameras);
+std::string ColmapCamerasText(const std::map<ColmapId, Camera>& cameras);
 
 }  // namespace luxfit
 

@@ -39,12 +39,15 @@ constexpr std::array<Model, 11> kModels = {{{"SIMPLE_PINHOLE", LensModel::kOpenC
                                             {"RADIAL_FISHEYE", LensModel::kFisheye, 1, 2, true},
                                             {"THIN_PRISM_FISHEYE", LensModel::kFisheye, 2, 8, false}}};
 
+constexpr char kModelRemedy[] =
+    "run COLMAP with --ImageReader.camera_model FULL_OPENCV, or OPENCV_FISHEYE for a fisheye lens";
+
 std::size_t ParameterCount(const Model& model) { return model.focals + 2 + model.coefficients; }
 
 const Model& Served(const Model& model, const std::string& place) {
   if (!model.is_served)
     throw std::runtime_error(place + ": expected a camera model other than FOV and THIN_PRISM_FISHEYE, got " +
-                             model.name + "; run COLMAP with FULL_OPENCV or OPENCV_FISHEYE");
+                             model.name + "; " + kModelRemedy);
   return model;
 }
 
@@ -68,14 +71,16 @@ class CameraLine {
  public:
   CameraLine(std::string place, const std::string& line) : place_(std::move(place)), words_(line) {}
 
-  std::pair<int, Camera> Read() {
-    int id = 0, width_px = 0, height_px = 0;
+  std::pair<ColmapId, Camera> Read() {
+    ColmapId id = 0;
+    int width_px = 0, height_px = 0;
     std::string name;
     if (!(words_ >> id >> name >> width_px >> height_px))
       Fail("expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS...; is this COLMAP's cameras.txt?");
     const auto model =
         std::find_if(kModels.begin(), kModels.end(), [&name](const Model& m) { return name == m.name; });
-    if (model == kModels.end()) Fail("expected a camera model of COLMAP 3.8, got \"" + name + "\"");
+    if (model == kModels.end())
+      Fail("expected a camera model of COLMAP 3.8, got \"" + name + "\"; " + kModelRemedy);
     std::vector<double> parameters;
     for (double value = 0; words_ >> value;) parameters.push_back(value);
     if (!words_.eof() || parameters.size() != ParameterCount(*model)) {
@@ -94,10 +99,10 @@ class CameraLine {
   std::istringstream words_;
 };
 
-std::map<int, Camera> ReadText(const std::string& path) {
+std::map<ColmapId, Camera> ReadText(const std::string& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot read COLMAP's cameras, expected an existing file");
-  std::map<int, Camera> cameras;
+  std::map<ColmapId, Camera> cameras;
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
@@ -110,18 +115,18 @@ std::map<int, Camera> ReadText(const std::string& path) {
   return cameras;
 }
 
-std::map<int, Camera> ReadBinary(const std::string& path) {
+std::map<ColmapId, Camera> ReadBinary(const std::string& path) {
   ColmapBinary file(path);
-  std::map<int, Camera> cameras;
+  std::map<ColmapId, Camera> cameras;
   const auto count = file.Read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto id = static_cast<int>(file.Read<std::uint32_t>());
+    const ColmapId id = file.Read<std::uint32_t>();
     const auto model_id = file.Read<std::int32_t>();
     const int width_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": width");
     const int height_px = ImagePixels(static_cast<double>(file.Read<std::uint64_t>()), path + ": height");
     if (model_id < 0 || model_id >= static_cast<int>(kModels.size()))
       throw std::runtime_error(path + ": expected a camera model of COLMAP 3.8 (0 to 10), got " +
-                               std::to_string(model_id));
+                               std::to_string(model_id) + "; " + kModelRemedy);
     const Model& model = Served(kModels[static_cast<std::size_t>(model_id)], path);
     std::vector<double> parameters(ParameterCount(model));
     for (double& value : parameters) value = file.Read<double>();
@@ -136,7 +141,7 @@ Eigen::Vector2d FromColmapPixel(const Eigen::Vector2d& colmap_px) { return colma
 
 Eigen::Vector2d ToColmapPixel(const Eigen::Vector2d& pixel) { return pixel + kFirstPixelCentre; }
 
-std::map<int, Camera> ReadColmapCameras(const std::string& path) {
+std::map<ColmapId, Camera> ReadColmapCameras(const std::string& path) {
   return std::filesystem::path(path).extension() == ".bin" ? ReadBinary(path) : ReadText(path);
 }
 
@@ -161,7 +166,7 @@ ColmapCameraModel ToColmapModel(const Camera& camera) {
   return model;
 }
 
-std::string ColmapCamerasText(const std::map<int, Camera>& cameras) {
+std::string ColmapCamerasText(const std::map<ColmapId, Camera>& cameras) {
   std::string text = "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n";
   for (const auto& [id, camera] : cameras) {
     ColmapCameraModel model = ToColmapModel(camera);

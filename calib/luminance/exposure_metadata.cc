@@ -52,10 +52,19 @@ std::optional<double> FNumber(const Exiv2::ExifData& exif) {
   return apex ? Positive(std::exp2(*apex / 2)) : std::nullopt;
 }
 
-// Makers' own tags hold the ISO value where the standard's 16 bits are too few; Exiv2 knows these tags.
+// The standard's 16 bits hold 65535 where the value is larger, and stands in a tag of 32 bits; makers' own tags hold it
+// too, and Exiv2 knows these.
 std::optional<double> Iso(const Exiv2::ExifData& exif) {
+  constexpr double kTooLarge = 65535;
   const auto at = Exiv2::isoSpeed(exif);
-  return at == exif.end() || at->count() == 0 ? std::nullopt : Positive(static_cast<double>(at->toFloat()));
+  const auto iso =
+      at == exif.end() || at->count() == 0 ? std::nullopt : Positive(static_cast<double>(at->toFloat()));
+  if (!iso || *iso < kTooLarge) return iso;
+  for (const char* key : {"Exif.Photo.RecommendedExposureIndex", "Exif.Photo.StandardOutputSensitivity",
+                          "Exif.Photo.ISOSpeed"}) {
+    if (const auto value = ValueOf(exif, key); value && *value > 0) return value;
+  }
+  return std::nullopt;
 }
 
 }  // namespace

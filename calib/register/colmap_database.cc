@@ -1,6 +1,7 @@
 #include "calib/register/colmap_files.h"
 
 #include <sqlite3.h>
+#include <tbb/parallel_for.h>
 
 #include <cstdint>
 #include <cstring>
@@ -9,11 +10,10 @@
 #include <utility>
 
 #include "calib/lens/camera_file.h"
+#include "calib/register/internal/descriptor_matches.h"
 
 namespace luxfit {
 namespace {
-
-constexpr std::int64_t kPairBase = 2147483647;  // pair_id = kPairBase * smaller id + larger id
 
 class Database {
  public:
@@ -137,8 +137,7 @@ std::map<int, std::uint32_t> AppendCorners(const Database& database, std::int64_
       ++rows;
     }
   }
-  constexpr std::int64_t kDescriptorBytes = 128;
-  descriptors.resize(static_cast<std::size_t>(rows * kDescriptorBytes), 0);
+  descriptors.resize(static_cast<std::size_t>(rows * kDescriptorSize), 0);
   Statement(database, "INSERT OR REPLACE INTO keypoints(image_id, rows, cols, data) VALUES(?, ?, ?, ?)")
       .Bind(1, image)
       .Bind(2, rows)
@@ -148,29 +147,51 @@ std::map<int, std::uint32_t> AppendCorners(const Database& database, std::int64_
   Statement(database, "INSERT OR REPLACE INTO descriptors(image_id, rows, cols, data) VALUES(?, ?, ?, ?)")
       .Bind(1, image)
       .Bind(2, rows)
-      .Bind(3, kDescriptorBytes)
+      .Bind(3, kDescriptorSize)
       .BindBlob(4, descriptors)
       .Step();
   return first;
 }
 
 using Matches = std::vector<std::uint32_t>;  // index in the first image, in the second, and so on
+using ImagePair = std::pair<std::int64_t, std::int64_t>;
 
-std::map<std::pair<std::int64_t, std::int64_t>, Matches> ReadMatches(const Database& database) {
-  std::map<std::pair<std::int64_t, std::int64_t>, Matches> matches;
-  Statement read(database, "SELECT pair_id, data FROM matches WHERE rows > 0");
+std::map<std::int64_t, DescriptorColumns> ReadDescriptors(const Database& database) {
+  std::map<std::int64_t, DescriptorColumns> descriptors;
+  Statement read(database, "SELECT image_id, data FROM descriptors");
   while (read.Step()) {
-    const std::int64_t pair = read.Integer(0);
-    matches[{pair / kPairBase, pair % kPairBase}] = read.Blob<std::uint32_t>(1);
+    const std::vector<std::uint8_t> bytes = read.Blob<std::uint8_t>(1);
+    descriptors[read.Integer(0)] =
+        Eigen::Map<const Eigen::Matrix<std::uint8_t, kDescriptorSize, Eigen::Dynamic>>(
+            bytes.data(), kDescriptorSize, static_cast<Eigen::Index>(bytes.size()) / kDescriptorSize)
+            .cast<float>();
+  }
+  return descriptors;
+}
+
+std::map<ImagePair, Matches> MatchFeatures(const Database& database) {
+  const std::map<std::int64_t, DescriptorColumns> descriptors = ReadDescriptors(database);
+  std::vector<std::pair<ImagePair, Matches>> pairs;
+  for (auto a = descriptors.begin(); a != descriptors.end(); ++a) {
+    for (auto b = std::next(a); b != descriptors.end(); ++b) pairs.push_back({{a->first, b->first}, {}});
+  }
+  tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t i) {
+    const auto& [a, b] = pairs[i].first;
+    pairs[i].second = MatchDescriptors(descriptors.at(a), descriptors.at(b));
+  });
+  std::map<ImagePair, Matches> matches;
+  for (auto& [pair, of_pair] : pairs) {
+    if (!of_pair.empty()) matches[pair] = std::move(of_pair);
   }
   return matches;
 }
 
 }  // namespace
 
-std::string AddTagsToColmapDatabase(const std::string& path,
-                                    const std::map<std::string, std::vector<TagDetection>>& tags_of_image) {
+std::string MatchColmapImages(const std::string& path,
+                              const std::map<std::string, std::vector<TagDetection>>& tags_of_image) {
   const Database database(path);
+  std::map<ImagePair, Matches> matches = MatchFeatures(database);
   database.Run("BEGIN");
   const std::map<std::int64_t, std::string> names = ImageNames(database);
   std::map<std::int64_t, std::map<int, std::uint32_t>> corners;
@@ -178,7 +199,6 @@ std::string AddTagsToColmapDatabase(const std::string& path,
     const auto tags = tags_of_image.find(name);
     if (tags != tags_of_image.end()) corners[image] = AppendCorners(database, image, tags->second);
   }
-  auto matches = ReadMatches(database);
   for (auto a = corners.begin(); a != corners.end(); ++a) {
     for (auto b = std::next(a); b != corners.end(); ++b) {
       for (const auto& [id, first_a] : a->second) {
@@ -190,7 +210,7 @@ std::string AddTagsToColmapDatabase(const std::string& path,
       }
     }
   }
-  database.Run("DELETE FROM matches; DELETE FROM two_view_geometries; COMMIT");
+  database.Run("COMMIT");
   std::string text;
   for (const auto& [pair, of_pair] : matches) {
     text += names.at(pair.first) + " " + names.at(pair.second) + "\n";
@@ -220,8 +240,7 @@ std::map<std::string, ColmapImageIds> ReadColmapImageIds(const std::string& path
   const Database database(path);
   std::map<std::string, ColmapImageIds> ids;
   Statement images(database, "SELECT image_id, name, camera_id FROM images");
-  while (images.Step())
-    ids[images.Text(1)] = {static_cast<int>(images.Integer(0)), static_cast<int>(images.Integer(2))};
+  while (images.Step()) ids[images.Text(1)] = {images.Integer(0), images.Integer(2)};
   return ids;
 }
 

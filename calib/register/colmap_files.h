@@ -1,4 +1,4 @@
-// Reads and writes COLMAP's models, and adds tag corners as features to its database.
+// Reads and writes COLMAP's models, and matches the pictures of its database.
 //
 //   p_in_cam = cam_from_model * p_in_model,   pixel = Project(camera, p_in_cam)
 //
@@ -8,9 +8,8 @@
 //
 // White walls have no texture, so the corners of tags serve as features beside those that COLMAP extracted.
 // Each image's corners are appended to its keypoints, with descriptors of zeros, which match nothing. Corners
-// of one tag seen in two images are added to the matches that COLMAP found for the two. All matches of the
-// database are returned as text for `colmap matches_importer --match_type raw`, which verifies them together.
-// The database's own matches are removed, since COLMAP skips pairs that have some.
+// of one tag seen in two images are matches beside those of the features (internal/descriptor_matches.h).
+// All are returned as text for `colmap matches_importer --match_type raw`, which verifies them together.
 //
 // Models: throws std::runtime_error("FILE[:LINE]: expected ..., got ...") for missing and malformed files,
 // and where an image or a track names something that the model does not have. Database: throws
@@ -27,19 +26,20 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
+#include "calib/lens/camera_file.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {
 
 struct ColmapImage {
   std::string name;  // file name relative to COLMAP's image folder
-  int camera = 0;
+  ColmapId camera = 0;
   Eigen::Isometry3d cam_from_model = Eigen::Isometry3d::Identity();
   std::vector<Eigen::Vector2d> keypoints_px;
 };
 
 struct ColmapTrackElement {
-  int image = 0;
+  ColmapId image = 0;
   int keypoint = 0;  // index into that image's keypoints_px
 };
 
@@ -49,8 +49,8 @@ struct ColmapPoint {
 };
 
 struct ColmapModel {
-  std::map<int, Camera> cameras;
-  std::map<int, ColmapImage> images;
+  std::map<ColmapId, Camera> cameras;
+  std::map<ColmapId, ColmapImage> images;
   std::map<std::int64_t, ColmapPoint> points;
 };
 
@@ -61,11 +61,11 @@ ColmapModel ReadColmapModel(const std::string& folder);
 std::string ColmapImagesText(const ColmapModel& model);
 std::string ColmapPointsText(const ColmapModel& model);
 
-// Adds the corners of `tags_of_image`, keyed by the image's name in the database. A tag that an image shows
-// twice is left out there. Returns the match list: "NAME NAME", a line of two keypoint indices per match, an
-// empty line.
-std::string AddTagsToColmapDatabase(const std::string& path,
-                                    const std::map<std::string, std::vector<TagDetection>>& tags_of_image);
+// Matches every pair of images, and adds the corners of `tags_of_image`, keyed by
+// the image's name in the database. A tag that an image shows twice is left out there. Returns the match
+// list: "NAME NAME", a line of two keypoint indices per match, an empty line.
+std::string MatchColmapImages(const std::string& path,
+                              const std::map<std::string, std::vector<TagDetection>>& tags_of_image);
 
 // Numbers the images in the order of their names. COLMAP numbers them as its threads finish them, and its
 // results depend on the numbers. Call this before there are matches.
@@ -73,7 +73,7 @@ void NumberColmapImagesByName(const std::string& path);
 
 // Holds COLMAP's numbers of an image and its camera, by the image's name: models of known poses need both.
 struct ColmapImageIds {
-  int image = 0, camera = 0;
+  ColmapId image = 0, camera = 0;
 };
 std::map<std::string, ColmapImageIds> ReadColmapImageIds(const std::string& path);
 

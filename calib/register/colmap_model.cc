@@ -71,18 +71,19 @@ std::runtime_error LineError(const TextFile& text, const std::string& expected) 
                             "\"");
 }
 
-void AddImage(std::map<int, ColmapImage>& images, int id, ColmapImage image, const std::string& place) {
+void AddImage(std::map<ColmapId, ColmapImage>& images, ColmapId id, ColmapImage image,
+              const std::string& place) {
   if (!images.emplace(id, std::move(image)).second)
     throw std::runtime_error(place + ": expected every image once, got " + std::to_string(id) + " again");
 }
 
 // Reads the images without their keypoints' points: the tracks state these too, and the two must agree.
-std::map<int, ColmapImage> ReadImagesText(const std::string& path) {
+std::map<ColmapId, ColmapImage> ReadImagesText(const std::string& path) {
   TextFile text(path);
-  std::map<int, ColmapImage> images;
+  std::map<ColmapId, ColmapImage> images;
   while (text.NextEntry()) {
     std::istringstream words(text.line);
-    int id = 0;
+    ColmapId id = 0;
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     Eigen::Vector3d t;
     ColmapImage image;
@@ -109,19 +110,19 @@ std::map<int, ColmapImage> ReadImagesText(const std::string& path) {
   return images;
 }
 
-std::map<int, ColmapImage> ReadImagesBinary(const std::string& path) {
+std::map<ColmapId, ColmapImage> ReadImagesBinary(const std::string& path) {
   ColmapBinary file(path);
-  std::map<int, ColmapImage> images;
+  std::map<ColmapId, ColmapImage> images;
   const auto count = file.Read<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto id = static_cast<int>(file.Read<std::uint32_t>());
+    const ColmapId id = file.Read<std::uint32_t>();
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     for (double* value : {&q.w(), &q.x(), &q.y(), &q.z()}) *value = file.Read<double>();
     Eigen::Vector3d t;
     for (double& value : t) value = file.Read<double>();
     ColmapImage image;
     image.cam_from_model = ToIsometry(q, t, path + ": image " + std::to_string(id));
-    image.camera = static_cast<int>(file.Read<std::uint32_t>());
+    image.camera = file.Read<std::uint32_t>();
     image.name = file.ReadText();
     const auto keypoints = file.Read<std::uint64_t>();
     for (std::uint64_t k = 0; k < keypoints; ++k) {
@@ -172,7 +173,7 @@ std::map<std::int64_t, ColmapPoint> ReadPointsBinary(const std::string& path) {
     const auto length = file.Read<std::uint64_t>();
     for (std::uint64_t k = 0; k < length; ++k) {
       ColmapTrackElement element;
-      element.image = static_cast<int>(file.Read<std::uint32_t>());
+      element.image = file.Read<std::uint32_t>();
       element.keypoint = static_cast<int>(file.Read<std::uint32_t>());
       point.track.push_back(element);
     }
@@ -227,7 +228,7 @@ std::string ColmapImagesText(const ColmapModel& model) {
       throw std::invalid_argument("image " + std::to_string(id) +
                                   ": expected a name without control characters; rename the photo");
   }
-  std::map<int, std::vector<std::int64_t>> point_of_keypoint;
+  std::map<ColmapId, std::vector<std::int64_t>> point_of_keypoint;
   for (const auto& [id, image] : model.images) point_of_keypoint[id].assign(image.keypoints_px.size(), -1);
   for (const auto& [id, point] : model.points) {
     for (const ColmapTrackElement& element : point.track)

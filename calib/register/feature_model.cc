@@ -21,13 +21,13 @@ bool SpansAPlane(const Eigen::Matrix3Xd& centred) {
 }
 
 // Returns the image id of each view: the image with most points.
-std::map<std::string, int> ImageOfView(const ColmapModel& model,
-                                       const std::map<std::string, std::string>& view_of_image) {
-  std::map<int, int> points;
+std::map<std::string, ColmapId> ImageOfView(const ColmapModel& model,
+                                            const std::map<std::string, std::string>& view_of_image) {
+  std::map<ColmapId, int> points;
   for (const auto& [id, point] : model.points) {
     for (const ColmapTrackElement& element : point.track) ++points[element.image];
   }
-  std::map<std::string, int> image_of_view;
+  std::map<std::string, ColmapId> image_of_view;
   for (const auto& [id, image] : model.images) {
     const auto view = view_of_image.find(image.name);
     if (view == view_of_image.end()) continue;
@@ -74,7 +74,7 @@ Eigen::Isometry3d PoseUnder(const Similarity& b_from_a, const Eigen::Isometry3d&
 
 FeatureModel FeaturesOf(const ColmapModel& model, const std::map<std::string, std::string>& view_of_image) {
   FeatureModel features;
-  std::map<int, int> view_of_id;
+  std::map<ColmapId, int> view_of_id;
   for (const auto& [view, id] : ImageOfView(model, view_of_image)) {
     view_of_id[id] = static_cast<int>(features.views.size());
     features.views.push_back({view, model.images.at(id).cam_from_model});

@@ -12,6 +12,7 @@
 #include "calib/lens/internal/rotation_vector.h"
 #include "calib/luminance/median.h"
 #include "calib/register/internal/triangle_tree.h"
+#include "calib/register/millimetres.h"
 #include "calib/targets/internal/boards/solve_symmetric.h"
 
 namespace luxfit {
@@ -180,8 +181,8 @@ SurfaceAlignment AlignPointsToSurface(const Eigen::Matrix3Xd& points, const Tria
         100 * laid.share);
   } else if (!(sigma_m <= options.most_sigma_m)) {
     alignment.message =
-        fmt::format("the points leave a direction free by {:.2g} mm: surfaces of three directions are needed",
-                    1000 * sigma_m);
+        fmt::format("the points leave a direction free by {}: surfaces of three directions are needed",
+                    Millimetres(sigma_m));
   } else if (grown < 0.5 || grown > 2) {
     alignment.message =
         fmt::format("the size came out {:.2g} times that of the start: the start is too rough", grown);

@@ -18,6 +18,7 @@
 #include "calib/register/internal/survey_on_surfaces.h"
 #include "calib/register/internal/tag_mapping.h"
 #include "calib/register/internal/tag_views.h"
+#include "calib/register/millimetres.h"
 
 namespace luxfit {
 namespace {
@@ -82,8 +83,8 @@ void LeaveOutUncertain(double max_rotation_sigma_rad, Registration& registration
     registration.notes.push_back(
         {view.view, -1, "pose_uncertain",
          fmt::format("The tags in view {} leave its direction uncertain by {:.2g} "
-                     "degrees and its place by {:.2g} mm; it is left out.",
-                     view.view, sigma_rad * 180 / M_PI, 1000 * view.position_sigma_m.norm()),
+                     "degrees and its place by {}; it is left out.",
+                     view.view, sigma_rad * 180 / M_PI, Millimetres(view.position_sigma_m.norm())),
          "Show the view more tags, larger tags, or tags on a second surface."});
   }
   KeepViews(is_kept, registration);
@@ -142,16 +143,16 @@ void NameSurveySigma(double given_sigma_m, Registration& registration) {
   std::string of_surfaces;
   if (on_surfaces.used > 0) {
     of_surfaces =
-        fmt::format(" {} of {} tags lie on surfaces of the mesh within {:.2g} mm, which place the cameras.",
-                    on_surfaces.used, on_surfaces.seen, 1000 * given_sigma_m);
+        fmt::format(" {} of {} tags lie on surfaces of the mesh within {}, which place the cameras.",
+                    on_surfaces.used, on_surfaces.seen, Millimetres(given_sigma_m));
   } else if (!on_surfaces.reason.empty()) {
     of_surfaces = " The surfaces of the mesh do not help: " + on_surfaces.reason + ".";
   }
   registration.notes.push_back(
       {"", -1, "survey_less_accurate",
-       fmt::format("The tags hang {:.2g} mm off their surveyed places (1 sigma per axis), not {:.2g} mm; the "
+       fmt::format("The tags hang {} off their surveyed places (1 sigma per axis), not {}; the "
                    "poses' sigmas hold that.{}",
-                   1000 * registration.survey_sigma_m, 1000 * given_sigma_m, of_surfaces),
+                   Millimetres(registration.survey_sigma_m), Millimetres(given_sigma_m), of_surfaces),
        "Measure the tags' places again, with a laser or along the walls, where poses should be better."});
 }
 

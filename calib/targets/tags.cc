@@ -178,6 +178,10 @@ std::array<Eigen::Vector3d, 4> TagCornersInWorld(const SurveyedTag& tag) {
   return {c - right + up, c + right + up, c + right - up, c - right - up};
 }
 
+std::string TagSquareWords(const std::string& family) {
+  return MakeTagFamily(family)->reversed_border ? "white square in the black frame" : "black square";
+}
+
 double MeanSidePx(const std::array<Eigen::Vector2d, 4>& corners_px) {
   double sum_px = 0;
   for (std::size_t i = 0; i < 4; ++i) sum_px += (corners_px[(i + 1) % 4] - corners_px[i]).norm();

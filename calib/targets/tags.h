@@ -59,6 +59,10 @@ struct TagDetection {
   double decision_margin = 0;                 // as libapriltag gives it
 };
 
+// Returns what a tag's size is the side of, in words: the black square, or the white one in the black frame of families
+// with a reversed border (tagStandard41h12). Throws std::invalid_argument for an unknown family.
+std::string TagSquareWords(const std::string& family);
+
 // Returns the mean length of a tag's sides.
 double MeanSidePx(const std::array<Eigen::Vector2d, 4>& corners_px);
 

@@ -6,6 +6,7 @@
 #include "forward/direct/internal/luminous_surface.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
+#include "forward/room/in_room.h"
 
 namespace luxfit {
 namespace {
@@ -30,21 +31,6 @@ std::vector<Eigen::Vector3d> Outline(const Luminaire& luminaire) {
     }
   }
   return outline;
-}
-
-constexpr int kDirections = 128;  // a front of a tenth of the sphere is met by a dozen
-constexpr double kMostBacks = 0.4;
-
-bool IsInRoom(const RayScene& rays, const Eigen::Vector3d& p) {
-  int fronts = 0, backs = 0;
-  for (int i = 0; i < kDirections; ++i) {
-    // Fibonacci's lattice on the sphere.
-    const double z = 1 - (2 * i + 1.0) / kDirections, angle = i * 2.399963229728653;
-    const double rho = std::sqrt(1 - z * z);
-    const RayHit hit = rays.Trace(p, {rho * std::cos(angle), rho * std::sin(angle), z});
-    if (hit.facet >= 0) ++(hit.front ? fronts : backs);
-  }
-  return fronts > 0 && backs <= kMostBacks * kDirections;
 }
 
 }  // namespace

@@ -6,15 +6,10 @@
 // of a white ceiling would take back a tenth of that. In a room of 80 m2 a panel of 0.36 m2 takes 1 % of the
 // interreflected light. Luminaires that shine to both sides, points and spheres get none.
 //
-// ShareOutsideRoom: rays go in all directions from points of the luminous surface. In a room they meet the
-// fronts of facets (and, through openings, nothing). From outside the room, or from beyond the plane of a
-// ceiling, every ray meets a back or leaves. From inside a solid that was modelled without its bottom, at
-// least the upper half meets backs. So a point counts as outside where no ray meets a front, or more than
-// 40 % meet a back.
+// ShareOutsideRoom judges points of the luminous surface (forward/room/in_room.h).
 //
 // Both throw std::invalid_argument for a luminaire that is not valid.
-// Source: radiance of emitters in Ward Larson and Shakespeare (1998), "Rendering with Radiance", sec. 5; ray
-// parity as in O'Rourke (1998), "Computational Geometry in C", sec. 7.3, by facing instead of count.
+// Source: radiance of emitters in Ward Larson and Shakespeare (1998), "Rendering with Radiance", sec. 5.
 #ifndef LUXFIT_FORWARD_DIRECT_LUMINAIRE_BODY_H_
 #define LUXFIT_FORWARD_DIRECT_LUMINAIRE_BODY_H_
 

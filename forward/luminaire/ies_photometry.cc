@@ -63,15 +63,18 @@ Opening OpeningOf(const IesFile& file) {
   return opening;
 }
 
-double TiltFactorAt0(const IesTilt& tilt) {
-  if (tilt.angle_deg.empty()) return 1;
-  const auto above = std::lower_bound(tilt.angle_deg.begin(), tilt.angle_deg.end(), 0.0);
-  if (above == tilt.angle_deg.end()) return tilt.factor.back();
-  const auto i = static_cast<size_t>(above - tilt.angle_deg.begin());
-  if (i == 0 || *above == 0) return tilt.factor[i];
-  const double share = -tilt.angle_deg[i - 1] / (*above - tilt.angle_deg[i - 1]);
-  return tilt.factor[i - 1] + share * (tilt.factor[i] - tilt.factor[i - 1]);
+// Linear between the angles, constant beyond them.
+double FactorAt(const std::vector<double>& angle_deg, const std::vector<double>& factor, double deg) {
+  if (angle_deg.empty()) return 1;
+  const auto above = std::lower_bound(angle_deg.begin(), angle_deg.end(), deg);
+  if (above == angle_deg.end()) return factor.back();
+  const auto i = static_cast<size_t>(above - angle_deg.begin());
+  if (i == 0 || *above == deg) return factor[i];
+  const double share = (deg - angle_deg[i - 1]) / (*above - angle_deg[i - 1]);
+  return factor[i - 1] + share * (factor[i] - factor[i - 1]);
 }
+
+double TiltFactorAt0(const IesTilt& tilt) { return FactorAt(tilt.angle_deg, tilt.factor, 0); }
 
 double ScaleOf(const IesFile& file) {
   const bool third_multiplies = file.version <= IesVersion::k1991;
@@ -131,8 +134,9 @@ std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
   std::vector<std::string> notes = file.notes;
   if (!opening.note.empty()) notes.push_back(opening.note);
   if (file.tilt.source != "NONE") {
-    notes.push_back(file.tilt.angle_deg.empty() ? "the TILT file was not read: its factors are left out"
-                                                : "of the TILT factors only that of 0 degrees was used");
+    notes.push_back(file.tilt.angle_deg.empty()
+                        ? "the TILT file was not read: its factors are left out"
+                        : "its TILT factors apply by the angle between aim and straight down");
   }
   const double last = file.horizontal_deg.back();
   if (file.type == IesType::kC && last > 180 && last < 360 && file.horizontal_deg.front() == 0)
@@ -143,6 +147,12 @@ std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
 }
 
 }  // namespace
+
+double TiltFactor(const PhotometryFile& file, const Eigen::Vector3d& aim) {
+  constexpr double kDegrees = 180 / M_PI;
+  const double off_down = std::acos(std::clamp(-aim.normalized().z(), -1.0, 1.0));
+  return FactorAt(file.tilt_deg, file.tilt_factor, kDegrees * off_down);
+}
 
 PhotometryFile PhotometryOf(const IesFile& file) {
   std::vector<double> cd = file.candela;
@@ -157,6 +167,13 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   photometry.shape = opening.shape;
   photometry.size_m = opening.size_m;
   photometry.notes = NotesOn(file, opening);
+  const double at_0 = TiltFactorAt0(file.tilt);
+  if (at_0 > 0) {  // else the file has no light to scale, which is refused below
+    photometry.tilt_deg = file.tilt.angle_deg;
+    for (const double factor : file.tilt.factor) photometry.tilt_factor.push_back(factor / at_0);
+  }
+  if (file.tilt.source != "NONE" && file.tilt.angle_deg.empty())
+    photometry.missing_tilt_file = file.tilt.source;
   const IntensityTable table =
       file.type == IesType::kA ? TableOfTypeA(file, cd)
       : file.type == IesType::kB

@@ -50,7 +50,15 @@ struct PhotometryFile {
   LuminaireShape shape = LuminaireShape::kPoint;     // of the luminous opening, seen along the aim
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // along C0, across; or a diameter
   std::vector<std::string> notes;
+  // How the flux depends on the tilt of the lamp (LM-63, TILT): factors to the flux at 0, by the angle between the aim
+  // and straight down, linear between. Empty: the file gives none, or names one that was not found.
+  std::vector<double> tilt_deg, tilt_factor;
+  std::string missing_tilt_file;  // its name; empty: none is missing
 };
+
+// Returns the factor by which the flux differs where the luminaire is aimed there; 1 where the file gives none.
+// Source: ANSI/IESNA LM-63-2002, sec. 5.11 (lamp-to-luminaire geometry, angles, multiplying factors).
+double TiltFactor(const PhotometryFile& file, const Eigen::Vector3d& aim);
 
 // Reads a file by its extension, .ies or .ldt. A TILT file of an .ies is looked for beside it.
 PhotometryFile ReadPhotometry(const std::string& path);

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "forward/room/internal/polygon_mesh.h"
+#include "forward/room/text_encoding.h"
 
 namespace luxfit {
 namespace {
@@ -66,7 +67,7 @@ std::string BytesOf(const std::string& path) {
 PolygonMesh MeshOf(std::string_view bytes, MeshFormat format, const std::string& name) {
   switch (format) {
     case MeshFormat::kObj:
-      return ParseObj(bytes, name);
+      return ParseObj(Utf8Text(bytes), name);
     case MeshFormat::kPly:
       return ParsePly(bytes, name);
     case MeshFormat::kGltf:

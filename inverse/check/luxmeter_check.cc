@@ -31,6 +31,8 @@ double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight) {
   return 0;
 }
 
+constexpr double kNoneIsPredicted = std::numeric_limits<double>::infinity();
+
 std::string Percent(double relative) { return fmt::format("{:.1f} %", 100 * std::abs(relative)); }
 
 void FindCommonFactor(const std::vector<NamedReading>& readings, LuxmeterFindings& findings) {
@@ -74,7 +76,8 @@ std::vector<Judged> Judge(const std::vector<NamedReading>& readings, const Luxme
     CheckedReading r = readings[i].reading;
     r.predicted_lx *= factor;
     const double z = ZScore(r);
-    const double relative = r.predicted_lx > 0 ? r.measured_lx / r.predicted_lx - 1 : 0;
+    const double relative =
+        r.predicted_lx > 0 ? r.measured_lx / r.predicted_lx - 1 : (r.measured_lx > 0 ? kNoneIsPredicted : 0);
     judged.push_back({i, z, relative, std::abs(z) > findings.z_limit});
   }
   return judged;
@@ -98,6 +101,14 @@ void Explain(Disagreement& d) {
   d.meaning =
       (is_place ? d.id + " disagrees in all its states" : d.id + " in state " + d.state + " disagrees") +
       ": " + Side(d) + (is_place ? " its prediction at most" : " its prediction");
+  if (d.relative == kNoneIsPredicted) {
+    d.meaning = d.id + " in state " + d.state + " disagrees: it measured light where none is predicted";
+    d.remedy =
+        "no luminaire that is on reaches its place, as the mesh and the table of readings have it: measure "
+        "its place "
+        "again, and see what hides it";
+    return;
+  }
   if (is_place) {
     d.remedy =
         "its place or the way the meter faced is not what the table says, or something stands near "

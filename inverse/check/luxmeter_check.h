@@ -61,9 +61,9 @@ struct NamedReading {
 struct Disagreement {
   enum class Of { kReading, kPlace, kState };
   Of of = Of::kReading;
-  std::string id, state;        // kPlace: state empty; kState: id empty
-  double z = 0;                 // the z farthest from 0 among the readings named
-  double relative = 0;          // measured / predicted - 1 of that reading
+  std::string id, state;  // kPlace: state empty; kState: id empty
+  double z = 0;           // the z farthest from 0 among the readings named
+  double relative = 0;    // measured / predicted - 1 of that reading; infinity where no light is predicted
   std::string meaning, remedy;  // a sentence each, without a full stop
 };
 

@@ -40,8 +40,7 @@ void Record(const CountChoice& choice, int most, Findings& findings) {
        "normalised error: " +
            scores + ")"});
   if (choice.chosen == 0) {
-    findings.undetermined = true;
-    findings.warnings.push_back(
+    findings.AddUndetermined(
         {"luminaires_not_counted",
          "the number of luminaires is not determined: too little light was seen to place "
          "one and to test it on what was left out",
@@ -62,7 +61,8 @@ int CountLuminaires(const Room& room, const RoomObservations& given, int max_cou
                     const std::function<std::string()>& stop_reason) {
   LightData data = LightOf(given).data;
   if (!data.observations.empty()) data = WithMeasuredIndirect(room, data);
-  data.checkpoint = CheckpointOf(stop_reason);
+  std::atomic<int> rounds = 0;
+  data.checkpoint = CheckpointOf(stop_reason, rounds);
   std::vector<std::optional<Eigen::Vector3d>> known;
   for (const KnownLuminaire& luminaire : given.luminaires) known.push_back(luminaire.position_m);
   ChooseCountOptions options;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "inverse/model/internal/indirect_error.h"
 #include "inverse/model/internal/row_block.h"
@@ -20,7 +21,35 @@ bool IsLit(const RoomFit& fit, int state) {
   return true;
 }
 
+// Returns how far a rival is from the luminaire, in the parameter's unit; 0 for what the two have in common.
+double Distance(const Luminaire& luminaire, const AmbiguousPlace& place, const Luminaire& rival,
+                ParameterKind kind, LuminaireQuantity quantity) {
+  if (kind == ParameterKind::kLogFlux) return std::abs(std::log(rival.flux_lm / place.kept.flux_lm));
+  switch (quantity) {
+    case LuminaireQuantity::kPositionX:
+    case LuminaireQuantity::kPositionY:
+    case LuminaireQuantity::kPositionZ: {
+      const int axis = static_cast<int>(quantity);
+      return std::abs(rival.position[axis] - luminaire.position[axis]);
+    }
+    case LuminaireQuantity::kTiltAlong:
+    case LuminaireQuantity::kTiltAcross:
+      return std::acos(std::clamp(rival.aim.dot(place.kept.aim), -1.0, 1.0));
+    default:
+      return 0;
+  }
+}
+
 }  // namespace
+
+bool Findings::IsUndetermined() const {
+  return std::any_of(warnings.begin(), warnings.end(), [](const Warning& w) { return w.is_of_outcome; });
+}
+
+void Findings::AddUndetermined(Warning warning) {
+  warning.is_of_outcome = true;
+  warnings.push_back(std::move(warning));
+}
 
 double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity) {
   for (size_t i = 0; i < fit.parameters.size() && fit.covariance.size() > 0; ++i) {
@@ -32,6 +61,18 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
     return known ? std::sqrt(fit.covariance(row, row)) : kNotDetermined;
   }
   return 0;
+}
+
+double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity) {
+  double spread = 0;
+  for (const AmbiguousPlace& place : fit.ambiguous) {
+    const bool concerns = kind == ParameterKind::kLuminaire || kind == ParameterKind::kLogFlux;
+    if (!concerns || place.luminaire != index) continue;
+    const Luminaire& luminaire = fit.fit.state.luminaires[static_cast<size_t>(index)];
+    for (const Luminaire& rival : place.rivals)
+      spread = std::max(spread, Distance(luminaire, place, rival, kind, quantity));
+  }
+  return std::hypot(SigmaOf(fit.fit, kind, index, quantity), spread);
 }
 
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
@@ -55,11 +96,11 @@ std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit) {
     estimated.position = luminaire.position;
     for (int axis = 0; axis < 3; ++axis)
       estimated.position_sigma_m[axis] =
-          SigmaOf(fit.fit, ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis));
+          SigmaOf(fit, ParameterKind::kLuminaire, index, static_cast<LuminaireQuantity>(axis));
     const bool has_flux = !fit.absolute || IsFluxKnown(fit, k);
     estimated.flux = has_flux ? luminaire.flux_lm : kNotDetermined;
     estimated.flux_sigma =
-        has_flux ? luminaire.flux_lm * SigmaOf(fit.fit, ParameterKind::kLogFlux, index) : kNotDetermined;
+        has_flux ? luminaire.flux_lm * SigmaOf(fit, ParameterKind::kLogFlux, index) : kNotDetermined;
     found.push_back(estimated);
   }
   return found;

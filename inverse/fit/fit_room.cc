@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -54,6 +55,7 @@ class RoomFitter {
         "fit", fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
                            result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
     LuminaireFit fit = FitInTime();
+    RecordAmbiguity();
     const bool is_whole = !result_.stopped;
     if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, start_.priors);
@@ -87,6 +89,7 @@ class RoomFitter {
       fit = FitOfBest();
     }
     result_.data.checkpoint = nullptr;  // what follows is short
+    result_.rounds = rounds_;
     return fit;
   }
 
@@ -130,7 +133,7 @@ class RoomFitter {
       result_.luminaire_found = start_.luminaire_found;
     }
     best_ = start_.state;
-    result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason);
+    result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason, rounds_);
     LightState state = start_.state;
     // Without readings, the camera's scale is given or follows from a known flux.
     if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;
@@ -158,17 +161,38 @@ class RoomFitter {
     }
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
-    for (const StartComparison& c : starts.comparisons) {
-      RecordStarts(given_, c, result_.findings);
-      if (!c.rivals.empty()) ambiguous_.insert(c.luminaire);
-    }
+    starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
-    state = WithNamesInOrder(given_, ChooseModels(data, starts.state));
+    const LightState chosen = ChooseModels(data, starts.state);
+    state = WithNamesInOrder(given_, chosen);
+    FollowNames(chosen, state);
     result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, state);
     state.camera_scale_free = start_.state.camera_scale_free;
     state.meter_scale_free = start_.state.meter_scale_free;
     return state;
+  }
+
+  // Names what was compared of luminaires as they are named now.
+  void FollowNames(const LightState& before, const LightState& after) {
+    for (StartComparison& c : starts_) {
+      const Eigen::Vector3d& place = before.luminaires[static_cast<size_t>(c.luminaire)].position;
+      const auto named = std::find_if(after.luminaires.begin(), after.luminaires.end(),
+                                      [&](const Luminaire& l) { return l.position == place; });
+      c.luminaire = static_cast<int>(named - after.luminaires.begin());
+    }
+  }
+
+  // Records where several places explain a luminaire's light, and which of them no photo settles.
+  void RecordAmbiguity() {
+    for (const StartComparison& c : starts_) {
+      const bool is_settled = c.rivals.empty() || is_seen_.count(c.luminaire) > 0;
+      RecordStarts(given_, c, is_settled, result_.findings);
+      if (is_settled) continue;
+      AmbiguousPlace place{c.luminaire, c.end[static_cast<size_t>(c.chosen)], {}};
+      for (const int rival : c.rivals) place.rivals.push_back(c.end[static_cast<size_t>(rival)]);
+      result_.ambiguous.push_back(std::move(place));
+    }
   }
 
   // Returns by luminaire whether nothing is known of its distribution.
@@ -200,9 +224,8 @@ class RoomFitter {
     for (const PlacesChoice& c : choice.places) {
       RecordPlaces(given_, c, result_.findings);
       if (!c.is_seen) continue;
-      for (const int k : c.luminaires) ambiguous_.erase(k);
+      is_seen_.insert(c.luminaires.begin(), c.luminaires.end());
     }
-    result_.findings.undetermined |= !ambiguous_.empty();
     for (const LuminaireChoice& c : choice.choices) RecordChoice(given_, c, result_.findings);
     for (const AimChoice& c : choice.aims)
       RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
@@ -356,8 +379,7 @@ class RoomFitter {
     result_.absolute = light_.used_readings > 0 || start_.flux_known || !state.camera_scale_free;
     if (!result_.absolute) {
       state.camera_scale_free = false;
-      result_.findings.undetermined = true;
-      result_.findings.warnings.push_back(
+      result_.findings.AddUndetermined(
           {"scale_undetermined",
            "the fluxes of all luminaires and the camera's scale are known only up to one common factor",
            "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
@@ -374,12 +396,13 @@ class RoomFitter {
   RoomLight light_;
   RoomFit result_;
   FitStart start_;
+  std::atomic<int> rounds_ = 0;
   std::string step_;  // that is under way
   LightState best_;   // of all luminaires, so far
   bool is_scale_settled_ = false;
   std::vector<OpenChoice> open_;
-  std::set<int>
-      ambiguous_;  // luminaires of several places that explain the light equally, and no photo tells
+  std::vector<StartComparison> starts_;
+  std::set<int> is_seen_;             // luminaires whose places photos tell
   bool is_textured_ = false;          // elements depart from their materials
   TakenRows taken_;                   // elements of the last fit
   std::vector<HeldDirections> held_;  // by luminaire, before aims and headings were chosen

@@ -37,6 +37,8 @@ namespace luxfit {
 // and the reason. A warning carries a code (docs/warnings.md), what is wrong and what would fix it.
 struct Warning {
   std::string code, message, remedy;
+  bool is_of_outcome =
+      false;  // something that was asked for is not determined, or contradicted: no whole result
 };
 
 struct Choice {
@@ -48,7 +50,10 @@ struct Choice {
 struct Findings {
   std::vector<Warning> warnings;
   std::vector<Choice> choices;
-  bool undetermined = false;  // something that was asked for is not determined by the data
+
+  // Returns whether something that was asked for is not determined by the data. Some warning then says what.
+  bool IsUndetermined() const;
+  void AddUndetermined(Warning warning);
 };
 
 struct FitRoomOptions {
@@ -84,18 +89,29 @@ struct LuminaireType {
   std::vector<DeviatingFlux> deviating;
 };
 
+// Holds a luminaire of several places that explain the light equally, of which no photo shows the right one.
+struct AmbiguousPlace {
+  int luminaire = 0;
+  Luminaire kept;                 // as its own data alone place it; its flux may be relative
+  std::vector<Luminaire> rivals;  // what explains them equally, fluxes in the same unit
+};
+
 struct RoomFit {
   LuminaireFit fit;
   LightData data;                     // data of the fit, with the views of one element merged
   std::vector<bool> luminaire_found;  // false: it has no place and gives no light
   std::vector<LuminaireType> types;
+  std::vector<AmbiguousPlace> ambiguous;
   Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
   // By luminaire, relative to their mean (inverse/choose/internal/colour_detail.h). Empty where all have
   // one colour.
   Eigen::Matrix3Xd tint_rgb;
   bool absolute = false;                    // whether fluxes are in lm
   std::optional<DirectShare> direct_share;  // only for fits to readings alone with free reflectances
-  std::optional<EarlyStop> stopped;         // the fit is of the best state until then
+  // Counts the rounds of all fits, those of single luminaires and of parts of the data included: the work, whatever
+  // the machine.
+  int rounds = 0;
+  std::optional<EarlyStop> stopped;  // the fit is of the best state until then
   Findings findings;
 
   bool IsUsable() const { return fit.IsUsable(); }
@@ -112,6 +128,10 @@ RoomFit FitRoom(const Room& room, const RoomObservations& observations, const Fi
 // Returns the standard deviation of a parameter in its own unit. `quantity` is used for
 // ParameterKind::kLuminaire only.
 double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {});
+
+// Returns the same; where the place of the luminaire is ambiguous, hypot of it and the distance to the farthest rival
+// (of its coordinate, the logarithm of its flux, its aim).
+double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {});
 
 // Returns whether the data determine the luminaire's flux in lumens.
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire);

@@ -60,4 +60,25 @@ void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Fin
        "the intensities were used; give flux_lm, or ask the maker for a consistent file"});
 }
 
+void WarnOfTilt(const Luminaire& luminaire, const PhotometryFile& file, Findings& findings) {
+  if (!file.missing_tilt_file.empty()) {
+    findings.warnings.push_back(
+        {"photometry_tilt",
+         fmt::format(
+             "the photometry of {} names the TILT file {}, which was not found: its factors are left out",
+             luminaire.id, file.missing_tilt_file),
+         "put the file beside the .ies, or give flux_lm"});
+  }
+  const double factor = TiltFactor(file, luminaire.aim);
+  if (factor == 1) return;
+  constexpr double kDegrees = 180 / M_PI;
+  findings.warnings.push_back(
+      {"photometry_tilt",
+       fmt::format("{} is aimed {:.3g} degrees off straight down: the TILT factor {:.4g} of its file was "
+                   "applied to its "
+                   "flux",
+                   luminaire.id, kDegrees * std::acos(std::clamp(-luminaire.aim.z(), -1.0, 1.0)), factor),
+       "nothing, where the lamp is of the kind that the file was made for; else give flux_lm"});
+}
+
 }  // namespace luxfit

@@ -80,6 +80,10 @@ struct RoomObservations {
 // its stated flux or, where it states none, that of its lamps: more than 1.1 times it, or less than a tenth.
 void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Findings& findings);
 
+// Warns ("photometry_tilt") where the luminaire's flux, taken from the file, depends on its tilt (LM-63, TILT): which
+// factor applies, or that the file of factors is missing.
+void WarnOfTilt(const Luminaire& luminaire, const PhotometryFile& file, Findings& findings);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_INVERSE_FIT_ROOM_OBSERVATIONS_H_

@@ -46,13 +46,11 @@ void WholeFit(benchmark::State& state) {
     RunContext own;
     own.is_quiet = true;
     own.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
-    benchmark::DoNotOptimize(FitSession(prepared.session, prepared.linearized, prepared.room,
-                                        {prepared.observations, prepared.seen, prepared.outlines,
-                                         PoseErrorsOf(prepared.registered.registration)},
-                                        own));
+    benchmark::DoNotOptimize(
+        FitSession(prepared.session, prepared.linearized, prepared.room, prepared.observed, own));
     context = own;
   }
-  state.counters["observations"] = static_cast<double>(prepared.observations.size());
+  state.counters["observations"] = static_cast<double>(prepared.observed.observations.size());
   for (const char* stage : {"guess", "choose", "refine"}) state.counters[stage] = context.timing_s[stage];
 }
 
@@ -69,10 +67,8 @@ const Start& Moved() {
     RunContext context;
     context.is_quiet = true;
     context.out = (std::filesystem::temp_directory_path() / "luxfit_fit_benchmark").string();
-    const RoomFit fitted = FitSession(prepared.session, prepared.linearized, prepared.room,
-                                      {prepared.observations, prepared.seen, prepared.outlines,
-                                       PoseErrorsOf(prepared.registered.registration)},
-                                      context);
+    const RoomFit fitted =
+        FitSession(prepared.session, prepared.linearized, prepared.room, prepared.observed, context);
     Start moved{fitted.data, fitted.fit.state, {}};
     for (size_t k = 0; k < moved.state.luminaires.size(); ++k) {
       Luminaire& luminaire = moved.state.luminaires[k];

@@ -45,7 +45,7 @@ if [ -e "$given/CMakeLists.txt" ]; then
   git -C "$given" archive HEAD | tar -x -C "$root$given"
   [ -z "${CCACHE_DIR:-}" ] || mount --bind "$CCACHE_DIR" "$root/ccache"
   last=$(date +%s)
-  inside "cd $given && .ci/setup.sh"
+  inside "cd $given && .ci/setup.sh \$(cat .ci/packages.txt) dpkg-dev file pybind11-dev python3-dev"
   step 'build: .ci/setup.sh'
   inside "cd $given && export CCACHE_DIR=/ccache && cmake --preset package && cmake --build build/package && cpack --preset deb"
   step 'build: configured, compiled, packed'

@@ -8,7 +8,7 @@ trap 'rm -rf "$work"' EXIT
 codes() { tr '\0' '\n' | grep -oE '"[a-z]+(_[a-z]+)*"$' | tr -d '"'; }
 {
   # Where one is made: context.warnings, notes of calib (view, tag, code or code, whether it fails), mesh findings.
-  grep -Pzoh 'warnings\.(push_back|emplace_back)\(\s*\{?\s*"[a-z_]+"' -r apps inverse --include='*.cc' | codes
+  grep -Pzoh '(warnings\.(push_back|emplace_back)|AddUndetermined)\(\s*\{?\s*"[a-z_]+"' -r apps inverse --include='*.cc' | codes
   grep -oh 'Warn("[a-z_]*"' -r apps inverse --include='*.cc' | codes
   grep -Pzoh '(-1|\bid),\s*"[a-z_]+"(?=,)' -r calib --include='*.cc' | codes
   grep -Pzoh 'notes\.push_back\(\s*\{"[a-z_]+"' -r calib --include='*.cc' | codes

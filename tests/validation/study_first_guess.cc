@@ -46,11 +46,8 @@ Office PrepareOffice(const std::string& folder) {
   context.out = folder;
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
-  const SessionObservations observed{office.prepared.observations, office.prepared.seen,
-                                     office.prepared.outlines,
-                                     PoseErrorsOf(office.prepared.registered.registration)};
   const LightData data = LightOf(RoomObservationsOf(office.prepared.session, office.prepared.linearized,
-                                                    office.prepared.room, observed))
+                                                    office.prepared.room, office.prepared.observed))
                              .data;
   office.data = WithMeasuredIndirect(office.prepared.room, data);
   for (const EstimatedLuminaire& lamp : ReadTruth(kOffice + "truth.json"))
@@ -83,7 +80,7 @@ void CompareWithSearch(const Office& office) {
       line += fmt::format("{:6.2f}", 100 * l.relative_residual);
     std::printf("%s %10.2f\n", line.c_str(), cpu_s);
   };
-  print("seen in photos", office.prepared.seen, FirstGuessOptions{}.grid_m);
+  print("seen in photos", office.prepared.observed.seen, FirstGuessOptions{}.grid_m);
   for (const double grid_m : {0.4, 0.37, 0.43, 0.5})
     print(fmt::format("search, grid of {} m", grid_m), {}, grid_m);
 }
@@ -93,7 +90,7 @@ std::vector<SeenPlace> Moved(const Office& office, double r_m, std::mt19937_64& 
   std::vector<SeenPlace> places;
   std::normal_distribution<double> normal;
   constexpr double kOwnM = 0.5;
-  for (const SeenPlace& place : office.prepared.seen) {
+  for (const SeenPlace& place : office.prepared.observed.seen) {
     if (std::all_of(office.truth.begin(), office.truth.end(),
                     [&](const Eigen::Vector3d& p) { return (p - place.position).norm() > kOwnM; }))
       places.push_back(place);

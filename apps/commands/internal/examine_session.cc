@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/stages/session_check.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
 #include "apps/text/file_stem.h"
@@ -26,27 +28,73 @@ constexpr int kNamedFiles = 3;
 
 using DoctorFindings = std::vector<DoctorFinding>;
 
-void ExamineMesh(const Session& session, DoctorFindings& findings) {
+// Adds what the stages of `luxfit run` say, in their words.
+void AddWarnings(const std::vector<Warning>& warnings, DoctorFindings& findings) {
+  for (const Warning& warning : warnings)
+    findings.push_back(
+        {warning.is_of_outcome ? Health::kBad : Health::kNote, warning.message, warning.remedy});
+}
+
+// Holds a folder for what the stages write; it goes with this object.
+class TrialFolder {
+ public:
+  TrialFolder() : path_(std::filesystem::temp_directory_path() / fmt::format("luxfit_doctor_{}", getpid())) {
+    context_.out = path_.string();
+    context_.is_quiet = true;
+  }
+  ~TrialFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TrialFolder(const TrialFolder&) = delete;
+  TrialFolder& operator=(const TrialFolder&) = delete;
+
+  RunContext& context() { return context_; }
+
+ private:
+  std::filesystem::path path_;
+  RunContext context_;
+};
+
+void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& findings) {
   if (!session.scene) {
     findings.push_back(
         {Health::kNote, "no [scene]: all light is taken as direct", "give the mesh of the room"});
     return;
   }
   try {
-    const LoadedMesh mesh = LoadMesh(session);
-    const Eigen::Vector3d size = mesh.scene.Bounds().sizes();
+    const Room room = LoadRoom(session, context);
+    const Eigen::Vector3d size = room.scene.Bounds().sizes();
     findings.push_back(
         {Health::kGood,
          fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials", size.x(), size.y(),
-                     size.z(), mesh.scene.facets.size(), mesh.scene.materials.size()),
+                     size.z(), room.scene.facets.size(), room.scene.materials.size()),
          ""});
-    for (const MeshFinding& finding : mesh.findings) {
-      if (finding.affects_light)
-        findings.push_back({Health::kNote, finding.message + "; " + finding.effect, finding.remedy});
-    }
+    AddWarnings(context.warnings, findings);
+    AddWarnings(CheckSession(session, room.rays).warnings, findings);
   } catch (const std::runtime_error& e) {
     findings.push_back({Health::kBad, e.what(), ""});
   }
+}
+
+// Linearizes and registers as `run` does, but for COLMAP, which takes minutes.
+void ExamineRegistration(const Session& session, RunContext& context, DoctorFindings& findings) {
+  Session by_tags = session;
+  by_tags.registration.method = "tags";
+  const size_t said = context.warnings.size();
+  try {
+    const LinearizedPhotos photos = LinearizePhotos(by_tags, context);
+    const RegisteredSession registered = RegisterSession(by_tags, photos, context);
+    findings.push_back(
+        {Health::kGood,
+         fmt::format("{} views are placed by tags, reprojection RMS {:.3f} px",
+                     registered.registration.views.size(), registered.registration.reprojection_rms_px),
+         ""});
+  } catch (const std::runtime_error& e) {
+    findings.push_back({Health::kBad, e.what(), ""});
+  }
+  AddWarnings({context.warnings.begin() + static_cast<std::ptrdiff_t>(said), context.warnings.end()},
+              findings);
 }
 
 struct LookedAt {
@@ -111,7 +159,7 @@ void ExamineTags(const Session& session, const std::map<std::string, std::vector
                         "survey them too"});
 }
 
-void ExaminePhotos(const Session& session, DoctorFindings& findings) {
+void ExaminePhotos(const Session& session, RunContext& context, DoctorFindings& findings) {
   if (session.photos.empty()) {
     findings.push_back({Health::kNote, "no [photos]: the fit is to readings alone", ""});
     return;
@@ -143,7 +191,15 @@ void ExaminePhotos(const Session& session, DoctorFindings& findings) {
                       fmt::format("{} of {} photos can be used, {} views", looks.size() - problems,
                                   looks.size(), views.size()),
                       ""});
-  ExamineTags(session, tags_of_view, findings);
+  const bool has_intrinsics =
+      std::all_of(cameras.begin(), cameras.end(), [](const auto& c) { return c.has_value(); });
+  const bool has_tags = std::any_of(tags_of_view.begin(), tags_of_view.end(),
+                                    [](const auto& view) { return !view.second.empty(); });
+  if (has_intrinsics && has_tags && problems == 0 && !session.lights) {
+    ExamineRegistration(session, context, findings);
+  } else {
+    ExamineTags(session, tags_of_view, findings);
+  }
 }
 
 // Checks that the states tell luminaires apart, which takes as many independent states as there are
@@ -193,8 +249,9 @@ void ExamineReadings(const Session& session, DoctorFindings& findings) {
 
 std::vector<DoctorFinding> ExamineSession(const Session& session) {
   DoctorFindings findings;
-  ExamineMesh(session, findings);
-  ExaminePhotos(session, findings);
+  TrialFolder folder;
+  ExamineRoom(session, folder.context(), findings);
+  ExaminePhotos(session, folder.context(), findings);
   if (!session.lights) {
     ExamineStates(session, findings);
     ExamineReadings(session, findings);

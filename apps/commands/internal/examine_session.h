@@ -1,6 +1,8 @@
-// Finds what a session lacks without running it: mesh, photos, tags, states, readings.
+// Finds what a session lacks without fitting it: mesh, photos, tags, states, readings.
 //
-// Looks at every photo once, for its size, depth and exposure, and at one photo of each view for tags.
+// Looks at every photo once, for its size, depth and exposure, and at one photo of each view for tags. Where they can be
+// used, the stages of `luxfit run` before the fit are run (scene, linearize, register, without COLMAP), and what they
+// warn of or refuse is found in their words.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_EXAMINE_SESSION_H_
 

@@ -12,6 +12,7 @@
 #include "apps/text/formats/csv_table.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
+#include "calib/luminance/exposure.h"
 
 namespace luxfit {
 namespace {
@@ -70,6 +71,15 @@ std::vector<Row> RowsOf(const LuxmapCommandOptions& options) {
                     std::nullopt,
                     {file, 0}});
   return rows;
+}
+
+// Luminance follows from the exposure, which the photo's file or the user states.
+void ExpectExposure(const Row& row) {
+  if (row.exposure_s > 0 || ReadExposureMetadata(row.file).exposure_s) return;
+  throw InputError(
+      row.place, "exposure_s",
+      "expected the exposure time of the photo, which its file does not state, got nothing; give "
+      "--exposure-s, or the column exposure_s in a table of photos");
 }
 
 int CameraOf(const Session& session, const Row& row) {
@@ -167,6 +177,7 @@ std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, c
 
 NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& options, RunContext& context) {
   const std::vector<Row> rows = RowsOf(options);
+  for (const Row& row : rows) ExpectExposure(row);
   std::map<std::string, Eigen::Isometry3d> poses;
   for (const Row& row : rows) {
     if (!options.pose_from_tags) poses[row.view] = ViewOf(fitted, row).cam_from_world;
@@ -181,7 +192,8 @@ NewPhotos ReadNewPhotos(const FittedRoom& fitted, const LuxmapCommandOptions& op
     if (!IsNew(photo)) continue;
     const auto pose = poses.find(photo.view);
     if (pose == poses.end()) {
-      context.undetermined = true;
+      context.AddUndetermined({"no_tags", photo.view + " has no pose: no tag of the room places it",
+                               "photograph the tags of the room too, or name the view of the run by --view"});
       continue;
     }
     read.photos.push_back({photo, time_of[photo.file], pose->second});

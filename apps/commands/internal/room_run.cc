@@ -38,7 +38,7 @@ StageInputs WithOutputs(StageInputs inputs, const std::string& out) {
 
 int Show(const json& result, const RunCommandOptions& options, RoomRun what) {
   const std::string text =
-      options.json ? result.dump(2) + "\n"
+      options.json ? JsonText(result)
                    : (what == RoomRun::kFitAndAlbedo ? AlbedoTable(result) : ResultTables(result));
   if (options.prints) PrintText(text);
   return result.at("status") == "done" ? 0 : 1;
@@ -55,9 +55,7 @@ RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, Room
                           RunContext& context) {
   const StageTimer total(context, "total", "");
   PreparedSession prepared = PrepareSession(read, inputs, context);
-  const SessionObservations observed{std::move(prepared.observations), std::move(prepared.seen),
-                                     std::move(prepared.outlines),
-                                     PoseErrorsOf(prepared.registered.registration)};
+  const SessionObservations& observed = prepared.observed;
   const LinearizedSession& linearized = prepared.linearized;
   context.stop = std::make_shared<FitStop>(budget_s);
   const Session session =
@@ -116,7 +114,7 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   const std::string path = context.out + "/result.json";
   const RunPlan plan = PlanOf(inputs, WithOutputs(inputs.result, context.out), context.out);
   if (options.dry_run) {
-    PrintText(options.json ? PlanJson(plan).dump(2) + "\n" : PlanText(plan));
+    PrintText(options.json ? JsonText(PlanJson(plan)) : PlanText(plan));
     return 0;
   }
   // A fit without luminaires has no report, and its warnings say why.

@@ -208,7 +208,7 @@ int CommissionCommand(const CommissionCommandOptions& options) {
                                                                            {"lacks_lx", "/lacks_lx"}}));
   }
   WriteJson(folder + "/commission.json", result);
-  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : text.c_str(), stdout);
+  std::fputs(options.json ? JsonText(result).c_str() : text.c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (folder + "/commission.json").c_str());
   return is_reached ? 0 : 1;
 }

@@ -211,7 +211,7 @@ int DimCommand(const DimCommandOptions& options) {
                                                               {"indirect_lx", "/indirect_lx"},
                                                               {"share", "/share"}}));
   WriteJson(folder + "/dim.json", result);
-  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : DimmingTable(result).c_str(), stdout);
+  std::fputs(options.json ? JsonText(result).c_str() : DimmingTable(result).c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (folder + "/dim.json").c_str());
   return is_lit ? 0 : 1;
 }

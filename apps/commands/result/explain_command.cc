@@ -11,6 +11,7 @@
 
 #include "apps/docs_text.h"
 #include "apps/session/earlier_result.h"
+#include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 
@@ -85,12 +86,15 @@ std::string Topics() {
 // Describes what a result reports, and what it means.
 std::string ResultText(const nlohmann::json& result) {
   std::string text;
+  if (result.contains("status_because"))
+    text = fmt::format("undetermined because of {}\n\n",
+                       fmt::join(result["status_because"].get<std::vector<std::string>>(), ", "));
   for (const nlohmann::json& w : result.at("warnings")) {
     const std::string code = w.at("code");
     text += fmt::format("{}: {}\n  here: {}\n  means: {}\n", code, w.at("message").get<std::string>(),
                         w.at("remedy").get<std::string>(), ExplanationOf(code));
   }
-  if (result.at("warnings").empty()) text = "no warnings\n";
+  if (result.at("warnings").empty()) text += "no warnings\n";
   text += "\nwhat was chosen, and why:\n";
   for (const nlohmann::json& c : result.at("choices"))
     text += fmt::format("  {}: {}\n      because {}\n", c.at("what").get<std::string>(),
@@ -120,7 +124,9 @@ std::vector<std::string> ExplainedKeys() {
 std::string ExplanationOf(const std::string& topic) {
   std::string text = WarningText(topic);
   for (const KeyLine& key : KeyLines()) {
+    const bool is_of_section = key.topic.rfind(topic + ".", 0) == 0;
     if (key.topic == topic) text += key.line + "\n";
+    if (is_of_section) text += key.topic + ": " + key.line + "\n";
   }
   return text + (topic.find('.') != std::string::npos ? RowsOn(topic) : "");
 }
@@ -143,7 +149,7 @@ int ExplainCommand(const ExplainCommandOptions& options) {
         "a run, got " +
         Quoted(options.topic) + DidYouMean(options.topic, known) + " (`luxfit explain` lists them)");
   }
-  if (options.json) text = nlohmann::json{{"topic", options.topic}, {"text", text}}.dump(2) + "\n";
+  if (options.json) text = JsonText(nlohmann::json{{"topic", options.topic}, {"text", text}});
   PrintText(text);
   return 0;
 }

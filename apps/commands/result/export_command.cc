@@ -82,7 +82,7 @@ int ExportCommand(const ExportCommandOptions& options) {
     for (const std::string& note : exported.notes) text += "            " + note + "\n";
   }
   WriteJson(folder + "/manifest.json", manifest);
-  std::fputs(options.json ? (manifest.dump(2) + "\n").c_str() : text.c_str(), stdout);
+  std::fputs(options.json ? JsonText(manifest).c_str() : text.c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (folder + "/manifest.json").c_str());
   return is_whole ? 0 : 1;
 }

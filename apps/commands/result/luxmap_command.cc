@@ -142,10 +142,8 @@ std::string ElementCsv(const Patches& patches, const std::vector<ElementIllumina
 void WarnOfPhoto(const FittedRoom& fitted, const std::string& name, const std::string& state,
                  const CurrentDimming& current, RunContext& context) {
   if (!current.is_determined) {
-    context.undetermined = true;
-    context.warnings.push_back({"dimming_undetermined",
-                                name + " shows too little to tell the luminaires apart",
-                                "photograph a view that shows more of the room's surfaces"});
+    context.AddUndetermined({"dimming_undetermined", name + " shows too little to tell the luminaires apart",
+                             "photograph a view that shows more of the room's surfaces"});
     return;
   }
   if (current.unexplained_share > kMuchUnexplained) {
@@ -299,9 +297,9 @@ int LuxmapCommand(const LuxmapCommandOptions& options) {
   WriteText(context.out + "/photos.csv", PhotosCsv(fitted, result["photos"]));
   WriteText(context.out + "/places.csv", PlacesCsv(result["photos"]));
   WriteJson(context.out + "/luxmap.json", result);
-  std::fputs(options.json ? (result.dump(2) + "\n").c_str() : LuxMapTable(result).c_str(), stdout);
+  std::fputs(options.json ? JsonText(result).c_str() : LuxMapTable(result).c_str(), stdout);
   std::fprintf(stderr, "done      %s\n", (context.out + "/luxmap.json").c_str());
-  return context.undetermined ? 1 : 0;
+  return context.IsUndetermined() ? 1 : 0;
 }
 
 }  // namespace luxfit

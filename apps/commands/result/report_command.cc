@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/report/report.h"
+#include "apps/text/formats/artifact.h"
 
 namespace luxfit {
 namespace {
@@ -49,7 +50,7 @@ int ReportCommand(const ReportCommandOptions& options) {
   json summary = ReportSummary(data);
   summary["report"] = path;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  std::fputs((options.json ? summary.dump(2) + "\n" : SummaryText(summary)).c_str(), stdout);
+  std::fputs((options.json ? JsonText(summary) : SummaryText(summary)).c_str(), stdout);
   std::fprintf(stderr, "done      %.1f s, %s, %.1f MB\n", elapsed.count(), path.c_str(),
                1e-6 * static_cast<double>(std::filesystem::file_size(path)));
   return 0;

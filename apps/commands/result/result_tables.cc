@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/stages.h"
@@ -91,13 +92,15 @@ std::string SimulationTable(const json& artifact) {
   std::string text = fmt::format("session {}: simulated\n", artifact["session"].get<std::string>());
   text += "\nreading      state               lx      direct    indirect  measured lx  error %\n";
   for (const json& r : artifact["luxmeter"]) {
-    const double predicted = r["predicted_lx"].get<double>();
+    const bool is_known = r["predicted_lx"].is_number();
     const double measured = r["measured_lx"].is_number() ? r["measured_lx"].get<double>() : 0;
-    text +=
-        fmt::format("{:<12} {:<10} {:>11.2f} {:>11.2f} {:>11.2f} {:>12} {:>8}\n", r["id"].get<std::string>(),
-                    r["state"].get<std::string>(), predicted, r["direct_lx"].get<double>(),
-                    r["indirect_lx"].get<double>(), Number(r["measured_lx"], "{:.2f}"),
-                    measured > 0 ? fmt::format("{:+.2f}", 100 * (predicted / measured - 1)) : "-");
+    text += fmt::format("{:<12} {:<10} {:>11} {:>11} {:>11} {:>12} {:>8}\n", r["id"].get<std::string>(),
+                        r["state"].get<std::string>(), Number(r["predicted_lx"], "{:.2f}"),
+                        Number(r["direct_lx"], "{:.2f}"), Number(r["indirect_lx"], "{:.2f}"),
+                        Number(r["measured_lx"], "{:.2f}"),
+                        is_known && measured > 0
+                            ? fmt::format("{:+.2f}", 100 * (r["predicted_lx"].get<double>() / measured - 1))
+                            : "-");
   }
   const json& s = artifact["summary"];
   if (s["readings_checked"].get<int>() > 0) {
@@ -141,18 +144,30 @@ std::string LinearizeTable(const Session& session, const json& artifact) {
   return text;
 }
 
+std::string StatusLine(const json& result) {
+  std::string line = fmt::format("session {}: {}", result["session"].get<std::string>(),
+                                 result["status"].get<std::string>());
+  if (result.contains("status_because"))
+    line += fmt::format(" because of {}",
+                        fmt::join(result["status_because"].get<std::vector<std::string>>(), ", "));
+  return line + "\n";
+}
+
 std::string WarningText(const json& result) {
-  std::string text;
+  const json because = result.value("status_because", json::array());
+  std::string undetermined, others;
   for (const json& w : result["warnings"]) {
-    text += fmt::format("warning: {}\n         remedy: {}\n", w["message"].get<std::string>(),
-                        w["remedy"].get<std::string>());
+    const bool is_cause = std::count(because.begin(), because.end(), w.value("code", "")) > 0;
+    (is_cause ? undetermined : others) +=
+        fmt::format("{}: {}\n         remedy: {}\n", is_cause ? "undetermined" : "warning",
+                    w["message"].get<std::string>(), w["remedy"].get<std::string>());
   }
+  const std::string text = undetermined + others;
   return text.empty() ? text : "\n" + text;
 }
 
 std::string ResultTables(const json& result) {
-  std::string text = fmt::format("session {}: {}\n", result["session"].get<std::string>(),
-                                 result["status"].get<std::string>());
+  std::string text = StatusLine(result);
   if (!result["views"].empty()) {
     text += fmt::format("{} views registered, reprojection RMS {:.3f} px\n", result["views"].size(),
                         result["reprojection_rms_px"].get<double>());

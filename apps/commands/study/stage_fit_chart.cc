@@ -39,7 +39,7 @@ class FitSweep {
 
   std::vector<FitPoint> Run() {
     OfElements();
-    if (!prepared_.observations.empty()) {
+    if (!prepared_.observed.observations.empty()) {
       OfViews();
       OfStates();
       OfRoom("patch_size_m", {0.8, 0.6, 0.3}, [](RoomOptions& o, double v) { o.patches.patch_size_m = v; });
@@ -81,72 +81,51 @@ class FitSweep {
     found_.push_back(std::move(found));
   }
 
-  // Adds to the observations what their photos show of luminaires: places in their states, and outlines.
-  SessionObservations WithSeen(std::vector<Observation> observations) const {
-    std::set<int> states;
-    std::set<std::pair<int, int>> photos;
-    for (const Observation& o : observations) {
-      states.insert(o.state);
-      photos.emplace(o.view, o.state);
-    }
-    SessionObservations kept{std::move(observations), {}, {}, PoseCovariance()};
-    std::copy_if(prepared_.seen.begin(), prepared_.seen.end(), std::back_inserter(kept.seen),
-                 [&](const SeenPlace& place) {
-                   return std::any_of(place.states.begin(), place.states.end(),
-                                      [&](int state) { return states.count(state) > 0; });
-                 });
-    std::copy_if(prepared_.outlines.begin(), prepared_.outlines.end(), std::back_inserter(kept.outlines),
-                 [&](const SeenOutline& outline) {
-                   return photos.count({outline.view, outline.state}) > 0;
-                 });
-    return kept;
+  // Observes again in those photos alone: what they show of luminaires goes with the others.
+  SessionObservations ObservedIn(const std::function<bool(const LinearizedPhoto&)>& is_kept) const {
+    RunContext own;
+    own.out = context_.out;
+    own.is_quiet = true;
+    return Thinned(ObserveKeptPhotos(prepared_, is_kept, own), elements_);
   }
-
-  Eigen::MatrixXd PoseCovariance() const { return PoseErrorsOf(prepared_.registered.registration); }
-
-  std::vector<Observation> Thinned() const { return ThinElements(prepared_.observations, elements_); }
 
   // The last point has all elements, and is the reference where no truth is given.
   void OfElements() {
     std::set<int> observed;
-    for (const Observation& o : prepared_.observations) observed.insert(o.element);
+    for (const Observation& o : prepared_.observed.observations) observed.insert(o.element);
     std::vector<int> counts;
     for (int n = elements_ / 4; n < static_cast<int>(observed.size()); n *= 2)
       counts.push_back(std::max(n, 1));
     counts.push_back(std::max(1, static_cast<int>(observed.size())));
     for (const int n : counts)
       Add("elements", n, prepared_.session, prepared_.linearized, prepared_.room,
-          {ThinElements(prepared_.observations, n), prepared_.seen, prepared_.outlines, PoseCovariance()}, 0);
+          Thinned(prepared_.observed, n), 0);
     if (truth_.empty()) truth_ = found_.back();
   }
 
   void OfViews() {
-    const std::vector<Observation> all = Thinned();
-    std::set<int> views;
-    for (const Observation& o : all) views.insert(o.view);
-    for (size_t n = 1; n <= views.size(); n *= 2) {
-      const int last = *std::next(views.begin(), static_cast<std::ptrdiff_t>(n - 1));
-      std::vector<Observation> kept;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
-                   [&](const Observation& o) { return o.view <= last; });
+    std::set<int> observed;
+    for (const Observation& o : prepared_.observed.observations) observed.insert(o.view);
+    std::set<std::string> views;
+    for (const int v : observed) {
+      views.insert(prepared_.registered.registration.views[static_cast<size_t>(v)].view);
+      const size_t n = views.size();
+      if ((n & (n - 1)) != 0) continue;  // powers of two
       Add("views", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
-          {kept, {}, WithSeen(kept).outlines, PoseCovariance()}, 0);
+          ObservedIn([&](const LinearizedPhoto& photo) { return views.count(photo.view) > 0; }), 0);
     }
   }
 
   void OfStates() {
-    const std::vector<Observation> all = Thinned();
-    std::set<int> states;
-    for (const Observation& o : all) states.insert(o.state);
-    size_t n = 0;
-    for (const int last : states) {
-      ++n;
-      if (n < prepared_.session.luminaires.size()) continue;  // too few to tell luminaires apart
-      std::vector<Observation> kept;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
-                   [&](const Observation& o) { return o.state <= last; });
-      Add("states", static_cast<double>(n), prepared_.session, prepared_.linearized, prepared_.room,
-          WithSeen(kept), 0);
+    std::set<int> observed;
+    for (const Observation& o : prepared_.observed.observations) observed.insert(o.state);
+    std::set<std::string> states;
+    for (const int s : observed) {
+      states.insert(prepared_.session.states[static_cast<size_t>(s)].id);
+      if (states.size() < prepared_.session.luminaires.size()) continue;  // too few to tell luminaires apart
+      Add("states", static_cast<double>(states.size()), prepared_.session, prepared_.linearized,
+          prepared_.room,
+          ObservedIn([&](const LinearizedPhoto& photo) { return states.count(photo.state) > 0; }), 0);
     }
   }
 
@@ -164,14 +143,13 @@ class FitSweep {
       own.is_quiet = true;
       SessionObservations observed =
           ObserveSession(prepared_.session, prepared_.linearized.photos, prepared_.registered, room, own);
-      observed.observations = ThinElements(observed.observations, elements_);
-      Add(factor, value, prepared_.session, prepared_.linearized, room, observed, before_s);
+      Add(factor, value, prepared_.session, prepared_.linearized, room,
+          Thinned(std::move(observed), elements_), before_s);
     }
   }
 
   // Keeps the first luminaires alone, in the states that need no other.
   void OfLuminaires() {
-    const std::vector<Observation> all = Thinned();
     for (size_t n = 1; n <= prepared_.session.luminaires.size(); ++n) {
       Session session = prepared_.session;
       session.luminaires.resize(n);
@@ -183,10 +161,8 @@ class FitSweep {
         });
         if (is_own) states.insert(state.id);
       }
-      std::vector<Observation> kept;
-      std::copy_if(all.begin(), all.end(), std::back_inserter(kept), [&](const Observation& o) {
-        return states.count(session.states[static_cast<size_t>(o.state)].id) > 0;
-      });
+      const SessionObservations observed =
+          ObservedIn([&](const LinearizedPhoto& photo) { return states.count(photo.state) > 0; });
       LinearizedSession linearized = prepared_.linearized;
       std::vector<LuminaireReading>& readings = linearized.readings;
       readings.erase(
@@ -198,8 +174,8 @@ class FitSweep {
         return r.given.role != ReadingRole::kCheck;
       });
       if (!has_scale && !readings.empty()) readings.front().given.role = ReadingRole::kScale;
-      if (kept.empty() && readings.empty()) continue;
-      Add("luminaires", static_cast<double>(n), session, linearized, prepared_.room, WithSeen(kept), 0);
+      if (observed.observations.empty() && readings.empty()) continue;
+      Add("luminaires", static_cast<double>(n), session, linearized, prepared_.room, observed, 0);
     }
   }
 

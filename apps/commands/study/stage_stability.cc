@@ -161,7 +161,7 @@ std::string KeyOf(const StabilityOptions& options, const RunContext& context) {
   made_from.erase("command");
   made_from["seed"] = options.seed;
   made_from["elements"] = options.elements;
-  return HashText(made_from.dump());
+  return HashText(JsonText(made_from));
 }
 
 // Returns the rows of the earlier chart; none where none was named.
@@ -175,11 +175,13 @@ std::vector<StabilityRow> RowsBefore(const Session& session, const StabilityOpti
 }
 
 json UndegradedJson(const DegradedSessions& sessions) {
+  std::vector<std::string> codes;
+  for (const Warning& warning : sessions.undegraded().warnings) codes.push_back(warning.code);
   return {{"success", sessions.undegraded_score().is_success},
           {"worst_position_m", NumberOrNull(sessions.undegraded_score().worst_position_m)},
           {"worst_flux", NumberOrNull(sessions.undegraded_score().worst_flux)},
           {"undetermined", sessions.undegraded().undetermined},
-          {"warnings", sessions.undegraded().warnings}};
+          {"warnings", codes}};
 }
 
 // Returns the artifact without its results.
@@ -247,7 +249,9 @@ json StabilityOfSession(const Session& session, const StabilityOptions& options,
   for (const DegradationResult& result : results) artifact["edges"].push_back(EdgeJson(result));
   WritePictures(results, before, session.name, options, context.out);
   WriteText(context.out + "/stability.csv", StabilityCsv(results));
-  context.undetermined = sessions.undegraded().undetermined;
+  for (const Warning& warning : sessions.undegraded().warnings) {
+    if (warning.is_of_outcome) context.warnings.push_back(warning);
+  }
   artifact["warnings"] = WarningsJson(context);
   WriteJson(context.out + "/stages/stability.json", artifact);
   return artifact;

@@ -64,7 +64,10 @@ export function schedule(data) {
 export function findings(data) {
   const { warnings, status } = data.result;
   const undetermined = data.places.undetermined;
-  const items = warnings.map((w) => h('li', null, h('div', { class: 'message' }, w.message), h('div', { class: 'remedy' }, h('b', null, 'Remedy: '), w.remedy)));
+  const because = data.result.status_because || [];
+  const isCause = (w) => because.includes(w.code);
+  const inOrder = [...warnings.filter(isCause), ...warnings.filter((w) => !isCause(w))];
+  const items = inOrder.map((w) => h('li', null, h('div', { class: 'message' }, isCause(w) ? h('b', null, 'Undetermined: ') : null, w.message), h('div', { class: 'remedy' }, h('b', null, 'Remedy: '), w.remedy)));
   if (undetermined.length > 0)
     items.push(h('li', null, h('div', { class: 'message' }, 'Not determined by the data: ', undetermined.join(', '), '.'),
       h('div', { class: 'remedy' }, 'Values that depend on them have no interval in this report.')));

@@ -1,19 +1,22 @@
 #include "apps/session/internal/session_luxmeter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "apps/session/internal/session_states.h"
 #include "apps/session/session_files.h"
+#include "apps/text/formats/units.h"
 #include "apps/text/name_pattern.h"
 #include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {
 
-constexpr char kIlluminance[] = "illuminance_lx", kIlluminanceAlias[] = "lux";
+constexpr char kIlluminance[] = "illuminance_lx";
+constexpr std::array<const char*, 3> kIlluminanceAliases = {"lux", "illuminance_fc", "illuminance_klx"};
 
 std::string NameOf(const SessionReading& reading) { return reading.id + "@" + reading.state; }
 
@@ -34,10 +37,11 @@ SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vect
   reading.normal.normalize();
   reading.state = StateOfRow(table, row, states);
   if (HasColumn(table, "sensor")) reading.sensor = CsvText(table, row, "sensor");
-  const std::string column = HasColumn(table, kIlluminance) ? kIlluminance : kIlluminanceAlias;
+  std::string column = kIlluminance;
+  for (const char* alias : kIlluminanceAliases) column = HasColumn(table, alias) ? alias : column;
   reading.is_measured = !CsvText(table, row, column).empty();
   if (!reading.is_measured) return reading;
-  reading.illuminance_lx = CsvNumber(table, row, column);
+  reading.illuminance_lx = CsvNumber(table, row, column) * UnitFactor(column, kIlluminance).value_or(1);
   if (reading.illuminance_lx < 0)
     throw CsvError(table, row, column,
                    "expected >= 0, got " + Quoted(CsvText(table, row, column)) +
@@ -149,9 +153,10 @@ SensorResponse ReadSensitivity(const std::string& path) {
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class", "sensor_sigma"});
   const std::string path = FindFile(section.Require("readings", "the table of readings (CSV)"), folder);
-  return ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", kIlluminance},
-                             {"sensor"},
-                             {{kIlluminance, kIlluminanceAlias}}});
+  std::map<std::string, std::string> alias;
+  for (const char* name : kIlluminanceAliases) alias[name] = kIlluminance;
+  return ReadCsvTable(
+      path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", kIlluminance}, {"sensor"}, alias});
 }
 
 SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,

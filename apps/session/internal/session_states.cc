@@ -58,8 +58,15 @@ std::vector<std::string> LuminairesOfStates(const TomlCursor& section,
   std::vector<std::string> names = known;
   for (const SessionGroup& group : groups) names.push_back(group.name);
   std::vector<std::string> ids;
+  std::map<std::string, std::string> spelling;  // by the name in small letters
+  for (const std::string& name : names) spelling.emplace(Lowercase(name), name);
   for (const TomlCursor::Member& state : section.Members()) {
     for (const auto& [name, value] : state.value.Members()) {
+      const std::string& other = spelling.emplace(Lowercase(name), name).first->second;
+      if (other != name)
+        throw value.Error("expected luminaires whose names differ by more than capitals, got " +
+                          Quoted(name) + " beside " + Quoted(other) +
+                          "; write both alike, or give one another name");
       if (FindGroup(groups, name) != nullptr) continue;
       if (!groups.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
         const std::string nearest = DidYouMean(name, names);

@@ -115,7 +115,7 @@ json WithAlbedo(json result, const json& artifact, const RunContext& context) {
         material[key] = finer[key];
     }
   }
-  result["status"] = context.undetermined ? "undetermined" : "done";
+  AddStatus(context, result);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);
   result["timing_s"] = context.timing_s;
@@ -126,10 +126,9 @@ std::string AlbedoTable(const json& result) {
   const auto text_of = [](const json& value) {
     return value.is_number() ? fmt::format("{:.4f}", value.get<double>()) : std::string("-");
   };
-  std::string text =
-      fmt::format("session {}: {}\n\n{:<16} {:>8} {:>8}  {:>14} {:>8}  {:<10} {}\n",
-                  result["session"].get<std::string>(), result["status"].get<std::string>(), "material",
-                  "albedo", "sigma", "from radiosity", "sigma", "detail", "unlike the rest");
+  std::string text = StatusLine(result) + fmt::format("\n{:<16} {:>8} {:>8}  {:>14} {:>8}  {:<10} {}\n",
+                                                      "material", "albedo", "sigma", "from radiosity",
+                                                      "sigma", "detail", "unlike the rest");
   for (const json& m : result["materials"]) {
     const bool finer = m.contains("detail");
     text += fmt::format(

@@ -123,9 +123,8 @@ json StereoSession(const Session& session, const LinearizedPhotos& linearized, R
   artifact["method"] = ToString(options.method);
   artifact["message"] = result.message;
   if (!result.IsUsable()) {
-    context.undetermined = true;
-    context.warnings.push_back({"stereo_undetermined", "nothing is determined: " + result.message,
-                                "photograph the object under more lights, spread around the camera"});
+    context.AddUndetermined({"stereo_undetermined", "nothing is determined: " + result.message,
+                             "photograph the object under more lights, spread around the camera"});
     WriteJson(context.out + "/stages/albedo.json", artifact);
     return artifact;
   }
@@ -147,7 +146,7 @@ json StereoSession(const Session& session, const LinearizedPhotos& linearized, R
 json StereoResultJson(const Session& session, const json& artifact, const RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
-  result["status"] = context.undetermined ? "undetermined" : "done";
+  AddStatus(context, result);
   for (const char* key : {"method", "message", "object", "lights", "curve"}) {
     if (artifact.contains(key)) result[key] = artifact[key];
   }
@@ -158,8 +157,7 @@ json StereoResultJson(const Session& session, const json& artifact, const RunCon
 }
 
 std::string StereoTable(const json& result) {
-  std::string text = fmt::format("session {}: {}\n", result["session"].get<std::string>(),
-                                 result["status"].get<std::string>());
+  std::string text = StatusLine(result);
   // No pixel of the object may be determined, though some of the reference are.
   if (result.contains("object") && result["object"]["albedo_mean"].is_number()) {
     const json& o = result["object"];

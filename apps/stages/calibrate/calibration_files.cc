@@ -172,7 +172,7 @@ void WriteCameraFiles(const CalibratedGroup& calibrated, FileWriter& files) {
 
 // Writes one chain for a rig. Single cameras would each form a chain, so only the first group is written.
 void WriteSharedFiles(const std::vector<CalibratedGroup>& groups, FileWriter& files) {
-  std::map<int, Camera> colmap;
+  std::map<ColmapId, Camera> colmap;
   std::vector<std::string> reasons;
   std::vector<ImageCorners> corners;
   for (const CalibratedGroup& calibrated : groups) {

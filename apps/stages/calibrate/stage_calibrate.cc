@@ -68,14 +68,9 @@ void Report(const CalibratedGroup& calibrated, RunContext& context) {
   for (const std::string& message : calibrated.group.messages)
     context.warnings.push_back(
         {"image_incomplete", message, "leave such images out, or photograph them again"});
-  for (const CalibrationNote& note : c.notes) {
-    context.warnings.push_back({note.code, note.message, note.remedy});
-    context.undetermined = context.undetermined || note.fails;
-  }
-  if (!c.converged) {
-    context.undetermined = true;
-    return;
-  }
+  for (const CalibrationNote& note : c.notes)
+    context.warnings.push_back({note.code, note.message, note.remedy, note.fails});
+  if (!c.converged) return;
   Choice choice{"lens of " + Ids(calibrated.group), ToString(c.lens), {}, c.lens_because};
   for (const LensScore& lens : c.lenses)
     choice.among.push_back(lens.is_fitted ? fmt::format("{} (held out {:.3f} px, fitted {:.3f} px)",
@@ -104,7 +99,8 @@ OwnPhotos OwnPhotosOf(const std::vector<Photo>& photos) {
 
 std::vector<CalibratedGroup> CalibrateThese(const Session& session, const OwnPhotos& photos,
                                             const std::vector<int>& cameras, RunContext& context) {
-  const StageTimer timer(context, "calibrate", "calibrate " + std::to_string(cameras.size()) + " cameras");
+  const StageTimer timer(context, "calibrate",
+                         cameras.size() == 1 ? "one camera" : fmt::format("{} cameras", cameras.size()));
   std::vector<CalibratedGroup> calibrated;
   for (const CalibrationGroup& group : ReadCalibrationImages(session, photos, cameras)) {
     for (CalibratedGroup& result : Calibrate(session, group, context)) {
@@ -119,13 +115,11 @@ json WriteArtifact(const Session& session, const std::vector<CalibratedGroup>& g
   const std::vector<std::string> files = WriteCalibrationFiles(groups, context.out);
   json artifact = ProvenanceJson("luxfit-calibrate-1", context.provenance);
   artifact["session"] = session.name;
-  bool usable = true;
   artifact["groups"] = json::array();
   for (const CalibratedGroup& group : groups) {
     artifact["groups"].push_back(GroupJson(group));
-    usable = usable && group.calibration.IsUsable();
   }
-  artifact["status"] = usable ? "done" : "undetermined";
+  AddStatus(context, artifact);
   artifact["files"] = files;
   artifact["choices"] = ChoicesJson(context);
   artifact["warnings"] = WarningsJson(context);
@@ -183,8 +177,7 @@ std::vector<Camera> CamerasOf(const Session& session, const LinearizedPhotos& ph
 }
 
 std::string CalibrationTable(const json& artifact) {
-  std::string text = fmt::format("session {}: {}\n", artifact["session"].get<std::string>(),
-                                 artifact["status"].get<std::string>());
+  std::string text = StatusLine(artifact);
   for (const json& group : artifact["groups"]) {
     if (group["lens"].is_null()) continue;
     const json& held_out = group["held_out_rms_px"];

@@ -7,7 +7,7 @@
 // Writes OUT/stages/calibrate.json and for every camera ID OUT/ID.yaml (OpenCV), OUT/ID.cameramodel (mrcal)
 // and OUT/ID_uncertainty.svg. For all cameras it writes OUT/cameras.txt (COLMAP), OUT/camchain.yaml (Kalibr),
 // OUT/corners.vnl and OUT/corner_residuals.csv. Formats that cannot hold the lens are left out. A failed gate
-// gives a warning, sets context.undetermined, and is marked in the files.
+// gives a warning that leaves the result undetermined, and is marked in the files.
 //
 // Throws std::runtime_error for images that cannot be read, or differ in size.
 #ifndef LUXFIT_APPS_STAGES_CALIBRATE_STAGE_CALIBRATE_H_

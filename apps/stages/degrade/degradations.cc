@@ -1,6 +1,7 @@
 #include "apps/stages/degrade/degradations.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -52,17 +53,16 @@ std::vector<Degradation> DegradationsNamed(const std::vector<std::string>& names
 
 DegradedSessions::DegradedSessions(const PreparedSession& prepared, std::vector<EstimatedLuminaire> truth,
                                    int max_elements, uint64_t seed, RunContext& context)
-    : whole_{prepared, max_elements,     ThinElements(prepared.observations, max_elements),
-             {},       std::move(truth), {},
-             {}},
+    : whole_{prepared, max_elements, Thinned(prepared.observed, max_elements), {}, std::move(truth), {}, {}},
       seed_(seed),
       context_(context) {
-  whole_.refit = RefitSession(prepared.session, prepared.linearized, prepared.room,
-                              {whole_.thinned, {}, {}, {}}, context);
+  whole_.refit = RefitSession(prepared.session, prepared.linearized, prepared.room, whole_.observed, context);
   const Refit& refit = whole_.refit;
   if (whole_.truth.empty()) whole_.truth = refit.luminaires;
-  known_warnings_ = refit.warnings;
-  for (const Warning& warning : context.warnings) known_warnings_.push_back(warning.code);
+  const std::array<const std::vector<Warning>*, 2> known{&refit.warnings, &context.warnings};
+  for (const std::vector<Warning>* warnings : known) {
+    for (const Warning& warning : *warnings) known_warnings_.push_back(warning.code);
+  }
   undegraded_score_ = ScoreFit(refit.luminaires, whole_.truth, !refit.warnings.empty());
 }
 
@@ -81,16 +81,17 @@ DegradedFit DegradedSessions::Fit(const Degradation& degradation, double level, 
     c.session = whole_.prepared.session;
     c.linearized = whole_.prepared.linearized;
     c.room = &whole_.prepared.room;
-    c.observations = whole_.thinned;
+    c.observed = whole_.observed;
     c.truth = whole_.truth;
     c.context.out = context_.out;
     c.context.is_quiet = true;
     degradation.apply(whole_, level, rng, c);
-    result.refit = RefitSession(c.session, c.linearized, *c.room, {c.observations, {}, {}, {}}, context_);
-    for (const Warning& warning : c.context.warnings) result.refit.warnings.push_back(warning.code);
-    for (const std::string& code : result.refit.warnings) {
-      if (std::count(known_warnings_.begin(), known_warnings_.end(), code) == 0)
-        result.new_warnings.push_back(code);
+    result.refit = RefitSession(c.session, c.linearized, *c.room, c.observed, context_);
+    std::vector<Warning>& warnings = result.refit.warnings;
+    warnings.insert(warnings.end(), c.context.warnings.begin(), c.context.warnings.end());
+    for (const Warning& warning : warnings) {
+      if (std::count(known_warnings_.begin(), known_warnings_.end(), warning.code) == 0)
+        result.new_warnings.push_back(warning.code);
     }
     result.score = ScoreFit(result.refit.luminaires, c.truth, !result.new_warnings.empty());
   } catch (const std::runtime_error& e) {  // what the program says instead of a result

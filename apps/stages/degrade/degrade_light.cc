@@ -31,10 +31,11 @@ void Simulate(UndegradedSession& whole, const TraceKey& key, const LightState& l
               DegradedCase& c) {
   const std::vector<Reading>& readings = whole.refit.fit.data.readings;
   if (whole.traced.count(key) == 0)
-    whole.traced[key] = TraceLight(whole.prepared.room, ElementsOf(whole.thinned), readings, light);
+    whole.traced[key] =
+        TraceLight(whole.prepared.room, ElementsOf(whole.observed.observations), readings, light);
   const LightData data = SimulateLight(whole.prepared.room, whole.traced.at(key), light,
                                        whole.refit.fit.data.dimming, readings, rng);
-  c.observations = data.observations;
+  c.observed = {data.observations, {}, {}, {}};  // simulated light has no pictures
   for (size_t r = 0; r < data.readings.size(); ++r) {
     c.linearized.readings[r].illuminance_lx = data.readings[r].illuminance_lx;
     c.linearized.readings[r].ambient_lx = 0;

@@ -5,7 +5,7 @@ namespace luxfit {
 namespace {
 
 std::optional<std::string> NeedsFurniture(const UndegradedSession& whole) {
-  if (whole.thinned.empty() || LoosePieces(whole.prepared.room.scene).empty())
+  if (whole.observed.observations.empty() || LoosePieces(whole.prepared.room.scene).empty())
     return "the session has no photos, or its mesh no furniture";
   return std::nullopt;
 }
@@ -16,9 +16,9 @@ void RemoveFaces(UndegradedSession& whole, double percent, std::mt19937_64& rng,
   const int pieces = static_cast<int>(LoosePieces(scene).size());
   c.own_room = MakeRoom(WithoutPieces(scene, ShareOf(percent, pieces, 0), rng));
   c.room = &*c.own_room;
-  const SessionObservations observed =
-      ObserveSession(c.session, c.linearized.photos, whole.prepared.registered, *c.room, c.context);
-  c.observations = ThinElements(observed.observations, whole.max_elements);
+  c.observed =
+      Thinned(ObserveSession(c.session, c.linearized.photos, whole.prepared.registered, *c.room, c.context),
+              whole.max_elements);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "apps/stages/degrade/degradation_rows.h"
 #include "apps/stages/observe/observed_light.h"
@@ -8,37 +10,54 @@ namespace luxfit {
 namespace {
 
 std::optional<std::string> NeedsPhotos(const UndegradedSession& whole) {
-  if (whole.thinned.empty()) return "the session has no photos";
+  if (whole.observed.observations.empty()) return "the session has no photos";
   return std::nullopt;
 }
 
 std::optional<std::string> NeedsTwoViews(const UndegradedSession& whole) {
-  if (CountViews(whole.thinned) < 2) return "fewer than two views are observed";
+  if (CountViews(whole.observed.observations) < 2) return "fewer than two views are observed";
   return std::nullopt;
 }
 
 std::optional<std::string> NeedsTwoStates(const UndegradedSession& whole) {
-  if (CountStates(whole.thinned) < 2) return "fewer than two states are observed";
+  if (CountStates(whole.observed.observations) < 2) return "fewer than two states are observed";
   return std::nullopt;
 }
 
 void AddNoise(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {
-  c.observations = WithPixelNoise(whole.thinned, percent / 100, rng);
+  c.observed.observations = WithPixelNoise(whole.observed.observations, percent / 100, rng);
 }
 
 void FalsifyExposures(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {
   nlohmann::json unused;
-  c.observations = WithSelfCalibration(
+  c.observed.observations = WithSelfCalibration(
       c.session, c.linearized.photos, whole.prepared.registered, whole.prepared.room.patches,
-      WithExposureErrors(whole.thinned, percent / 100, rng), c.context, unused);
+      WithExposureErrors(whole.observed.observations, percent / 100, rng), c.context, unused);
+}
+
+// Observes the photos again of which some observation is left: what they show of luminaires goes with them.
+void KeepPhotosOf(const std::vector<Observation>& left, const UndegradedSession& whole, DegradedCase& c) {
+  std::set<std::pair<std::string, std::string>> photos;  // view, state
+  for (const Observation& o : left)
+    photos.emplace(whole.prepared.registered.registration.views[static_cast<size_t>(o.view)].view,
+                   c.session.states[static_cast<size_t>(o.state)].id);
+  c.observed = Thinned(ObserveKeptPhotos(
+                           whole.prepared,
+                           [&](const LinearizedPhoto& p) {
+                             return photos.count({p.view, p.state}) > 0;
+                           },
+                           c.context),
+                       whole.max_elements);
 }
 
 void DropViews(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {
-  c.observations = WithoutViews(whole.thinned, ShareOf(percent, CountViews(whole.thinned), 1), rng);
+  const std::vector<Observation>& all = whole.observed.observations;
+  KeepPhotosOf(WithoutViews(all, ShareOf(percent, CountViews(all), 1), rng), whole, c);
 }
 
 void DropStates(UndegradedSession& whole, double percent, std::mt19937_64& rng, DegradedCase& c) {
-  c.observations = WithoutStates(whole.thinned, ShareOf(percent, CountStates(whole.thinned), 1), rng);
+  const std::vector<Observation>& all = whole.observed.observations;
+  KeepPhotosOf(WithoutStates(all, ShareOf(percent, CountStates(all), 1), rng), whole, c);
 }
 
 }  // namespace

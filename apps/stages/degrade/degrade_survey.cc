@@ -11,7 +11,8 @@ std::optional<std::string> NeedsSurveyedTags(const UndegradedSession& whole) {
   for (const RegisteredView& view : whole.prepared.registered.registration.views) {
     if (MethodOf(view) != "tags") return "views are registered by more than tags";
   }
-  if (whole.prepared.session.tags.survey.empty() || whole.thinned.empty()) return "no surveyed tags are used";
+  if (whole.prepared.session.tags.survey.empty() || whole.observed.observations.empty())
+    return "no surveyed tags are used";
   return std::nullopt;
 }
 
@@ -38,8 +39,7 @@ void MoveTags(UndegradedSession& whole, double sigma_mm, std::mt19937_64& rng, D
     registered.cameras[i] = WithFocalScale(cameras[i], focal_scale[i]);
     c.context.warnings.push_back({"focal_length_off", "the tags contradict the focal length", ""});
   }
-  const SessionObservations observed = ObserveSession(c.session, photos, registered, *c.room, c.context);
-  c.observations = ThinElements(observed.observations, whole.max_elements);
+  c.observed = Thinned(ObserveSession(c.session, photos, registered, *c.room, c.context), whole.max_elements);
 }
 
 }  // namespace

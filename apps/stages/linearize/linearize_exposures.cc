@@ -101,11 +101,12 @@ void WarnOfGain(const Session& session, const PhotoExposure& exposure, double lo
           : "; automatic ISO, or a time that was copied from another photo, looks like this";
   context.warnings.push_back(
       {"exposure_metadata",
-       fmt::format(
-           "{}: the exposure that the table states is off by a factor of {:.3f} against the other photos of "
-           "its bracket{}{}",
-           PhotoName(session, exposure), factor, is_alone ? " (or the other one is)" : "", label),
-       fmt::format("multiply exposure_s by {:.3f}, or give the ISO of every photo; it was corrected here",
+       fmt::format("{}: its stated exposure (table or metadata) is off by a factor of {:.3f} against the "
+                   "other photos of "
+                   "its bracket{}{}",
+                   PhotoName(session, exposure), factor, is_alone ? " (or the other one is)" : "", label),
+       fmt::format("give exposure_s in the photo table, multiplied by {:.3f}, or the ISO of every photo; it "
+                   "was corrected here",
                    factor)});
 }
 

@@ -48,6 +48,7 @@ struct LuminaireReading {
   SessionReading given;
   double illuminance_lx = 0;  // without ambient_lx; means nothing where not measured
   double ambient_lx = 0;      // measured there with all luminaires off
+  bool is_outside = false;    // not in the room of the mesh: not used, and not predicted
 };
 
 struct LinearizedSession {

@@ -8,6 +8,7 @@
 #include "apps/stages/linearize/photo_store.h"
 #include "apps/stages/stages.h"
 #include "calib/luminance/bracket.h"
+#include "calib/luminance/lens_shading.h"
 
 namespace luxfit {
 namespace {
@@ -37,6 +38,24 @@ Photo ReadCounts(const LinearizedCamera& camera, const std::string& file) {
                     file, counts.full_scale_counts, camera.full_scale_counts));
   }
   return counts;
+}
+
+// Phones correct their lens's shading by a map that raw readers leave out.
+void WarnOfLensShading(const LinearizedPhotos& photos, RunContext& context) {
+  for (size_t c = 0; c < photos.cameras.size(); ++c) {
+    const SessionCamera& camera = photos.cameras[c].given;
+    const auto first =
+        std::find_if(photos.photos.begin(), photos.photos.end(),
+                     [&](const LinearizedPhoto& photo) { return static_cast<size_t>(photo.camera) == c; });
+    if (camera.vignetting != "none" || first == photos.photos.end() || !HasLensShadingMap(first->file))
+      continue;
+    context.warnings.push_back({"lens_shading_left_out",
+                                fmt::format("{} brings a map of its lens's shading (GainMap of the DNG), "
+                                            "which is not applied: corners of camera "
+                                            "{} are too dark",
+                                            first->file, camera.id),
+                                "set vignetting = \"estimate\" for this camera, or give a flat field"});
+  }
 }
 
 LuminanceOptions OptionsOf(const LinearizedCamera& camera) {
@@ -136,6 +155,7 @@ LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context) {
   photos = WithResponses(std::move(photos), session, context, artifact);
   photos = WithCorrectedExposures(std::move(photos), session, context, artifact);
   photos = WithFlatFields(std::move(photos), context, artifact);
+  WarnOfLensShading(photos, context);
   // Callers that read an earlier run (the report) have no folder of their own.
   if (!context.out.empty()) WriteArtifact(photos, first_warning, std::move(artifact), context);
   return photos;

@@ -10,7 +10,6 @@
 #include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/session_light.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/suggest.h"
 #include "inverse/choose/calibrated_observations.h"
 
@@ -287,7 +286,6 @@ nlohmann::json JsonOf(const Session& session, const StatedRadiometry& stated, co
                                     {"relative_sigma", found.state_sigma[at]},
                                     {"relative_sigma_prior", found.state_prior_sigma[at]}});
   }
-  AddFormerKeys(found_json["states"]);
   for (size_t c = 0; c < session.cameras.size(); ++c) {
     const auto k = found.vignetting.col(static_cast<Eigen::Index>(c)).head(found.Chosen().order);
     found_json["cameras"].push_back({{"camera", session.cameras[c].id},

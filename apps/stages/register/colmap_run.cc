@@ -110,20 +110,13 @@ void Extract(const ColmapJob& job, const std::vector<ColmapPicture>& pictures,
 }
 
 void Match(const ColmapJob& job, const std::vector<ColmapPicture>& pictures) {
-  const std::vector<std::string> common{"--database_path",
-                                        job.Path("database.db"),
-                                        "--SiftMatching.use_gpu",
-                                        "0",
-                                        "--SiftMatching.num_threads",
-                                        "1"};
-  const double limit_s = 120 + 10 * job.pictures() * job.pictures();
-  job.Run("exhaustive_matcher", common, limit_s);
   std::map<std::string, std::vector<TagDetection>> tags;
   for (std::size_t i = 0; i < pictures.size(); ++i) tags[ImageName(i)] = pictures[i].tags;
-  WriteText(job.Path("matches.txt"), AddTagsToColmapDatabase(job.Path("database.db"), tags));
-  std::vector<std::string> arguments = common;
-  arguments.insert(arguments.end(), {"--match_list_path", job.Path("matches.txt"), "--match_type", "raw"});
-  job.Run("matches_importer", arguments, limit_s);
+  WriteText(job.Path("matches.txt"), MatchColmapImages(job.Path("database.db"), tags));
+  job.Run("matches_importer",
+          {"--database_path", job.Path("database.db"), "--match_list_path", job.Path("matches.txt"),
+           "--match_type", "raw", "--SiftMatching.use_gpu", "0", "--SiftMatching.num_threads", "1"},
+          120 + 10 * job.pictures() * job.pictures());
 }
 
 // Returns the options that triangulation and mapping share. A room has few views, so points of two views

@@ -1,8 +1,8 @@
 // Runs COLMAP as a program on one picture of every view, without a display and with given intrinsics.
 //
-//   feature_extractor -> exhaustive_matcher -> tag corners beside the features -> matches_importer -> mapper
+//   feature_extractor -> matches of features and of tag corners -> matches_importer -> mapper
 //
-// calib/register/colmap_files.h adds the tag corners.
+// calib/register/colmap_files.h makes the matches.
 //
 // Where at least two views already have a pose, COLMAP starts from those instead of a pair of its own
 // (point_triangulator, then the mapper for the others): rooms of few features have no such pair.

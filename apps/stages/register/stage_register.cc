@@ -11,6 +11,7 @@
 #include "apps/stages/register/view_tags.h"
 #include "apps/stages/stages.h"
 #include "calib/luminance/luminance.h"
+#include "calib/register/millimetres.h"
 
 namespace luxfit {
 namespace {
@@ -52,8 +53,8 @@ void RecordSurveySigma(const Session& session, const Registration& registration,
   const bool is_larger = registration.survey_sigma_m > given_m;
   context.choices.push_back(
       {"survey sigma",
-       fmt::format("{:.2g} mm", 1000 * registration.survey_sigma_m),
-       {fmt::format("{:.2g} mm as given", 1000 * given_m), "estimated from the tags' displacements"},
+       Millimetres(registration.survey_sigma_m),
+       {Millimetres(given_m) + " as given", "estimated from the tags' displacements"},
        is_larger
            ? "the tags hang further off their places than the given sigma allows, and no single moved tag "
              "explains it"

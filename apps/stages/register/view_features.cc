@@ -2,25 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 
 #include "apps/stages/register/colmap_run.h"
+#include "apps/stages/register/image_names.h"
 #include "apps/stages/stages.h"
 #include "calib/register/colmap_files.h"
 
 namespace luxfit {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::map<std::string, std::string> ViewByStem(const std::vector<LinearizedPhoto>& photos) {
-  std::map<std::string, std::string> views;
-  for (const LinearizedPhoto& photo : photos) views[photo.view] = photo.view;
-  for (const LinearizedPhoto& photo : photos) views[fs::path(photo.file).stem().string()] = photo.view;
-  return views;
-}
 
 void CheckSize(const ColmapModel& model, const ColmapImage& image, const Session& session,
                const std::vector<Camera>& cameras, int camera) {
@@ -64,13 +55,16 @@ ImagePlane MergedLuminance(const LinearizedPhotos& photos, const Camera& camera,
 FeatureModel ReadFeatures(const Session& session, const LinearizedPhotos& photos,
                           const std::vector<Camera>& cameras, const ViewPhotos& views) {
   const ColmapModel model = ReadColmapModel(session.registration.colmap_model);
-  const std::map<std::string, std::string> by_stem = ViewByStem(photos.photos);
-  std::map<std::string, std::string> view_of_image;
+  std::vector<std::string> names;
+  for (const auto& [id, image] : model.images) names.push_back(image.name);
+  std::vector<PhotoOfView> files;
+  for (const LinearizedPhoto& photo : photos.photos) files.push_back({photo.file, photo.view});
+  const std::map<std::string, std::string> view_of_image =
+      ViewsOfImages(names, files, session.registration.colmap_model);
   for (const auto& [id, image] : model.images) {
-    const auto view = by_stem.find(fs::path(image.name).stem().string());
-    if (view == by_stem.end()) continue;
-    CheckSize(model, image, session, cameras, views.at(view->second).front()->camera);
-    view_of_image[image.name] = view->second;
+    const auto view = view_of_image.find(image.name);
+    if (view != view_of_image.end())
+      CheckSize(model, image, session, cameras, views.at(view->second).front()->camera);
   }
   if (view_of_image.empty()) {
     throw std::runtime_error(

@@ -57,6 +57,7 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
   if (given.position_m) luminaire.position = *given.position_m;
   if (given.aim) luminaire.aim = *given.aim;
   if (given.heading) luminaire.heading = *given.heading;
+  if (result.file) luminaire.flux_lm *= TiltFactor(*result.file, luminaire.aim);
   if (given.flux_lm) luminaire.flux_lm = *given.flux_lm;
   return result;
 }

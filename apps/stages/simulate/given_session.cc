@@ -86,7 +86,10 @@ std::vector<Luminaire> GivenLuminaires(const Session& session, const std::string
     if (flat && !(luminaire.size_m[0] > 0))
       throw MissingKey(session, k, "size_m",
                        "expected the size of a " + ToString(luminaire.shape) + ", got nothing; add size_m");
-    if (known.file) RecordPhotometryFile(luminaire.id, *known.file, context);
+    if (known.file) {
+      RecordPhotometryFile(luminaire.id, *known.file, context);
+      if (!session.luminaires[k].flux_lm) WarnOfTilt(luminaire, *known.file, context);
+    }
     luminaires.push_back(luminaire);
   }
   return luminaires;

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "apps/stages/check_report.h"
+#include "apps/stages/session_check.h"
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
-#include "apps/text/formats/former_keys.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 #include "forward/direct/luminaire_body.h"
@@ -58,6 +58,7 @@ class Simulation {
 
  private:
   struct Row {
+    bool is_outside = false;  // the reading is not in the room: nothing is predicted
     double lx = 0, direct_lx = 0;
   };
 
@@ -85,7 +86,12 @@ class Simulation {
                                 Light().solved_channels > 1 ? "rgb" : "luminance",
                                 {"luminance", "rgb"},
                                 "every channel whose reflectances differ has its own interreflection"});
-    for (size_t i = 0; i < session_.luxmeter.readings.size(); ++i) rows_.push_back(RowOf(i));
+    const ReadingsOutside places = FindReadingsOutside(session_, scene_light_->room.rays);
+    context_.warnings.insert(context_.warnings.end(), places.warnings.begin(), places.warnings.end());
+    for (size_t i = 0; i < session_.luxmeter.readings.size(); ++i) {
+      rows_.push_back(RowOf(i));
+      rows_.back().is_outside = places.lines.count(session_.luxmeter.readings[i].line) > 0;
+    }
   }
 
   const ColourIlluminance& Light() const { return scene_light_->light; }
@@ -138,7 +144,7 @@ class Simulation {
   }
 
   std::string Csv() const {
-    std::string text = "id,state,illuminance_lx,direct_lx,indirect_lx,lux,direct_lux,indirect_lux\n";
+    std::string text = "id,state,illuminance_lx,direct_lx,indirect_lx\n";
     const auto field = [](const std::string& value) {
       if (value.find_first_of(",\"\n") == std::string::npos) return value;
       std::string quoted = "\"";
@@ -147,10 +153,10 @@ class Simulation {
     };
     for (size_t i = 0; i < rows_.size(); ++i) {
       const SessionReading& reading = session_.luxmeter.readings[i];
-      const std::string light = fmt::format("{:.6g},{:.6g},{:.6g}", rows_[i].lx, rows_[i].direct_lx,
-                                            rows_[i].lx - rows_[i].direct_lx);
-      // Twice: the last three columns have the former names.
-      text += fmt::format("{},{},{},{}\n", field(reading.id), field(reading.state), light, light);
+      text += field(reading.id) + "," + field(reading.state);
+      text += rows_[i].is_outside ? ",,,\n"
+                                  : fmt::format(",{:.6g},{:.6g},{:.6g}\n", rows_[i].lx, rows_[i].direct_lx,
+                                                rows_[i].lx - rows_[i].direct_lx);
     }
     return text;
   }
@@ -172,6 +178,8 @@ class Simulation {
     return list;
   }
 
+  static json Predicted(const Row& row, double lx) { return row.is_outside ? json() : json(lx); }
+
   void AddReadings(json& artifact) const {
     std::vector<CheckedReading> checked;
     artifact["luxmeter"] = json::array();
@@ -181,13 +189,13 @@ class Simulation {
           {{"id", reading.id},
            {"state", reading.state},
            {"measured_lx", reading.is_measured ? json(reading.illuminance_lx) : json()},
-           {"predicted_lx", rows_[i].lx},
-           {"direct_lx", rows_[i].direct_lx},
-           {"indirect_lx", rows_[i].lx - rows_[i].direct_lx}});
-      if (reading.is_measured) checked.push_back({reading.illuminance_lx, rows_[i].lx, 0, 0});
+           {"predicted_lx", Predicted(rows_[i], rows_[i].lx)},
+           {"direct_lx", Predicted(rows_[i], rows_[i].direct_lx)},
+           {"indirect_lx", Predicted(rows_[i], rows_[i].lx - rows_[i].direct_lx)}});
+      if (reading.is_measured && !rows_[i].is_outside)
+        checked.push_back({reading.illuminance_lx, rows_[i].lx, 0, 0});
     }
     artifact["summary"] = SummaryJson(SummarizeLuxmeter(checked));
-    for (const char* part : {"luxmeter", "summary"}) AddFormerKeys(artifact[part]);
   }
 
   json Artifact() const {
@@ -202,6 +210,7 @@ class Simulation {
           {{"name", scene_light_->room.scene.materials[m]}, {"albedo_rgb", {rgb.x(), rgb.y(), rgb.z()}}});
     }
     AddReadings(artifact);
+    AddStatus(context_, artifact);
     artifact["error_percent_asked"] = error_percent_;
     artifact["estimated_error_percent"] = choice_.estimated_error_percent;
     artifact["choices"] = ChoicesJson(context_);

@@ -65,7 +65,11 @@ void WriteText(const std::string& path, const std::string& text) {
   std::filesystem::rename(temporary, path);
 }
 
-void WriteJson(const std::string& path, const nlohmann::json& json) { WriteText(path, json.dump(2) + "\n"); }
+std::string JsonText(const nlohmann::json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void WriteJson(const std::string& path, const nlohmann::json& json) { WriteText(path, JsonText(json)); }
 
 nlohmann::json ReadJson(const std::string& path) {
   std::ifstream file(path);

@@ -26,6 +26,9 @@ nlohmann::json ProvenanceJson(const std::string& format, const Provenance& prove
 std::string HashFile(const std::string& path);
 std::string HashText(const std::string& text);
 
+// Returns JSON of two blanks a level, with a line end. Bytes that are no UTF-8 (in names of files) become U+FFFD.
+std::string JsonText(const nlohmann::json& json);
+
 void WriteJson(const std::string& path, const nlohmann::json& json);
 void WriteText(const std::string& path, const std::string& text);
 nlohmann::json ReadJson(const std::string& path);

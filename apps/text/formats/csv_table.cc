@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
+#include <sstream>
 
+#include "apps/text/formats/text_file.h"
+#include "apps/text/formats/units.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 #include "forward/room/one_line.h"
@@ -24,6 +25,9 @@ std::string Trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
+// Spreadsheets write rows without content as their commas.
+bool IsBlank(const std::string& line) { return line.find_first_not_of(" \t,") == std::string::npos; }
+
 std::string Joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ",")); }
 
 std::string ExpectedHeader(const CsvColumns& expected) {
@@ -32,16 +36,9 @@ std::string ExpectedHeader(const CsvColumns& expected) {
 }
 
 std::vector<std::string> ReadLines(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw InputError({path}, "",
-                     "expected a table that can be read, got none; check the path and its rights");
+  std::istringstream text(ReadTextFile(path, "a table"));
   std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    lines.push_back(line);
-  }
-  if (!lines.empty() && lines[0].compare(0, 3, "\xEF\xBB\xBF") == 0) lines[0].erase(0, 3);
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
   return lines;
 }
 
@@ -95,23 +92,33 @@ bool HasDecimalComma(const std::string& text) {
          std::all_of(text.begin(), text.end(), [&](char c) { return c == ',' || numeric(c); });
 }
 
-bool IsAlias(const CsvColumns& expected, const std::string& column, const std::string& name) {
-  const auto at = expected.alias.find(column);
-  return at != expected.alias.end() && at->second == name;
+// Returns the column of which this is an alias, or the name itself.
+std::string ColumnOf(const CsvColumns& expected, const std::string& name) {
+  const auto at = expected.alias.find(name);
+  return at == expected.alias.end() ? name : at->second;
 }
 
 std::string QuotedWithAlias(const CsvColumns& expected, const std::string& column) {
-  const auto at = expected.alias.find(column);
-  return Quoted(column) + (at == expected.alias.end() ? "" : " (or its alias " + Quoted(at->second) + ")");
+  std::string text = Quoted(column);
+  for (const auto& [alias, of] : expected.alias)
+    text += of == column ? " (or its alias " + Quoted(alias) + ")" : "";
+  return text;
 }
 
 void ExpectOneNameForEachColumn(const CsvColumns& expected, const CsvTable& table, int line) {
-  for (const auto& [column, alias] : expected.alias) {
+  for (const auto& [alias, column] : expected.alias) {
     if (HasColumn(table, column) && HasColumn(table, alias))
       throw InputError({table.path, line}, "header",
                        "expected one of the columns " + Quoted(column) + " and " + Quoted(alias) +
                            " (its alias), got both; keep one and remove the other");
   }
+}
+
+// Says what to do with a column that stands where `column` is expected.
+std::string ColumnRemedy(const CsvColumns& expected, const std::string& column, const std::string& found) {
+  if (const auto factor = UnitFactor(found, column))
+    return fmt::format("multiply its numbers by {:.6g} and name it {}", *factor, Quoted(column));
+  return "it must be " + QuotedWithAlias(expected, column) + ": rename, reorder or add it";
 }
 
 void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, const std::string& found_line) {
@@ -129,11 +136,10 @@ void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, co
   ExpectOneNameForEachColumn(expected, table, line);
   size_t i = 0;
   for (; i < expected.required.size() && i < table.columns.size(); ++i) {
-    if (table.columns[i] == expected.required[i]) continue;
-    if (IsAlias(expected, expected.required[i], table.columns[i])) continue;
+    if (ColumnOf(expected, table.columns[i]) == expected.required[i]) continue;
     throw InputError(place, "header",
-                     found + "; column " + std::to_string(i + 1) + " must be " +
-                         QuotedWithAlias(expected, expected.required[i]) + ": rename, reorder or add it");
+                     found + "; column " + std::to_string(i + 1) + ": " +
+                         ColumnRemedy(expected, expected.required[i], table.columns[i]));
   }
   if (i < expected.required.size())
     throw InputError(place, "header",
@@ -180,7 +186,7 @@ CsvTable ReadCsvTable(const std::string& path, const CsvColumns& expected) {
   CsvTable table;
   table.path = path;
   for (size_t i = 0; i < lines.size(); ++i) {
-    if (Trimmed(lines[i]).empty()) continue;
+    if (IsBlank(lines[i])) continue;
     CsvRow row{static_cast<int>(i) + 1, {}};
     row.fields = SplitFields({path, row.line}, lines[i]);
     if (table.columns.empty()) {

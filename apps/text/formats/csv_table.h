@@ -1,9 +1,9 @@
 // Reads a table of comma-separated values with a fixed header, and keeps its line numbers.
 //
 // The header must hold the expected columns in their order. Optional columns may follow in any selection.
-// A column may stand under its alias instead. The table keeps the name that the file uses.
-// Fields may be quoted ("a, b", "" for a quote). Blanks around a field, empty lines, a byte-order mark and
-// CRLF are dropped. Numbers have a decimal point. A decimal comma, which spreadsheets may write, is
+// A column may stand under an alias instead. The table keeps the name that the file uses.
+// Fields may be quoted ("a, b", "" for a quote). Blanks around a field, empty lines and rows, a byte-order mark and
+// CRLF or CR are dropped. The text is UTF-8 or UTF-16 (apps/text/formats/text_file.h). Numbers have a decimal point. A decimal comma, which spreadsheets may write, is
 // recognised and reported as such.
 //
 // Throws std::runtime_error("FILE:LINE: column: expected ..., got ...; remedy") for anything else, for a
@@ -23,7 +23,7 @@ namespace luxfit {
 struct CsvColumns {
   std::vector<std::string> required;
   std::vector<std::string> optional;
-  std::map<std::string, std::string> alias = {};  // of a required column, by its name
+  std::map<std::string, std::string> alias = {};  // required columns by their other names
 };
 
 struct CsvRow {

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "apps/text/formats/text_file.h"
 #include "apps/text/suggest.h"
 #include "forward/room/one_line.h"
 
@@ -165,10 +164,7 @@ std::vector<std::string> UniqueIds(const std::vector<TomlCursor>& tables) {
 }
 
 toml::table ReadTomlFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw InputError({path}, "", "expected a file that can be read, got none; check the path and its rights");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = ReadTextFile(path, "a file");
   try {
     return toml::parse(std::string_view(text), std::string_view(path));
   } catch (const toml::parse_error& error) {

@@ -12,6 +12,7 @@
 
 #include "calib/register/internal/bundle/survey_scale.h"
 #include "calib/register/internal/tag_surfaces.h"
+#include "calib/register/millimetres.h"
 
 namespace luxfit {
 namespace {
@@ -102,8 +103,8 @@ std::string WhyNot(int off, const SurfaceScale& scale, const SurveyAttempt& with
 // Says why they can.
 std::string Why(const TagsOnSurfaces& laid, double given_sigma_m) {
   std::string agree =
-      fmt::format("the tags' distances from their surfaces agree with {:.2g} mm (chi-square test, 99 %)",
-                  1000 * given_sigma_m);
+      fmt::format("the tags' distances from their surfaces agree with {} (chi-square test, 99 %)",
+                  Millimetres(given_sigma_m));
   if (laid.used == laid.candidates) return agree;
   return fmt::format("{}; off theirs by more than 4 sigma: {}", agree, laid.candidates - laid.used);
 }

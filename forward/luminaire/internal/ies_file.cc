@@ -8,7 +8,7 @@
 
 #include "forward/luminaire/internal/ies_dialect.h"
 #include "forward/luminaire/internal/photometry_text.h"
-#include "forward/luminaire/internal/text_encoding.h"
+#include "forward/room/text_encoding.h"
 
 namespace luxfit {
 namespace {

@@ -25,7 +25,7 @@ namespace luxfit {
 enum class IesVersion { k1986, k1991, k1995, k2002, k2019 };
 enum class IesType { kC = 1, kB = 2, kA = 3 };
 
-// How the light depends on the luminaire's tilt. It is kept; only the factor at 0 degrees is used.
+// How the flux depends on the luminaire's tilt.
 struct IesTilt {
   std::string source = "NONE";            // NONE, INCLUDE or the name of a file
   int lamp_geometry = 1;                  // 1: base up or down, 2: horizontal across, 3: horizontal along

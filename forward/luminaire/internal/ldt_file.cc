@@ -6,7 +6,7 @@
 #include "forward/luminaire/internal/flux_share.h"
 #include "forward/luminaire/internal/photometry_planes.h"
 #include "forward/luminaire/internal/photometry_text.h"
-#include "forward/luminaire/internal/text_encoding.h"
+#include "forward/room/text_encoding.h"
 
 namespace luxfit {
 namespace {

@@ -29,7 +29,7 @@ StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>
   std::vector<const LeftOutPrediction*> left_out;
   for (size_t i = 0; i < fitted.size(); ++i) {
     comparison.start.push_back(starts[i].position);
-    comparison.end.push_back(fitted[i].luminaire.position);
+    comparison.end.push_back(fitted[i].luminaire);
     left_out.push_back(&fitted[i].left_out);
   }
   std::vector<SelectionCandidate> candidates;
@@ -44,7 +44,7 @@ StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>
   for (size_t i = 0; i < fitted.size(); ++i) {
     const PairedDifference worse = Difference(candidates[i].scores, candidates[chosen].scores);
     comparison.standard_error.push_back(i == chosen ? 0 : worse.standard_error);
-    const double apart_m = (comparison.end[i] - comparison.end[chosen]).norm();
+    const double apart_m = (comparison.end[i].position - comparison.end[chosen].position).norm();
     if (apart_m <= options.same_place_m) ++comparison.agreeing;
     if (apart_m > options.other_place_m && worse.mean <= worse.standard_error)
       comparison.rivals.push_back(static_cast<int>(i));

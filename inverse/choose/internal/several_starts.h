@@ -32,7 +32,8 @@ struct SeveralStartsOptions {
 // Compares the starts of one luminaire. The first start is where it was.
 struct StartComparison {
   int luminaire = 0;
-  std::vector<Eigen::Vector3d> start, end;
+  std::vector<Eigen::Vector3d> start;
+  std::vector<Luminaire> end;
   std::vector<double> score;           // on data left out
   std::vector<double> standard_error;  // standard error of the difference from the best score
   int chosen = 0;

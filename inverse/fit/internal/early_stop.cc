@@ -4,17 +4,17 @@
 
 namespace luxfit {
 
-std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason) {
-  if (!stop_reason) return {};
-  return [stop_reason] {
-    const std::string reason = stop_reason();
+std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason,
+                                   std::atomic<int>& rounds) {
+  return [stop_reason, &rounds] {
+    ++rounds;
+    const std::string reason = stop_reason ? stop_reason() : "";
     if (!reason.empty()) throw FitStopped(reason);
   };
 }
 
 void WarnOfStop(const EarlyStop& stop, Findings& findings) {
-  findings.undetermined = true;
-  findings.warnings.push_back(
+  findings.AddUndetermined(
       {"fit_stopped",
        fmt::format(
            "the fit was stopped in its step {}: {}; the numbers are those of the best state until then",

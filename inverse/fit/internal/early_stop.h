@@ -2,6 +2,7 @@
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_EARLY_STOP_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_EARLY_STOP_H_
 
+#include <atomic>
 #include <functional>
 #include <string>
 
@@ -9,9 +10,9 @@
 
 namespace luxfit {
 
-// Returns a LightData::checkpoint that throws FitStopped with the reason that stop_reason
-// (FitRoomOptions::stop_reason) gives; empty where that is empty.
-std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason);
+// Returns a LightData::checkpoint that counts rounds and throws FitStopped with the reason that stop_reason
+// (FitRoomOptions::stop_reason, which may be empty) gives. `rounds` has to outlive it.
+std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason, std::atomic<int>& rounds);
 
 // Warns ("fit_stopped") that the fit is not done. What was asked for is then undetermined.
 void WarnOfStop(const EarlyStop& stop, Findings& findings);

@@ -210,8 +210,7 @@ class Starter {
   }
 
   void WarnOfNoPlace(const std::string& id) {
-    findings_.undetermined = true;
-    findings_.warnings.push_back(
+    findings_.AddUndetermined(
         {"luminaire_undetermined",
          fmt::format("luminaire {} is not determined: the data show too little of its own light", id),
          fmt::format("photograph {} alone", id)});

@@ -94,7 +94,8 @@ void RecordFirstGuess(const RoomObservations& given, const FirstGuess& guess,
   }
 }
 
-void RecordStarts(const RoomObservations& given, const StartComparison& comparison, Findings& findings) {
+void RecordStarts(const RoomObservations& given, const StartComparison& comparison, bool is_settled,
+                  Findings& findings) {
   const std::string id = given.luminaires[static_cast<size_t>(comparison.luminaire)].luminaire.id;
   const auto place = [](const Eigen::Vector3d& p) {
     return fmt::format("({:.2f}, {:.2f}, {:.2f}) m", p.x(), p.y(), p.z());
@@ -105,7 +106,7 @@ void RecordStarts(const RoomObservations& given, const StartComparison& comparis
     among.push_back(place(comparison.start[i]));
     scores += fmt::format("{}{} +- {:.3f} ends at {}", i == 0 ? "" : ", ",
                           fmt::format("{:.3f}", comparison.score[i]), comparison.standard_error[i],
-                          place(comparison.end[i]));
+                          place(comparison.end[i].position));
   }
   const auto chosen = static_cast<size_t>(comparison.chosen);
   findings.choices.push_back(
@@ -118,15 +119,16 @@ void RecordStarts(const RoomObservations& given, const StartComparison& comparis
   if (comparison.rivals.empty()) return;
   std::string others;
   for (const int rival : comparison.rivals)
-    others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)]);
+    others += (others.empty() ? "" : " or ") + place(comparison.end[static_cast<size_t>(rival)].position);
   findings.warnings.push_back(
       {"starts_disagree",
        fmt::format("luminaire {} may hang at {} as well as at {}: both explain its light equally, within one "
                    "standard error; the latter was kept",
-                   id, others, place(comparison.end[chosen])),
+                   id, others, place(comparison.end[chosen].position)),
        fmt::format("give position_m of {} roughly, with position_sigma_m, or measure where the two differ: "
                    "surfaces close to each, or photos in which {} itself shows",
-                   id, id)});
+                   id, id),
+       !is_settled});
 }
 
 void RecordChoice(const RoomObservations& given, const LuminaireChoice& choice, Findings& findings) {
@@ -225,8 +227,7 @@ void RecordDirectShare(const DirectShare& share, Findings& findings) {
   findings.choices.push_back({"direct share of the readings", interval, among,
                               "over all luminaire models that explain the readings as well: " + shares});
   if (share.is_determined) return;
-  findings.undetermined = true;
-  findings.warnings.push_back(
+  findings.AddUndetermined(
       {"direct_share_undetermined",
        "the readings do not tell light that comes straight from light that comes by the walls: the direct "
        "share is " +
@@ -277,20 +278,17 @@ void RecordOutcome(const RoomObservations& given, const RoomFit& result, Finding
     findings.choices.push_back(
         {"number of luminaires", std::to_string(given.luminaires.size()), {}, "given by the session"});
   if (fit.status == FitStatus::kNotConverged && !result.stopped) {
-    findings.undetermined = true;
-    findings.warnings.push_back(
+    findings.AddUndetermined(
         {"not_converged", fit.message,
          "look at the residuals: a luminaire missing from [states], or a mesh that differs from the room"});
   }
   if (!fit.IsUsable()) {
-    findings.undetermined = true;
     if (fit.null_directions.empty())
-      findings.warnings.push_back(
-          {"parameters_undetermined", fit.message,
-           "more readings or views, one luminaire switched alone, or give what is known "
-           "of them"});
+      findings.AddUndetermined({"parameters_undetermined", fit.message,
+                                "more readings or views, one luminaire switched alone, or give what is known "
+                                "of them"});
     for (const NullDirection& direction : fit.null_directions)
-      findings.warnings.push_back({"parameters_undetermined", direction.meaning, direction.remedy});
+      findings.AddUndetermined({"parameters_undetermined", direction.meaning, direction.remedy});
   }
   for (const ParameterId& id : fit.at_bound) {
     findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
@@ -359,8 +357,7 @@ void WarnOfOddLuminaires(const LightState& state, const std::vector<OddLuminaire
   for (const OddLuminaire& o : odd) {
     std::string fellows;
     for (const int k : o.fellows) fellows += (fellows.empty() ? "" : ", ") + id(k);
-    findings.undetermined = true;
-    findings.warnings.push_back(
+    findings.AddUndetermined(
         {"luminaire_unlike_others",
          o.is_left_over
              ? fmt::format(

@@ -26,7 +26,9 @@ namespace luxfit {
 void RecordFirstGuess(const RoomObservations& given, const FirstGuess& guess,
                       const std::vector<SeenPlace>& seen, Findings& findings);
 // Records which start was kept and how many agree. Warns ("starts_disagree") of another place as good.
-void RecordStarts(const RoomObservations& given, const StartComparison& comparison, Findings& findings);
+// `is_settled`: photos tell the place, or no other explains the light.
+void RecordStarts(const RoomObservations& given, const StartComparison& comparison, bool is_settled,
+                  Findings& findings);
 void RecordChoice(const RoomObservations& given, const LuminaireChoice& choice, Findings& findings);
 // `start`: the aim that is held where it is not estimated.
 void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eigen::Vector3d& start,

@@ -89,8 +89,7 @@ TEST_F(Check, WhereNothingChecksErrorsAreUnknown) {
   ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.0; }, 0), 0);
   const json result = json::parse(folder_.Read("out/result.json"));
   EXPECT_EQ(result["summary"]["readings_checked"], 0);
-  for (const char* key :
-       {"mean_abs_error_lx", "mean_abs_error_lux", "mean_abs_error_percent", "max_abs_error_percent"}) {
+  for (const char* key : {"mean_abs_error_lx", "mean_abs_error_percent", "max_abs_error_percent"}) {
     ASSERT_TRUE(result["summary"].contains(key)) << key;
     EXPECT_TRUE(result["summary"][key].is_null()) << key;
   }
@@ -109,7 +108,9 @@ TEST_F(Check, OneWrongReadingIsNamedWithARemedy) {
   ASSERT_EQ(Fit([](const std::string& id, const std::string& state) {
               return id == "L3" && state == "half" ? 0.7 : 1.0;
             }),
-            0);
+            1);
+  EXPECT_EQ(json::parse(folder_.Read("out/result.json"))["status_because"],
+            json::array({"reading_disagrees"}));
   const std::string text = Run().output;
   EXPECT_THAT(text, HasSubstr("L3 in state half disagrees: 30."));
   EXPECT_THAT(text, HasSubstr("below its prediction"));
@@ -122,7 +123,9 @@ TEST_F(Check, ACommonErrorIsAScale) {
   ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.2; }), 1);
   const json result = json::parse(folder_.Read("out/result.json"));
   EXPECT_EQ(result["status"], "undetermined");
-  EXPECT_THAT(result["warnings"].dump(), HasSubstr("readings_contradict"));
+  EXPECT_EQ(result["status_because"], json::array({"readings_contradict", "readings_off_alike"}));
+  EXPECT_THAT(support::RunProgram("explain '" + folder_.Path("out") + "'").output,
+              testing::StartsWith("undetermined because of readings_contradict, readings_off_alike\n"));
   const std::string text = Run().output;
   EXPECT_THAT(text, HasSubstr("all readings are off alike: 20."));
   EXPECT_THAT(text, HasSubstr("the absolute scale is off"));
@@ -156,9 +159,9 @@ TEST_F(Check, IntervalsHoldTheModelErrorToo) {
   ASSERT_EQ(Fit([](const std::string&, const std::string&) { return 1.0; }), 0);
   const json result = json::parse(Run("--json").output);
   for (const json& r : result["luxmeter"]) {
-    const double predicted = r["predicted_lux"], low = r["interval95_lux"][0], high = r["interval95_lux"][1];
-    EXPECT_NEAR(high - low, 2 * 1.96 * r["prediction_sigma_lux"].get<double>(), 1e-9 * predicted);
-    EXPECT_GE(r["prediction_sigma_lux"].get<double>(), r["sigma_lux"].get<double>());
+    const double predicted = r["predicted_lx"], low = r["interval95_lx"][0], high = r["interval95_lx"][1];
+    EXPECT_NEAR(high - low, 2 * 1.96 * r["prediction_sigma_lx"].get<double>(), 1e-9 * predicted);
+    EXPECT_GE(r["prediction_sigma_lx"].get<double>(), r["sigma_lx"].get<double>());
   }
 }
 

@@ -103,7 +103,17 @@ TEST_F(RoomCommands, WhatIsNotOnAsItShouldBeIsNamed) {
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("luminaire B is at 0.00"));
   EXPECT_THAT(run.output, Not(HasSubstr("luminaire D is at")));
-  EXPECT_EQ(Command("luxmap", support::kOfficeFolder + "photos/v00_evening.png --view v77").status, 2);
+  EXPECT_EQ(
+      Command("luxmap", support::kOfficeFolder + "photos/v00_evening.png --exposure-s 1 --view v77").status,
+      2);
+}
+
+TEST_F(RoomCommands, APhotoWithoutExposureIsNamedItself) {
+  const support::ProgramRun run =
+      Command("luxmap", support::kOfficeFolder + "photos/v00_evening.png --view v00");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("v00_evening.png: exposure_s: expected the exposure time of the photo"));
+  EXPECT_THAT(run.output, HasSubstr("give --exposure-s"));
 }
 
 TEST_F(RoomCommands, TheOneThatDiffersFromTheDesignIsNamed) {

@@ -63,8 +63,8 @@ TEST_F(ReportTest, StatisticsAreThoseOfTheReadings) {
   double least = 1e9, largest = 0;
   for (const json& reading : result["luxmeter"]) {
     if (reading["state"] != "both") continue;
-    least = std::min(least, reading["predicted_lux"].get<double>());
-    largest = std::max(largest, reading["predicted_lux"].get<double>());
+    least = std::min(least, reading["predicted_lx"].get<double>());
+    largest = std::max(largest, reading["predicted_lx"].get<double>());
   }
   // The readings lie within the plane, 5 cm above it.
   EXPECT_GT(both["average_lx"].get<double>(), 0.8 * least);

@@ -167,6 +167,10 @@ TEST_F(SessionErrorsTest, StatesAreChecked) {
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = 50"),
               Holds(At("all = {") + "states.all.A: expected a dimming in 0..1, got 50", "0.3"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = -0.1"), HasSubstr("states.all.A: expected a dimming in 0..1"));
+  EXPECT_THAT(ErrorAfter("A = 0.5", "a = 0.5"),
+              Holds(At("all = {") + "states.all.a: expected luminaires whose names differ by more than "
+                                    "capitals, got \"a\" beside \"A\"",
+                    "write both alike"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = nan"),
               HasSubstr("states.all.A: expected a dimming in 0..1, got nan; write"));
   EXPECT_THAT(ErrorAfter("Z = { Z = 1.0 }", "Z = \"on\""),

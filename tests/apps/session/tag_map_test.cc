@@ -89,7 +89,7 @@ TEST_F(TagMapTest, MalformedValuesAreReported) {
   EXPECT_THAT(ErrorAfter("\"id\": 3", "\"id\": -3"),
               HasSubstr("tag[0].id: expected a whole number >= 0, got -3"));
   EXPECT_THAT(ErrorAfter("0.2", "\"20 cm\""),
-              HasSubstr("tag[0].size_m: expected the side of the black square"));
+              HasSubstr("tag[0].size_m: expected the side of the tag's square"));
 }
 
 TEST_F(TagMapTest, MissingKeysNameTheMisspeltOne) {

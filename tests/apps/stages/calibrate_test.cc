@@ -92,7 +92,11 @@ TEST_F(CalibrateTest, WhatFailsAGateIsMarkedAndEndsWithOne) {
   EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cam0.yaml"))) << "marked, but still the format";
   EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cam0.cameramodel")));
   EXPECT_NO_THROW(ReadCameraFile(folder_.Path("out/cameras.txt")));
-  EXPECT_EQ(json::parse(folder_.Read("out/stages/calibrate.json"))["status"], "undetermined");
+  const json artifact = json::parse(folder_.Read("out/stages/calibrate.json"));
+  EXPECT_EQ(artifact["status"], "undetermined");
+  EXPECT_THAT(artifact["status_because"].get<std::vector<std::string>>(), testing::Contains("coverage"));
+  EXPECT_THAT(run.output, HasSubstr("undetermined because of "));
+  EXPECT_THAT(run.output, HasSubstr("undetermined: cam0: "));
 }
 
 TEST_F(CalibrateTest, CamerasThatAreNoRigAreCalibratedAlone) {

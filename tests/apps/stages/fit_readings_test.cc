@@ -166,7 +166,7 @@ TEST_F(FitOfReadings, LuminairesOfAnEarlierResultStayAsTheyWere) {
   EXPECT_NEAR(second["flux_lm"].get<double>(), first["flux_lm"].get<double>(), 1e-6);
   EXPECT_LT((PositionOf(second) - PositionOf(first)).norm(), 1e-9);
   for (const json& reading : again["luxmeter"])
-    EXPECT_NEAR(reading["predicted_lux"].get<double>() / reading["measured_lux"].get<double>(), 0.5, 0.01);
+    EXPECT_NEAR(reading["predicted_lx"].get<double>() / reading["measured_lx"].get<double>(), 0.5, 0.01);
 }
 
 }  // namespace

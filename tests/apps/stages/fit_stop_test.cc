@@ -73,6 +73,7 @@ TEST(FitStop, ASpentBudgetLeavesAMarkedResultThatTheNextRunTakesUp) {
   EXPECT_THAT(stopped.output, HasSubstr("its budget of 0.001 s is spent"));
   const json early = json::parse(folder.Read("out/result.json"));
   EXPECT_EQ(early["status"], "undetermined");
+  EXPECT_THAT(early["status_because"].dump(), HasSubstr("fit_stopped"));
   EXPECT_EQ(early["stopped"]["reason"], "its budget of 0.001 s is spent");
   EXPECT_TRUE(WarnsOfStop(early));
   EXPECT_EQ(early["luminaires"].size(), 4u);
@@ -80,6 +81,7 @@ TEST(FitStop, ASpentBudgetLeavesAMarkedResultThatTheNextRunTakesUp) {
   EXPECT_EQ(whole.status, 0) << whole.output;
   const json late = json::parse(folder.Read("out/result.json"));
   EXPECT_FALSE(late.contains("stopped"));
+  EXPECT_FALSE(late.contains("status_because"));
   EXPECT_FALSE(WarnsOfStop(late));
 }
 

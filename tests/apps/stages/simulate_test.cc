@@ -17,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr char kSession[] = R"(name = "box"
 
@@ -96,7 +97,7 @@ TEST_F(Simulate, WritesIlluminanceOfEveryReading) {
   std::istringstream csv(folder_.Read("out/illuminance.csv"));
   std::string line;
   std::getline(csv, line);
-  EXPECT_EQ(line, "id,state,illuminance_lx,direct_lx,indirect_lx,lux,direct_lux,indirect_lux");
+  EXPECT_EQ(line, "id,state,illuminance_lx,direct_lx,indirect_lx");
   std::vector<double> lux, direct;
   for (const char* expected : {"P1,one,", "P1,both,", "P2,both,"}) {
     std::getline(csv, line);
@@ -195,6 +196,55 @@ TEST_F(Simulate, RefusesABrokenPhotometricFileWithItsLine) {
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("lamp.ies:4: number of vertical angles: expected a whole number"));
   EXPECT_THAT(Refusal("\"lamp.ies\"", "\"lump.ies\""), HasSubstr("did you mean \"lamp.ies\"?"));
+}
+
+// Nothing is predicted there, and doctor says the same words.
+TEST_F(Simulate, AReadingOutsideTheRoomIsNamedAndHasNoNumber) {
+  const std::string table = folder_.Read("luxmeter.csv");
+  folder_.Replace("luxmeter.csv", "P1,2,1,0.01,0,0,1,one", "P1,2,1,-0.05,0,0,1,one");
+  const support::ProgramRun run = Run();
+  EXPECT_EQ(run.status, 1);
+  const std::string words =
+      "1 of 2 meter places lie outside the room, inside a solid or on the back of a surface, and "
+      "their readings are left out: P1 at (2, 1, -0.05) m, 50 mm behind a surface\n";
+  EXPECT_THAT(run.output, HasSubstr("undetermined: " + words));
+  EXPECT_THAT(folder_.Read("out/illuminance.csv"), HasSubstr("\nP1,one,,,\nP1,both,"));
+  EXPECT_TRUE(Artifact()["luxmeter"][0]["predicted_lx"].is_null());
+  EXPECT_EQ(Artifact()["status_because"], nlohmann::json::array({"reading_outside"}));
+  const support::ProgramRun doctor = support::RunProgram("doctor '" + folder_.Path("session.toml") + "'");
+  EXPECT_EQ(doctor.status, 1);
+  EXPECT_THAT(doctor.output, HasSubstr("bad   " + words));
+  folder_.Write("luxmeter.csv", table);
+  EXPECT_EQ(Run().status, 0);
+}
+
+TEST_F(Simulate, APlaceInAnotherUnitOrAxisIsSaid) {
+  folder_.Replace("luxmeter.csv", "P2,0.5,0.5,1,1,0,0", "P2,0.5,0.5,100,1,0,0");
+  EXPECT_THAT(Run().output, HasSubstr("P2 at (0.5, 0.5, 100) m, its z_m may be in cm"));
+  folder_.Replace("luxmeter.csv", "P2,0.5,0.5,100,1,0,0", "P2,500,500,1000,1,0,0");
+  EXPECT_THAT(Run().output, HasSubstr("P2 at (500, 500, 1000) m, its place may be in mm"));
+  folder_.Replace("luxmeter.csv", "P2,500,500,1000,1,0,0", "P2,0.5,0.5,1,1,0,0");
+  folder_.Write(
+      "room.obj",
+      "v 0 0 0\nv 3 0 0\nv 3 0 -2\nv 0 0 -2\nv 0 2 0\nv 3 2 0\nv 3 2 -2\nv 0 2 -2\n"
+      "usemtl floor\nf 1 2 3 4\nusemtl wall\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n");
+  EXPECT_THAT(Run().output, AllOf(HasSubstr("2 of 2 meter places"), HasSubstr("export the mesh with z up")));
+}
+
+// LM-63: the lamp's flux depends on its tilt. A flux that is given was measured in place.
+TEST_F(Simulate, TiltFactorsApplyByTheAim) {
+  ASSERT_EQ(Run().status, 0);
+  const double down_lm = Artifact()["luminaires"][1]["flux_lm"];
+  folder_.Replace("lamp.ies", "TILT=NONE", "TILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8");
+  ASSERT_EQ(Run().status, 0);
+  EXPECT_NEAR(Artifact()["luminaires"][1]["flux_lm"].get<double>(), down_lm, 1e-9 * down_lm);
+  folder_.Replace("session.toml", "position_m = [2, 1, 1.9]", "position_m = [2, 1, 1.9]\naim = [-1, 0, -1]");
+  const support::ProgramRun run = Run();
+  EXPECT_NEAR(Artifact()["luminaires"][1]["flux_lm"].get<double>(), 0.9 * down_lm, 1e-9 * down_lm);
+  EXPECT_THAT(run.output, HasSubstr("B is aimed 45 degrees off straight down: the TILT factor 0.9"));
+  folder_.Replace("session.toml", "aim = [-1, 0, -1]", "aim = [-1, 0, -1]\nflux_lm = 500");
+  EXPECT_THAT(Run().output, Not(HasSubstr("TILT")));
+  EXPECT_EQ(Artifact()["luminaires"][1]["flux_lm"], 500);
 }
 
 TEST_F(Simulate, WarnsOfALuminaireOutsideTheRoom) {

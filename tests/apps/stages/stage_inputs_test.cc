@@ -88,12 +88,11 @@ TEST(StageCacheTest, RepeatsProductAndSayings) {
     } else {
       ++computed;
       const StageMark mark(context);
-      context.warnings.push_back({"code", "message", "remedy"});
+      context.AddUndetermined({"code", "message", "remedy"});
       context.choices.push_back({"what", "a", {"a", "b"}, "because"});
-      context.undetermined = true;
       KeepProduct("register", with, context, mark, {{"value", 0.1}});
     }
-    EXPECT_TRUE(context.undetermined);
+    EXPECT_TRUE(context.IsUndetermined());
     EXPECT_EQ(context.warnings.at(0).remedy, "remedy");
     EXPECT_THAT(context.choices.at(0).among, ElementsAre("a", "b"));
   };

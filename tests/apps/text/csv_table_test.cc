@@ -50,11 +50,41 @@ TEST_F(CsvTableTest, ToleratesByteOrderMarkCrlfQuotesAndOptionalColumns) {
   EXPECT_EQ(CsvText(table, table.rows[0], "iso"), "100");
 }
 
+// What spreadsheets and old systems save.
+TEST_F(CsvTableTest, ReadsUtf16OldLineEndsAndRowsOfCommas) {
+  const std::string plain = "id,x_m,lux\nL\xC3\xBC,1,2\n";
+  std::string utf16 = "\xFF\xFE";
+  for (const char16_t c : std::u16string(u"id,x_m,lux\r\nL\u00FC,1,2\r\n")) {
+    utf16 += static_cast<char>(c & 0xFF);
+    utf16 += static_cast<char>(c >> 8);
+  }
+  for (const std::string& text :
+       {plain, utf16, std::string("id,x_m,lux\rL\xC3\xBC,1,2\r"), plain + ",,\n , ,\n"}) {
+    const CsvTable table = Read(text);
+    ASSERT_EQ(table.rows.size(), 1u) << text;
+    EXPECT_EQ(CsvText(table, table.rows[0], "id"), "L\xC3\xBC");
+    EXPECT_EQ(table.rows[0].line, 2);
+  }
+}
+
+TEST_F(CsvTableTest, TextThatIsNotUnicodeIsRefusedWithItsLine) {
+  EXPECT_THAT(
+      Error("id,x_m,lux\na,1,2\nL\xFC,1,2\n"),
+      AllOf(HasSubstr(
+                "t.csv:3: expected text in UTF-8, got the byte 0xFC, which in Windows-1252 is \"\xC3\xBC\""),
+            HasSubstr("save the file as UTF-8")));
+}
+
+TEST_F(CsvTableTest, AColumnInAnotherUnitIsToldItsFactor) {
+  EXPECT_THAT(Error("id,x_mm,lux\na,1,2\n"),
+              HasSubstr("column 2: multiply its numbers by 0.001 and name it \"x_m\""));
+}
+
 TEST_F(CsvTableTest, WrongHeaderNamesBothHeaders) {
   EXPECT_THAT(
       Error("id,x,lux\na,1,2\n"),
       AllOf(HasSubstr("t.csv:1: header: "), HasSubstr("expected \"id,x_m,lux[,iso]\", got \"id,x,lux\""),
-            HasSubstr("column 2 must be \"x_m\": rename, reorder or add it")));
+            HasSubstr("column 2: it must be \"x_m\": rename, reorder or add it")));
   EXPECT_THAT(Error("id,x_m\na,1\n"), HasSubstr("add the column \"lux\""));
   EXPECT_THAT(Error("id,x_m,lux,colour\na,1,2,3\n"), HasSubstr("remove the column \"colour\""));
   EXPECT_THAT(Error("id\tx_m\tlux\na\t1\t2\n"), HasSubstr("not tabs: save the table as CSV with commas"));

@@ -120,10 +120,10 @@ TEST_F(ReadCameraTest, EveryCameraComesBackFromOpenCvsYaml) {
 }
 
 TEST_F(ReadCameraTest, EveryCameraComesBackFromColmap) {
-  std::map<int, Camera> by_id;
+  std::map<ColmapId, Camera> by_id;
   for (const Camera& camera : SomeCameras()) by_id[static_cast<int>(by_id.size()) + 3] = camera;
   const std::string path = Write(ColmapCamerasText(by_id), ".txt");
-  const std::map<int, Camera> read = ReadColmapCameras(path);
+  const std::map<ColmapId, Camera> read = ReadColmapCameras(path);
   ASSERT_EQ(read.size(), by_id.size());
   for (const auto& [id, camera] : by_id) {
     ExpectSame(read.at(id), camera);

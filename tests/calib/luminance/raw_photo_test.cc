@@ -6,6 +6,7 @@
 
 #include "calib/luminance/exposure.h"
 #include "calib/luminance/image.h"
+#include "calib/luminance/lens_shading.h"
 #include "tests/support/calib/test_dng.h"
 #include "tests/support/temp_folder.h"
 
@@ -91,6 +92,18 @@ TEST(ExposureMetadataTest, ComesFromExif) {
   EXPECT_DOUBLE_EQ(*metadata.iso, 200);
 }
 
+// EXIF 2.3: 65535 says that the value has no room in 16 bits.
+TEST(ExposureMetadataTest, AnIsoBeyond16BitsStandsElsewhere) {
+  const TempFolder folder;
+  support::TestDng dng = MosaicOf([](size_t, int, int) { return 100; });
+  dng.iso = 65535;
+  support::WriteTestDng(folder.Path("a.dng"), dng);
+  EXPECT_FALSE(ReadExposureMetadata(folder.Path("a.dng")).iso.has_value());
+  dng.recommended_exposure_index = 102400;
+  support::WriteTestDng(folder.Path("a.dng"), dng);
+  EXPECT_EQ(ReadExposureMetadata(folder.Path("a.dng")).iso, 102400);
+}
+
 TEST(ExposureMetadataTest, ZeroTimesAreNone) {
   const TempFolder folder;
   support::TestDng dng = MosaicOf([](size_t, int, int) { return 100; });
@@ -110,6 +123,28 @@ TEST(ExposureMetadataTest, FilesWithoutExifSayNothing) {
     const ExposureMetadata metadata = ReadExposureMetadata(folder.Path(name));
     EXPECT_FALSE(metadata.exposure_s || metadata.f_number || metadata.iso) << name;
   }
+}
+
+// DNG 1.4, chapter 6: big-endian count, then id, version, flags, size and content of each opcode.
+TEST(RawPhoto, AMapOfTheLensShadingIsSeen) {
+  const TempFolder folder;
+  support::TestDng dng = MosaicOf([](size_t, int, int) { return 100; });
+  const auto has_map = [&] {
+    support::WriteTestDng(folder.Path("a.dng"), dng);
+    return HasLensShadingMap(folder.Path("a.dng"));
+  };
+  EXPECT_FALSE(has_map());
+  const std::vector<std::uint32_t> warp = {0, 0, 0, 1, 1, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4, 9, 9, 9, 9};
+  dng.opcode_list_3 = {0, 0, 0, 1};
+  dng.opcode_list_3.insert(dng.opcode_list_3.end(), warp.begin(), warp.end());
+  EXPECT_FALSE(has_map()) << "an opcode of another kind";
+  dng.opcode_list_3[3] = 2;
+  const std::vector<std::uint32_t> map = {0, 0, 0, 9, 1, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0};
+  dng.opcode_list_3.insert(dng.opcode_list_3.end(), map.begin(), map.end());
+  EXPECT_TRUE(has_map());
+  dng.opcode_list_3.resize(12);
+  EXPECT_FALSE(has_map()) << "cut off";
+  EXPECT_FALSE(HasLensShadingMap(folder.Path("none.dng")));
 }
 
 }  // namespace

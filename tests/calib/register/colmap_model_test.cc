@@ -171,5 +171,25 @@ TEST_F(ColmapModelTest, AFolderWithoutAModelIsNamed) {
   EXPECT_THAT(MessageOf(folder_.Path("sparse")), HasSubstr("did you mean"));
 }
 
+// COLMAP counts to 2^32 - 1.
+TEST_F(ColmapModelTest, LargeIdsAreRead) {
+  WriteText(
+      "4294967295 PINHOLE 640 480 500 501 320.5 240.5\n",
+      "3000000000 1 0 0 0 0 0 0 4294967295 a.png\n1 2 7\n3000000001 1 0 0 0 1 0 0 4294967295 b.png\n1 2 7\n",
+      "7 1 2 3 0 0 0 0 3000000000 0 3000000001 0\n");
+  const ColmapModel model = ReadColmapModel(folder_.Path("m"));
+  EXPECT_EQ(model.images.at(3000000001).name, "b.png");
+  EXPECT_EQ(model.images.at(3000000000).camera, 4294967295);
+  EXPECT_EQ(model.points.at(7).track[1].image, 3000000001);
+}
+
+TEST_F(ColmapModelTest, ANewerCameraModelIsRefusedWithARemedy) {
+  WriteText("1 SIMPLE_DIVISION 640 480 500 320 240 0.1\n", kImages, kPoints);
+  EXPECT_THAT(MessageOf(folder_.Path("m")),
+              testing::AllOf(
+                  HasSubstr("cameras.txt:1: expected a camera model of COLMAP 3.8, got \"SIMPLE_DIVISION\""),
+                  HasSubstr("--ImageReader.camera_model FULL_OPENCV")));
+}
+
 }  // namespace
 }  // namespace luxfit

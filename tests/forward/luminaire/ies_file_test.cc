@@ -185,6 +185,19 @@ TEST(IesFile, TiltIsReadFromTheFileOrBesideIt) {
   EXPECT_THAT(photometry.notes[0], HasSubstr("TILT"));
 }
 
+// By the angle between the aim and straight down, against the factor at 0, which the table's intensities hold.
+TEST(IesFile, TiltAppliesByTheAim) {
+  const PhotometryFile photometry =
+      Parse(Replaced(kIes, "TILT=NONE\n", "TILT=INCLUDE\n1\n4\n0 45 90 180\n0.5 0.45 0.4 0.35\n"));
+  EXPECT_NEAR(TiltFactor(photometry, {0, 0, -1}), 1, 1e-12);
+  EXPECT_NEAR(TiltFactor(photometry, {1, 0, -1}), 0.9, 1e-12);
+  EXPECT_NEAR(TiltFactor(photometry, {0, -1, -1}), 0.9, 1e-12);
+  EXPECT_NEAR(TiltFactor(photometry, {1, 0, 0}), 0.8, 1e-12);
+  EXPECT_NEAR(TiltFactor(photometry, {0, 0, 1}), 0.7, 1e-12);
+  EXPECT_NEAR(TiltFactor(photometry, {std::tan(M_PI / 8), 0, -1}), 0.95, 1e-12);
+  EXPECT_EQ(TiltFactor(Parse(kIes), {1, 0, 0}), 1);
+}
+
 TEST(IesFile, OddHabitsAreRead) {
   // DOS line ends and ^Z, commas, lines broken anywhere, a byte-order mark, +, exponents.
   std::string text = Replaced(kIes, "0 45 90\n0 45 90\n300 200 100", "0,45, +9e1\n0\n45\n90 300\n200 100");

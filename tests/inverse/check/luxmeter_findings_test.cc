@@ -97,5 +97,16 @@ TEST(LuxmeterFindings, AStateThatIsOffIsAState) {
   EXPECT_EQ(findings.disagreements[0].state, "B");
 }
 
+TEST(LuxmeterFindings, LightWhereNoneIsPredictedIsSaidToBeSuch) {
+  std::vector<NamedReading> readings = Agreeing();
+  readings[0].reading.predicted_lx = 0;
+  readings[0].reading.predicted_sigma_lx = 0;
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_NE(findings.disagreements[0].meaning.find("it measured light where none is predicted"),
+            std::string::npos);
+  EXPECT_NE(findings.disagreements[0].remedy.find("measure its place again"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace luxfit

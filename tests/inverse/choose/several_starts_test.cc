@@ -63,8 +63,8 @@ TEST(SeveralStarts, TheMirroredPlaceIsARival) {
   ASSERT_EQ(result.comparisons.size(), 1u);
   const StartComparison& c = result.comparisons[0];
   ASSERT_FALSE(c.rivals.empty());
-  const Eigen::Vector3d kept = c.end[static_cast<size_t>(c.chosen)];
-  const Eigen::Vector3d other = c.end[static_cast<size_t>(c.rivals[0])];
+  const Eigen::Vector3d kept = c.end[static_cast<size_t>(c.chosen)].position;
+  const Eigen::Vector3d other = c.end[static_cast<size_t>(c.rivals[0])].position;
   EXPECT_EQ(result.state.luminaires[0].position, kept);
   const bool is_above = kept.z() > 0;
   EXPECT_LT((kept - (is_above ? kLamp : kMirrored)).norm(), 0.01) << kept.transpose();

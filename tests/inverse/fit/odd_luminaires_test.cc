@@ -100,7 +100,7 @@ TEST_F(OddLuminaires, TheResultIsUndeterminedAndSaysWhy) {
   Panel(3).flux_lm = 45;
   Findings findings;
   WarnOfOddLuminaires(fit_.state, Found(), findings);
-  EXPECT_TRUE(findings.undetermined);
+  EXPECT_TRUE(findings.IsUndetermined());
   ASSERT_EQ(findings.warnings.size(), 1u);
   EXPECT_EQ(findings.warnings[0].code, "luminaire_unlike_others");
   EXPECT_EQ(findings.warnings[0].message,

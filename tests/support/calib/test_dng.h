@@ -22,6 +22,8 @@ struct TestDng {
   std::uint32_t white = 65535;
   std::pair<std::uint32_t, std::uint32_t> exposure_s{1, 60}, f_number{28, 5};
   std::uint16_t iso = 200;
+  std::uint32_t recommended_exposure_index = 0;  // 0: none
+  std::vector<std::uint32_t> opcode_list_3;      // its bytes; empty: none
 };
 
 namespace internal {
@@ -94,6 +96,7 @@ inline TiffDirectory ExifOf(const TestDng& dng) {
   exif.Add(33434, kRational, {dng.exposure_s.first, dng.exposure_s.second});
   exif.Add(33437, kRational, {dng.f_number.first, dng.f_number.second});
   exif.Add(34855, kShort, {dng.iso});
+  if (dng.recommended_exposure_index > 0) exif.Add(34866, kLong, {dng.recommended_exposure_index});
   return exif;
 }
 
@@ -125,6 +128,7 @@ inline TiffDirectory MainOf(const TestDng& dng, size_t pixels_offset, size_t exi
   main.Add(50721, kSRational, {1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1});
   main.Add(50728, kRational, {1, 2, 1, 1, 2, 3});  // a white balance, which readers must leave alone
   main.Add(50778, kShort, {21});
+  if (!dng.opcode_list_3.empty()) main.Add(51022, kByte, dng.opcode_list_3);
   return main;
 }
 

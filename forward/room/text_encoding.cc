@@ -1,4 +1,4 @@
-#include "forward/luminaire/internal/text_encoding.h"
+#include "forward/room/text_encoding.h"
 
 #include <array>
 #include <cstddef>
@@ -51,13 +51,15 @@ size_t Utf8LengthAt(std::string_view bytes, size_t at) {
   return outside ? 0 : length;
 }
 
-bool IsUtf8(std::string_view bytes) {
-  for (size_t at = 0; at < bytes.size();) {
+// Returns where the text is no longer UTF-8; its size where it is to its end.
+size_t EndOfUtf8(std::string_view bytes) {
+  size_t at = 0;
+  while (at < bytes.size()) {
     const size_t length = Utf8LengthAt(bytes, at);
-    if (length == 0) return false;
+    if (length == 0) break;
     at += length;
   }
-  return true;
+  return at;
 }
 
 enum class ByteOrder { kNone, kLittle, kBig };
@@ -73,6 +75,11 @@ ByteOrder OrderByNuls(std::string_view bytes) {
   for (size_t i = 0; i < bytes.size(); ++i) nuls[i % 2] += bytes[i] == '\0' ? 1 : 0;
   if (4 * (nuls[0] + nuls[1]) < bytes.size() || (nuls[0] == 0) == (nuls[1] == 0)) return ByteOrder::kNone;
   return nuls[0] == 0 ? ByteOrder::kLittle : ByteOrder::kBig;
+}
+
+ByteOrder OrderOf(std::string_view bytes) {
+  const ByteOrder marked = MarkedOrder(bytes);
+  return marked == ByteOrder::kNone ? OrderByNuls(bytes) : marked;
 }
 
 std::string FromUtf16(std::string_view bytes, ByteOrder order) {
@@ -109,9 +116,15 @@ std::string FromWindows1252(std::string_view bytes) {
 
 }  // namespace
 
+std::optional<std::size_t> FirstByteOfNoUnicode(std::string_view bytes) {
+  if (OrderOf(bytes) != ByteOrder::kNone) return std::nullopt;
+  const size_t end = EndOfUtf8(bytes);
+  if (end == bytes.size()) return std::nullopt;
+  return end;
+}
+
 std::string Utf8Text(std::string_view bytes) {
-  ByteOrder order = MarkedOrder(bytes);
-  if (order == ByteOrder::kNone) order = OrderByNuls(bytes);
+  const ByteOrder order = OrderOf(bytes);
   std::string text;
   if (order != ByteOrder::kNone) {
     text = FromUtf16(bytes, order);
@@ -119,7 +132,7 @@ std::string Utf8Text(std::string_view bytes) {
   }
   // A program that converts a file may leave the mark that it found, and add its own.
   while (bytes.substr(0, kUtf8Mark.size()) == kUtf8Mark) bytes.remove_prefix(kUtf8Mark.size());
-  return IsUtf8(bytes) ? std::string(bytes) : FromWindows1252(bytes);
+  return EndOfUtf8(bytes) == bytes.size() ? std::string(bytes) : FromWindows1252(bytes);
 }
 
 }  // namespace luxfit

@@ -8,9 +8,11 @@
 //
 // Sources: The Unicode Standard, sec. 3.9 (well-formed UTF-8, table 3-7) and 23.8 (byte-order mark); WHATWG
 // Encoding Standard, index windows-1252.
-#ifndef LUXFIT_FORWARD_LUMINAIRE_INTERNAL_TEXT_ENCODING_H_
-#define LUXFIT_FORWARD_LUMINAIRE_INTERNAL_TEXT_ENCODING_H_
+#ifndef LUXFIT_FORWARD_ROOM_TEXT_ENCODING_H_
+#define LUXFIT_FORWARD_ROOM_TEXT_ENCODING_H_
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,9 @@ namespace luxfit {
 // Returns valid UTF-8 without a byte-order mark. Text that is UTF-8 already comes back as it is.
 std::string Utf8Text(std::string_view bytes);
 
+// Returns the first byte that is not UTF-8 of a text that is neither UTF-8 nor UTF-16; nothing where it is one of them.
+std::optional<std::size_t> FirstByteOfNoUnicode(std::string_view bytes);
+
 }  // namespace luxfit
 
-#endif  // LUXFIT_FORWARD_LUMINAIRE_INTERNAL_TEXT_ENCODING_H_
+#endif  // LUXFIT_FORWARD_ROOM_TEXT_ENCODING_H_

@@ -1,4 +1,4 @@
-#include "forward/luminaire/internal/text_encoding.h"
+#include "forward/room/text_encoding.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,6 +82,14 @@ TEST(TextEncoding, PhotometricFilesAreReadInEveryEncoding) {
       EXPECT_EQ(file.keywords[ies ? 1 : 0].text, u8"M\u00fcller");
     }
   }
+}
+
+TEST(TextEncoding, SaysWhereATextIsNoUnicode) {
+  EXPECT_FALSE(FirstByteOfNoUnicode("plain"));
+  EXPECT_FALSE(FirstByteOfNoUnicode("M\xc3\xbcller"));
+  EXPECT_FALSE(FirstByteOfNoUnicode(InUtf16(u"M\u00fcller, 1", false, true)));
+  EXPECT_EQ(FirstByteOfNoUnicode("M\xfcller"), 1u);
+  EXPECT_EQ(FirstByteOfNoUnicode("M\xc3\xbcller, \xb0"), 9u);
 }
 
 TEST(TextEncoding, ErrorsKeepTheirLine) {
