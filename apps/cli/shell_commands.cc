@@ -55,7 +55,7 @@ int Help(const CLI::App& app, const std::string& name) {
   for (const CLI::App* const command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw std::runtime_error("help: COMMAND: " + ExpectedOneOf(known, name));
-  Print(app.get_subcommand(name)->help());
+  Print(app.get_subcommand(name)->help(app.get_name()));
   return 0;
 }
 

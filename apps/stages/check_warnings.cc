@@ -31,8 +31,8 @@ void WarnOfContradiction(const std::vector<NamedReading>& readings, Findings& fi
 void WarnOfDisagreements(const std::vector<Disagreement>& disagreements, Findings& findings) {
   for (size_t i = 0; i < std::min(kNamedReadings, disagreements.size()); ++i) {
     const Disagreement& d = disagreements[i];
-    findings.warnings.push_back({"reading_disagrees", fmt::format("{} (z = {:.1f})", d.meaning, d.z), d.remedy,
-                                 std::abs(d.relative) > kLargeError});
+    findings.warnings.push_back({"reading_disagrees", fmt::format("{} (z = {:.1f})", d.meaning, d.z),
+                                 d.remedy, std::abs(d.relative) > kLargeError});
   }
   if (disagreements.size() <= kNamedReadings) return;
   const auto is_large = [](const Disagreement& d) { return std::abs(d.relative) > kLargeError; };
@@ -40,7 +40,8 @@ void WarnOfDisagreements(const std::vector<Disagreement>& disagreements, Finding
       {"reading_disagrees",
        fmt::format("{} more disagree with their predictions", disagreements.size() - kNamedReadings),
        "luxfit check lists all of them",
-       std::any_of(disagreements.begin() + static_cast<std::ptrdiff_t>(kNamedReadings), disagreements.end(), is_large)});
+       std::any_of(disagreements.begin() + static_cast<std::ptrdiff_t>(kNamedReadings), disagreements.end(),
+                   is_large)});
 }
 
 }  // namespace

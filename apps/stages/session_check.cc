@@ -18,7 +18,9 @@ bool IsReadingOutside(const RayScene& rays, const SessionReading& reading) {
   return !IsInRoom(rays, LiftedOff(reading.position_m, reading.normal));
 }
 
-std::string PlaceText(const Eigen::Vector3d& p) { return fmt::format("({:g}, {:g}, {:g}) m", p.x(), p.y(), p.z()); }
+std::string PlaceText(const Eigen::Vector3d& p) {
+  return fmt::format("({:g}, {:g}, {:g}) m", p.x(), p.y(), p.z());
+}
 
 // Says in which other unit the place would be inside; empty where in none.
 std::string UnitHint(const RayScene& rays, const Eigen::Vector3d& p) {
@@ -57,20 +59,23 @@ void WarnOfReadings(const std::map<std::string, SessionReading>& outside, size_t
     points.push_back(reading.position_m);
     if (named.size() < kNamedPlaces) named.push_back(WhereText(rays, reading));
   }
-  if (outside.size() > named.size()) named.push_back(fmt::format("and {} more", outside.size() - named.size()));
-  warnings.push_back(
-      {"reading_outside",
-       fmt::format("{} of {} meter places lie outside the room, inside a solid or on the back of a surface, and their "
-                   "readings are left out: {}",
-                   outside.size(), places, fmt::join(named, "; ")),
-       AreInsideWithYUp(rays, points)
-           ? "they lie inside where the mesh's y axis is up: export the mesh with z up"
-           : "correct x_m, y_m and z_m in the table of readings; where the places are right, the mesh, its unit or its "
-             "frame is not",
-       true});
+  if (outside.size() > named.size())
+    named.push_back(fmt::format("and {} more", outside.size() - named.size()));
+  warnings.push_back({"reading_outside",
+                      fmt::format("{} of {} meter places lie outside the room, inside a solid or on the back "
+                                  "of a surface, and their "
+                                  "readings are left out: {}",
+                                  outside.size(), places, fmt::join(named, "; ")),
+                      AreInsideWithYUp(rays, points)
+                          ? "they lie inside where the mesh's y axis is up: export the mesh with z up"
+                          : "correct x_m, y_m and z_m in the table of readings; where the places are right, "
+                            "the mesh, its unit or its "
+                            "frame is not",
+                      true});
 }
 
-void WarnOfLuminaire(const SessionLuminaire& luminaire, const RayScene& rays, std::vector<Warning>& warnings) {
+void WarnOfLuminaire(const SessionLuminaire& luminaire, const RayScene& rays,
+                     std::vector<Warning>& warnings) {
   if (!luminaire.position_m) return;
   const Eigen::Vector3d& p = *luminaire.position_m;
   constexpr double kRecessedM = 0.005;
@@ -80,10 +85,12 @@ void WarnOfLuminaire(const SessionLuminaire& luminaire, const RayScene& rays, st
   if (hint.empty() && AreInsideWithYUp(rays, {p})) hint = "it lies inside where the mesh's y axis is up";
   warnings.push_back(
       {"luminaire_outside",
-       fmt::format("luminaire {} at {} lies inside a solid, outside the room or on the far side of a wall: rays from "
-                   "there meet the backs of surfaces, or nothing{}",
-                   luminaire.id, PlaceText(p), hint.empty() ? "" : "; " + hint),
-       "check position_m and scene.unit; a recessed luminaire belongs just below the ceiling's surface; a facet whose "
+       fmt::format(
+           "luminaire {} at {} lies inside a solid, outside the room or on the far side of a wall: rays from "
+           "there meet the backs of surfaces, or nothing{}",
+           luminaire.id, PlaceText(p), hint.empty() ? "" : "; " + hint),
+       "check position_m and scene.unit; a recessed luminaire belongs just below the ceiling's surface; a "
+       "facet whose "
        "corners run clockwise seen from inside the room has its front on the wrong side",
        luminaire.is_held || luminaire.position_sigma_m == 0.0});
 }
@@ -100,11 +107,12 @@ void WarnOfNamesUsedOnce(const Session& session, std::vector<Warning>& warnings)
   // Where no luminaire is on in two states, each is named once.
   const bool is_rare = 2 * once.size() < session.luminaires.size();
   if (once.empty() || !is_rare || session.count_is_estimated) return;
-  warnings.push_back({"luminaire_named_once",
-                      fmt::format("one state alone names {}, and nothing else does, while other luminaires are named "
-                                  "several times: a slip of the pen would look so, and add a luminaire",
-                                  fmt::join(once, ", ")),
-                      "correct the name in [states], or give the luminaire a [[luminaire]] of its own"});
+  warnings.push_back(
+      {"luminaire_named_once",
+       fmt::format("one state alone names {}, and nothing else does, while other luminaires are named "
+                   "several times: a slip of the pen would look so, and add a luminaire",
+                   fmt::join(once, ", ")),
+       "correct the name in [states], or give the luminaire a [[luminaire]] of its own"});
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace luxfit {
 // `rays` are those of the session's mesh. Without a mesh, nothing is outside.
 
 struct ReadingsOutside {
-  std::set<int> lines;    // lines of the table of readings
+  std::set<int> lines;  // lines of the table of readings
   std::vector<Warning> warnings;
 };
 ReadingsOutside FindReadingsOutside(const Session& session, const RayScene& rays);

@@ -39,7 +39,8 @@ bool HoldsGainMap(const std::vector<unsigned char>& list) {
 bool HasLensShadingMap(const std::string& path) {
   const Exiv2::ExifData exif = ReadExif(path);
   for (const Exiv2::Exifdatum& value : exif) {
-    if ((value.tag() == kOpcodeList2 || value.tag() == kOpcodeList3) && HoldsGainMap(BytesOf(value))) return true;
+    if ((value.tag() == kOpcodeList2 || value.tag() == kOpcodeList3) && HoldsGainMap(BytesOf(value)))
+      return true;
   }
   return false;
 }

@@ -29,7 +29,8 @@ size_t CommonEnd(const std::vector<std::string>& a, const std::vector<std::strin
   return static_cast<size_t>(differ.first - a.rbegin());
 }
 
-std::string ViewOfImage(const std::string& image, const std::vector<PhotoOfView>& photos, const std::string& model) {
+std::string ViewOfImage(const std::string& image, const std::vector<PhotoOfView>& photos,
+                        const std::string& model) {
   const std::vector<std::string> parts = PartsOf(image);
   size_t longest = 0;
   const PhotoOfView* found = nullptr;
@@ -46,10 +47,11 @@ std::string ViewOfImage(const std::string& image, const std::vector<PhotoOfView>
     }
   }
   if (other != nullptr)
-    throw std::runtime_error(fmt::format(
-        "{}: image {}: expected a name that one view's photos end in, got one that {} and {} end in; run COLMAP on a "
-        "folder that holds both, so that names say which is meant",
-        model, image, found->file, other->file));
+    throw std::runtime_error(
+        fmt::format("{}: image {}: expected a name that one view's photos end in, got one that {} and {} end "
+                    "in; run COLMAP on a "
+                    "folder that holds both, so that names say which is meant",
+                    model, image, found->file, other->file));
   if (found != nullptr) return found->view;
   const auto named = std::find_if(photos.begin(), photos.end(),
                                   [&](const PhotoOfView& photo) { return photo.view == parts.back(); });
@@ -59,7 +61,8 @@ std::string ViewOfImage(const std::string& image, const std::vector<PhotoOfView>
 }  // namespace
 
 std::map<std::string, std::string> ViewsOfImages(const std::vector<std::string>& images,
-                                                 const std::vector<PhotoOfView>& photos, const std::string& model) {
+                                                 const std::vector<PhotoOfView>& photos,
+                                                 const std::string& model) {
   std::map<std::string, std::string> views;
   for (const std::string& image : images) {
     const std::string view = ViewOfImage(image, photos, model);

@@ -20,7 +20,8 @@ struct PhotoOfView {
 
 // Returns the views by the images' names; images that are no photo's are left out. `model` names the model in errors.
 std::map<std::string, std::string> ViewsOfImages(const std::vector<std::string>& images,
-                                                 const std::vector<PhotoOfView>& photos, const std::string& model);
+                                                 const std::vector<PhotoOfView>& photos,
+                                                 const std::string& model);
 
 }  // namespace luxfit
 

@@ -99,10 +99,11 @@ std::string ColumnOf(const CsvColumns& expected, const std::string& name) {
 }
 
 std::string QuotedWithAlias(const CsvColumns& expected, const std::string& column) {
-  std::string text = Quoted(column);
-  for (const auto& [alias, of] : expected.alias)
-    text += of == column ? " (or its alias " + Quoted(alias) + ")" : "";
-  return text;
+  std::vector<std::string> aliases;
+  for (const auto& [alias, of] : expected.alias) {
+    if (of == column) aliases.push_back(alias);
+  }
+  return Quoted(column) + (aliases.empty() ? "" : " (or its alias " + ListQuoted(aliases) + ")");
 }
 
 void ExpectOneNameForEachColumn(const CsvColumns& expected, const CsvTable& table, int line) {
@@ -114,11 +115,12 @@ void ExpectOneNameForEachColumn(const CsvColumns& expected, const CsvTable& tabl
   }
 }
 
-// Says what to do with a column that stands where `column` is expected.
+// Says of a column that stands where `column` is expected what it has to be.
 std::string ColumnRemedy(const CsvColumns& expected, const std::string& column, const std::string& found) {
   if (const auto factor = UnitFactor(found, column))
-    return fmt::format("multiply its numbers by {:.6g} and name it {}", *factor, Quoted(column));
-  return "it must be " + QuotedWithAlias(expected, column) + ": rename, reorder or add it";
+    return fmt::format(" is in another unit: multiply its numbers by {:.6g} and name it {}", *factor,
+                       Quoted(column));
+  return " must be " + QuotedWithAlias(expected, column) + ": rename, reorder or add it";
 }
 
 void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, const std::string& found_line) {
@@ -138,7 +140,7 @@ void CheckHeader(const CsvColumns& expected, const CsvTable& table, int line, co
   for (; i < expected.required.size() && i < table.columns.size(); ++i) {
     if (ColumnOf(expected, table.columns[i]) == expected.required[i]) continue;
     throw InputError(place, "header",
-                     found + "; column " + std::to_string(i + 1) + ": " +
+                     found + "; column " + std::to_string(i + 1) +
                          ColumnRemedy(expected, expected.required[i], table.columns[i]));
   }
   if (i < expected.required.size())

@@ -31,10 +31,11 @@ void ExpectUtf8(const std::string& path, const std::string& bytes) {
   if (!at) return;
   const std::string before = WithLineFeeds(bytes.substr(0, *at));
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  throw InputError({path, static_cast<int>(line)}, "",
-                   fmt::format("expected text in UTF-8, got the byte 0x{:02X}, which in Windows-1252 is \"{}\"; save the "
-                               "file as UTF-8 (spreadsheets call it \"CSV UTF-8\")",
-                               static_cast<unsigned char>(bytes[*at]), Utf8Text(std::string_view(bytes).substr(*at, 1))));
+  throw InputError(
+      {path, static_cast<int>(line)}, "",
+      fmt::format("expected text in UTF-8, got the byte 0x{:02X}, which in Windows-1252 is \"{}\"; save the "
+                  "file as UTF-8 (spreadsheets call it \"CSV UTF-8\")",
+                  static_cast<unsigned char>(bytes[*at]), Utf8Text(std::string_view(bytes).substr(*at, 1))));
 }
 
 }  // namespace

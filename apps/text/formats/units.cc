@@ -12,13 +12,12 @@ struct Unit {
 };
 
 std::optional<Unit> FindUnit(const std::string& name) {
-  static const std::map<std::string, Unit> units = {
-      {"m", {"m", 1}},          {"cm", {"m", 0.01}},
-      {"mm", {"m", 0.001}},     {"km", {"m", 1000}},
-      {"in", {"m", 0.0254}},    {"ft", {"m", 0.3048}},
-      {"lx", {"lx", 1}},        {"klx", {"lx", kLuxPerKilolux}},
-      {"s", {"s", 1}},          {"fc", {"lx", kLuxPerFootcandle}},
-      {"ms", {"s", 0.001}},     {"us", {"s", 1e-6}}};
+  static const std::map<std::string, Unit> units = {{"m", {"m", 1}},       {"cm", {"m", 0.01}},
+                                                    {"mm", {"m", 0.001}},  {"km", {"m", 1000}},
+                                                    {"in", {"m", 0.0254}}, {"ft", {"m", 0.3048}},
+                                                    {"lx", {"lx", 1}},     {"klx", {"lx", kLuxPerKilolux}},
+                                                    {"s", {"s", 1}},       {"fc", {"lx", kLuxPerFootcandle}},
+                                                    {"ms", {"s", 0.001}},  {"us", {"s", 1e-6}}};
   const auto at = units.find(name);
   if (at == units.end()) return std::nullopt;
   return at->second;

@@ -27,7 +27,8 @@ struct Nearest {
   }
   bool IsClear() const {
     const double angle = Angle(product);
-    return index >= 0 && angle <= kMaxAngle && (second_product < 0 || angle < kMaxAngleRatio * Angle(second_product));
+    return index >= 0 && angle <= kMaxAngle &&
+           (second_product < 0 || angle < kMaxAngleRatio * Angle(second_product));
   }
 
  private:

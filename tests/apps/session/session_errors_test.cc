@@ -140,9 +140,11 @@ TEST_F(SessionErrorsTest, IlluminanceOfReadingsHasOneColumnUnderEitherName) {
   folder_.Replace("luxmeter.csv", "320.5", "-3");
   EXPECT_THAT(Error(), HasSubstr("luxmeter.csv:2: illuminance_lx: expected >= 0, got \"-3\"; correct"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", "state,E"),
-              HasSubstr("column 9 must be \"illuminance_lx\" (or its alias \"lux\"): rename"));
+              HasSubstr("column 9 must be \"illuminance_lx\" (or its alias \"illuminance_fc\", "
+                        "\"illuminance_klx\" or \"lux\"): rename"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", "state"),
-              HasSubstr("add the column \"illuminance_lx\" (or its alias \"lux\")"));
+              HasSubstr("add the column \"illuminance_lx\" (or its alias \"illuminance_fc\", "
+                        "\"illuminance_klx\" or \"lux\")"));
   for (const char* both : {"state,illuminance_lx,lux", "state,lux,illuminance_lx"})
     EXPECT_THAT(ErrorAfter("luxmeter.csv", "state,lux", both),
                 Holds("luxmeter.csv:1: header: expected one of the columns \"illuminance_lx\" and \"lux\"",
@@ -167,10 +169,11 @@ TEST_F(SessionErrorsTest, StatesAreChecked) {
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = 50"),
               Holds(At("all = {") + "states.all.A: expected a dimming in 0..1, got 50", "0.3"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = -0.1"), HasSubstr("states.all.A: expected a dimming in 0..1"));
-  EXPECT_THAT(ErrorAfter("A = 0.5", "a = 0.5"),
-              Holds(At("all = {") + "states.all.a: expected luminaires whose names differ by more than "
-                                    "capitals, got \"a\" beside \"A\"",
-                    "write both alike"));
+  EXPECT_THAT(
+      ErrorAfter("A = 0.5, Z = 1", "A = 0.5, z = 1"),
+      Holds(At("all = {") + "states.all.z: expected luminaires whose names differ by more than capitals, got "
+                            "\"z\" beside \"Z\"",
+            "write both alike"));
   EXPECT_THAT(ErrorAfter("A = 0.5", "A = nan"),
               HasSubstr("states.all.A: expected a dimming in 0..1, got nan; write"));
   EXPECT_THAT(ErrorAfter("Z = { Z = 1.0 }", "Z = \"on\""),
@@ -190,7 +193,7 @@ TEST_F(SessionErrorsTest, NamesWithControlCharactersAreRefused) {
               Holds(At("all = {") + "states.all.A !touch pwned: ", expected));
   EXPECT_THAT(ErrorAfter("photos.csv", "cam0,v0,Z", "cam0,v\x1b[31m0,Z"),
               Holds("photos.csv:2: view: ", expected, "remove it"));
-  EXPECT_THAT(ErrorAfter("luxmeter.csv", "L1,", "L\r1,"), Holds("luxmeter.csv:2: id: ", expected));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "L1,", "L\x1b[1m,"), Holds("luxmeter.csv:2: id: ", expected));
 }
 
 TEST_F(SessionErrorsTest, LuminairesAreChecked) {

@@ -77,14 +77,14 @@ TEST_F(CsvTableTest, TextThatIsNotUnicodeIsRefusedWithItsLine) {
 
 TEST_F(CsvTableTest, AColumnInAnotherUnitIsToldItsFactor) {
   EXPECT_THAT(Error("id,x_mm,lux\na,1,2\n"),
-              HasSubstr("column 2: multiply its numbers by 0.001 and name it \"x_m\""));
+              HasSubstr("column 2 is in another unit: multiply its numbers by 0.001 and name it \"x_m\""));
 }
 
 TEST_F(CsvTableTest, WrongHeaderNamesBothHeaders) {
   EXPECT_THAT(
       Error("id,x,lux\na,1,2\n"),
       AllOf(HasSubstr("t.csv:1: header: "), HasSubstr("expected \"id,x_m,lux[,iso]\", got \"id,x,lux\""),
-            HasSubstr("column 2: it must be \"x_m\": rename, reorder or add it")));
+            HasSubstr("column 2 must be \"x_m\": rename, reorder or add it")));
   EXPECT_THAT(Error("id,x_m\na,1\n"), HasSubstr("add the column \"lux\""));
   EXPECT_THAT(Error("id,x_m,lux,colour\na,1,2,3\n"), HasSubstr("remove the column \"colour\""));
   EXPECT_THAT(Error("id\tx_m\tlux\na\t1\t2\n"), HasSubstr("not tabs: save the table as CSV with commas"));
