@@ -48,7 +48,8 @@ int Manual(const CLI::App& app, const std::string& name, const std::string& fold
 
 int Help(const CLI::App& app, const std::string& name) {
   if (name.empty()) {
-    Print(app.help());
+    // app.help() would be that of the command that was typed, which is this one.
+    Print(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
     return 0;
   }
   std::vector<std::string> known;

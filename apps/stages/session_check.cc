@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -24,9 +25,12 @@ std::string PlaceText(const Eigen::Vector3d& p) {
 
 // Says in which other unit the place would be inside; empty where in none.
 std::string UnitHint(const RayScene& rays, const Eigen::Vector3d& p) {
+  constexpr double kNoHeightM = 10;  // few meters are read above it, and nearly all that are in cm or mm
   for (const auto& [unit, metres] : {std::pair{"cm", 0.01}, std::pair{"mm", 0.001}}) {
-    if (IsInRoom(rays, {p.x(), p.y(), metres * p.z()})) return fmt::format("its z_m may be in {}", unit);
-    if (IsInRoom(rays, metres * p)) return fmt::format("its place may be in {}", unit);
+    if (std::abs(p.z()) > kNoHeightM && IsInRoom(rays, {p.x(), p.y(), metres * p.z()}))
+      return fmt::format("its z_m may be in {}", unit);
+    if (p.norm() > kNoHeightM && IsInRoom(rays, metres * p))
+      return fmt::format("its place may be in {}", unit);
   }
   return "";
 }
