@@ -1,5 +1,5 @@
 #!/bin/sh
-# Fuzzes the readers of photometric files, meshes and cameras over the fixtures, each for some seconds; nothing of the
+# Fuzzes the readers of photometric files, meshes, cameras, tables and tag maps over the fixtures, each for some seconds; nothing of the
 # repository is changed.
 #   .ci/fuzz.sh [SECONDS]        default 20
 # What breaks a reader is left in the folder that is named at the end.
@@ -7,10 +7,10 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 seconds=${1:-20}
 "$root/.ci/setup.sh" clang libclang-rt-14-dev libeigen3-dev libembree-dev libtbb-dev \
-  nlohmann-json3-dev libopencv-dev libmrcal-dev libyaml-cpp-dev cmake ninja-build
+  nlohmann-json3-dev libopencv-dev libmrcal-dev libyaml-cpp-dev libfmt-dev cmake ninja-build
 work=$(mktemp -d)
 cmake -S "$root/tests/fuzz" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER=clang++ >"$work/log"
-cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camera_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
+cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camera_fuzz table_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
 
 mkdir "$work/ies" "$work/ldt" "$work/mesh"
 name_of() { cksum <"$1" | cut -d ' ' -f 1; }
@@ -44,6 +44,11 @@ PLY
 cp -r "$root/tests/fuzz/seeds" "$work/gltf"
 cp -r "$root/tests/fuzz/camera_seeds" "$work/camera"
 
+# The first byte chooses the reader: 0 is a table, 1 a tag map.
+mkdir "$work/table"
+{ printf '\000id,x_m,lux\nL1,1.2,257.6\n"a, b",3,\n'; } >"$work/table/table"
+{ printf '\001'; cat "$root/fixtures/office/tags.json"; } >"$work/table/tags"
+
 # fuzz KIND MAX_BYTES MAX_MB [OPTION ...]
 fuzz() {
   kind=$1 max_bytes=$2 max_mb=$3
@@ -63,5 +68,6 @@ ASAN_OPTIONS=detect_leaks=0
 export ASAN_OPTIONS
 fuzz mesh 8192 2048
 fuzz camera 2048 1024
+fuzz table 4096 1024
 fuzz gltf 4096 2048 -dict="$root/tests/fuzz/gltf.dict"
 rm -r "$work"

@@ -169,6 +169,9 @@ std::map<std::int64_t, DescriptorColumns> ReadDescriptors(const Database& databa
   return descriptors;
 }
 
+// Fewer are chance, and are no evidence beside the corners of tags (COLMAP 3.8, SiftMatching.min_num_inliers).
+constexpr std::size_t kLeastMatches = 15;
+
 std::map<ImagePair, Matches> MatchFeatures(const Database& database) {
   const std::map<std::int64_t, DescriptorColumns> descriptors = ReadDescriptors(database);
   std::vector<std::pair<ImagePair, Matches>> pairs;
@@ -181,7 +184,7 @@ std::map<ImagePair, Matches> MatchFeatures(const Database& database) {
   });
   std::map<ImagePair, Matches> matches;
   for (auto& [pair, of_pair] : pairs) {
-    if (!of_pair.empty()) matches[pair] = std::move(of_pair);
+    if (of_pair.size() / 2 >= kLeastMatches) matches[pair] = std::move(of_pair);
   }
   return matches;
 }

@@ -8,7 +8,8 @@
 //
 // White walls have no texture, so the corners of tags serve as features beside those that COLMAP extracted.
 // Each image's corners are appended to its keypoints, with descriptors of zeros, which match nothing. Corners
-// of one tag seen in two images are matches beside those of the features (internal/descriptor_matches.h).
+// of one tag seen in two images are matches beside those of the features (internal/descriptor_matches.h), of which
+// a pair of images has 15 or none.
 // All are returned as text for `colmap matches_importer --match_type raw`, which verifies them together.
 //
 // Models: throws std::runtime_error("FILE[:LINE]: expected ..., got ...") for missing and malformed files,

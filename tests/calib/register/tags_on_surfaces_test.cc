@@ -133,7 +133,7 @@ TEST(TagsOnSurfacesTest, TheFrameIsHeldByTheSurfaces) {
     const TagsOnSurfaces& laid = on_surfaces.tags_on_surfaces;
     EXPECT_EQ(laid.seen, 12);
     EXPECT_GE(laid.used, 9) << laid.reason;  // few are surveyed beyond reach of their surface
-    EXPECT_THAT(laid.reason, HasSubstr("agree with 1 mm"));
+    EXPECT_THAT(laid.reason, HasSubstr("agree with 1.0 mm"));
     ASSERT_FALSE(on_surfaces.notes.empty());
     EXPECT_THAT(on_surfaces.notes.back().message, HasSubstr("of 12 tags lie on surfaces of the mesh"));
     squared_by_survey += SquaredCentreErrors(support::PoseErrors(by_survey, room));
