@@ -36,7 +36,8 @@ void ExpectUtf8(const std::string& text) {
 }
 
 void UseTable() {
-  const CsvTable table = ReadCsvTable(File(), {{"id", "x_m", "lux"}, {"sensor"}, {{"illuminance_fc", "lux"}}});
+  const CsvTable table =
+      ReadCsvTable(File(), {{"id", "x_m", "lux"}, {"sensor"}, {{"illuminance_fc", "lux"}}});
   for (const CsvRow& row : table.rows) {
     if (row.fields.size() != table.columns.size()) std::abort();
     for (const std::string& field : row.fields) ExpectUtf8(field);

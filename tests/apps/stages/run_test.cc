@@ -46,8 +46,8 @@ class OfficeRun : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder();
-    status_ = RunLuxfit(std::string("run ") + LUXFIT_FIXTURES + "/office/session.toml -o " + Out() + " >" +
-                        Out() + ".txt 2>&1");
+    status_ = RunLuxfit(std::string("run ") + LUXFIT_FIXTURES + "/office/session.toml --budget 900 -o " +
+                        Out() + " >" + Out() + ".txt 2>&1");
     if (status_ == 0) {
       result_ = Read(Out() + "/result.json");
       comparison_ = CompareWithTruth(result_, Truth());
@@ -277,8 +277,9 @@ class AllOnRun : public testing::Test {
   }
 
   json Run() {
-    status_ = RunLuxfit("run " + folder_.Path("session.toml") + " -o " + folder_.Path("out") + " >" +
-                        folder_.Path("log") + " 2>&1");
+    // A busy machine must not end it.
+    status_ = RunLuxfit("run " + folder_.Path("session.toml") + " -o " + folder_.Path("out") +
+                        " --budget 900 >" + folder_.Path("log") + " 2>&1");
     return Read(folder_.Path("out/result.json"));
   }
 
