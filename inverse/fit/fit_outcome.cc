@@ -12,6 +12,8 @@ namespace luxfit {
 namespace {
 
 constexpr double kNotDetermined = std::numeric_limits<double>::quiet_NaN();
+// In m, rad or a logarithm: of a parameter that a luminaire without light leaves free, whatever direction is named.
+constexpr double kSigmaOfNoMeaning = 1e6;
 
 // Returns whether every luminaire that is on in the state was found.
 bool IsLit(const RoomFit& fit, int state) {
@@ -58,7 +60,8 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
     if (kind == ParameterKind::kLuminaire && p.quantity != quantity) continue;
     const bool known = std::count(fit.undetermined.begin(), fit.undetermined.end(), p.id()) == 0;
     const auto row = static_cast<Eigen::Index>(i);
-    return known ? std::sqrt(fit.covariance(row, row)) : kNotDetermined;
+    const double sigma = std::sqrt(fit.covariance(row, row));
+    return known && sigma < kSigmaOfNoMeaning ? sigma : kNotDetermined;
   }
   return 0;
 }

@@ -66,5 +66,16 @@ TEST(AmbiguousPlace, ASecondPlaneOfSensorsSettlesIt) {
   EXPECT_LT(SigmaOf(fit, ParameterKind::kLuminaire, 0, LuminaireQuantity::kPositionZ), 0.05);
 }
 
+// A luminaire without light may be anywhere, whatever direction the fit names.
+TEST(SigmaOfAParameter, IsUnknownWhereItHasNoMeaning) {
+  LuminaireFit fit;
+  Parameter x, y;
+  y.quantity = LuminaireQuantity::kPositionY;
+  fit.parameters = {x, y};
+  fit.covariance = Eigen::Vector2d(1e54, 1e-4).asDiagonal();
+  EXPECT_TRUE(std::isnan(SigmaOf(fit, ParameterKind::kLuminaire, 0, LuminaireQuantity::kPositionX)));
+  EXPECT_DOUBLE_EQ(SigmaOf(fit, ParameterKind::kLuminaire, 0, LuminaireQuantity::kPositionY), 0.01);
+}
+
 }  // namespace
 }  // namespace luxfit
