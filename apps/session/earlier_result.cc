@@ -83,7 +83,7 @@ std::string RunFolderOf(const std::string& named) {
 }
 
 json ReadResult(const std::string& path) {
-  const json result = ReadJson(path);
+  json result = ReadJson(path);
   if (!result.is_object() || result.value("format", "") != "luxfit-result-1")
     throw InputError({path, 0}, "format",
                      "expected \"luxfit-result-1\", got another file; give the result.json that `luxfit run` "
