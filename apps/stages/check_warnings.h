@@ -1,7 +1,7 @@
 // Warns of what the readings that check say against a fit: the verdicts of `luxfit check`, in its words.
 //
-// What is more than 5 % off leaves the result undetermined: all readings together, most of a state, or one alone beyond
-// what chance does among so many (inverse/check/luxmeter_check.h). Less is a warning.
+// An error of more than 5 % leaves the result undetermined: one of all readings together, of most readings of a state,
+// or of one reading beyond what chance does among so many (inverse/check/luxmeter_check.h). A smaller one is a warning.
 #ifndef LUXFIT_APPS_STAGES_CHECK_WARNINGS_H_
 #define LUXFIT_APPS_STAGES_CHECK_WARNINGS_H_
 

@@ -50,7 +50,7 @@ TEST_F(CsvTableTest, ToleratesByteOrderMarkCrlfQuotesAndOptionalColumns) {
   EXPECT_EQ(CsvText(table, table.rows[0], "iso"), "100");
 }
 
-// What spreadsheets and old systems save.
+// Spreadsheets and old systems save such tables.
 TEST_F(CsvTableTest, ReadsUtf16OldLineEndsAndRowsOfCommas) {
   const std::string plain = "id,x_m,lux\nL\xC3\xBC,1,2\n";
   std::string utf16 = "\xFF\xFE";
