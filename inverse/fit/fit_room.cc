@@ -58,7 +58,7 @@ class RoomFitter {
     RecordAmbiguity();
     const bool is_whole = !result_.stopped;
     if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
-      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, start_.priors);
+      result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, Priors());
       RecordDirectShare(*result_.direct_share, result_.findings);
     }
     result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
@@ -105,7 +105,7 @@ class RoomFitter {
     FitLuminairesOptions options = OfPart();
     options.max_outer_iterations = 0;
     options.start_is_near = true;
-    return FitLuminaires(room_, result_.data, best_, start_.priors, options);
+    return FitLuminaires(room_, result_.data, best_, Priors(), options);
   }
 
   // Returns what keeps the best state of a fit of all luminaires, and reports its rounds.
@@ -144,10 +144,10 @@ class RoomFitter {
     quick.covariance = false;
     quick.has_texture = false;
     quick.on_round = KeepBest();
-    LuminaireFit fit = FitLuminaires(room_, part, state, start_.priors, quick);
+    LuminaireFit fit = FitLuminaires(room_, part, state, Priors(), quick);
     if (photos && fit.status != FitStatus::kNoData) {
-      const auto lit = WithTwoSides(room_, data, fit.state, OpenDistributions(), start_.priors);
-      if (lit) fit = FitLuminaires(room_, part, *lit, start_.priors, quick);
+      const auto lit = WithTwoSides(room_, data, fit.state, OpenDistributions(), Priors());
+      if (lit) fit = FitLuminaires(room_, part, *lit, Priors(), quick);
     }
     quick.has_texture = true;
     if (fit.status == FitStatus::kNoData) return start_.state;
@@ -155,12 +155,13 @@ class RoomFitter {
       // The radiosity is solved here, so that the models are compared with its indirect light.
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
-      fit = FitLuminaires(room_, part, fit.state, start_.priors, quick);
+      fit = FitLuminaires(room_, part, fit.state, Priors(), quick);
       is_textured_ = IsTextured(fit);
-      data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, start_.priors);
+      data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
     }
     if (!fit.IsUsable()) return start_.state;
-    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors);
+    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors,
+                                                      SeenPriors());
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
@@ -173,14 +174,39 @@ class RoomFitter {
     return state;
   }
 
-  // Names what was compared of luminaires as they are named now.
-  void FollowNames(const LightState& before, const LightState& after) {
-    for (StartComparison& c : starts_) {
-      const Eigen::Vector3d& place = before.luminaires[static_cast<size_t>(c.luminaire)].position;
-      const auto named = std::find_if(after.luminaires.begin(), after.luminaires.end(),
-                                      [&](const Luminaire& l) { return l.position == place; });
-      c.luminaire = static_cast<int>(named - after.luminaires.begin());
+  // Returns what is known beside the data.
+  std::vector<ParameterPrior> Priors() const {
+    std::vector<ParameterPrior> priors = start_.priors;
+    for (const ParameterPrior& prior : SeenPriors()) priors.push_back(prior);
+    return priors;
+  }
+
+  // Returns the places from which photos start luminaires, of those whose places no outline tells.
+  std::vector<ParameterPrior> SeenPriors() const {
+    std::vector<ParameterPrior> priors;
+    std::set<int> outlined;
+    for (const LuminaireOutline& outline : result_.data.outlines) outlined.insert(outline.luminaire);
+    for (int k = 0; k < static_cast<int>(start_.seen.size()); ++k) {
+      const std::optional<SeenPlace>& place = start_.seen[static_cast<size_t>(k)];
+      if (!place || outlined.count(k) > 0 || !start_.state.free[static_cast<size_t>(k)].position) continue;
+      for (int axis = 0; axis < 3; ++axis)
+        priors.push_back({ParameterKind::kLuminaire, k, static_cast<LuminaireQuantity>(axis),
+                          place->position[axis], place->sigma_m});
     }
+    return priors;
+  }
+
+  // Names what was compared of luminaires, and where photos show them, as they are named now.
+  void FollowNames(const LightState& before, const LightState& after) {
+    const auto named = [&](size_t luminaire) {
+      const Eigen::Vector3d& place = before.luminaires[luminaire].position;
+      return std::find_if(after.luminaires.begin(), after.luminaires.end(),
+                          [&](const Luminaire& l) { return l.position == place; }) -
+             after.luminaires.begin();
+    };
+    for (StartComparison& c : starts_) c.luminaire = static_cast<int>(named(static_cast<size_t>(c.luminaire)));
+    const std::vector<std::optional<SeenPlace>> seen = start_.seen;
+    for (size_t k = 0; k < seen.size(); ++k) start_.seen[static_cast<size_t>(named(k))] = seen[k];
   }
 
   // Records where several places explain a luminaire's light, and which of them no photo settles.
@@ -219,7 +245,7 @@ class RoomFitter {
     }
     LightState typed = state;
     typed.first_of_type = TypesBySwitching(data, state, open_);
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, start_.priors,
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, Priors(),
                                                      SeenPlacesOfTypes(given_.seen, data, typed));
     for (const PlacesChoice& c : choice.places) {
       RecordPlaces(given_, c, result_.findings);
@@ -230,7 +256,7 @@ class RoomFitter {
     for (const AimChoice& c : choice.aims)
       RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
     for (const Refinement& r : choice.refinements) RecordRefinement(given_, r, result_.findings);
-    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, start_.priors))
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, Priors()))
       WarnOfContradiction(given_, c, result_.findings);
     return choice.state;
   }
@@ -238,7 +264,7 @@ class RoomFitter {
   // Compares finer and coarser models at the fitted state. A material that fits as well in grey becomes grey.
   void CompareDetails(const LuminaireFit& fit) {
     const auto step = Begin("detail", "");
-    RecordDetail(CompareDetail(room_, result_.data, fit, start_.priors), taken_, result_.findings);
+    RecordDetail(CompareDetail(room_, result_.data, fit, Priors()), taken_, result_.findings);
     const ColourDetail colours = CompareColours(room_, result_.data, fit);
     RecordColours(given_, room_, colours, result_.findings);
     if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) result_.tint_rgb = colours.tint;
@@ -272,16 +298,16 @@ class RoomFitter {
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
-    LuminaireFit near = FitLuminaires(room_, part, sized, start_.priors, OfPart());
+    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), OfPart());
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
     near = WithoutNeedless(part, std::move(near));
     near = WithOneOfLikeTypes(part, std::move(near));
     const ColourChoice colour =
-        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), start_.priors);
+        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), Priors());
     RecordTransportColour(colour, result_.findings);
-    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, start_.priors);
+    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, Priors());
     RecordBodies(bodies, result_.findings);
     FitLuminairesOptions options;
     options.on_round = KeepBest();
@@ -289,7 +315,7 @@ class RoomFitter {
     options.has_texture = is_textured_;
     options.initial_relative_sigma = bodies.relative_sigma;
     options.photo_design_effect = colour.fit.photo_design_effect;
-    EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, start_.priors,
+    EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, Priors(),
                                         options_.max_elements_to_choose, options);
     result_.data.observations = std::move(enough.observations);
     taken_ = std::move(enough.taken);
@@ -301,19 +327,19 @@ class RoomFitter {
     TypedState typed = WithMergedTypes(fit, open_);
     RecordTypes(typed, result_.findings);
     if (typed.merged.empty()) return fit;
-    return FitLuminaires(room_, part, typed.state, start_.priors, OfPart(&fit));
+    return FitLuminaires(room_, part, typed.state, Priors(), OfPart(&fit));
   }
 
   // Lets photos tell squares from discs where the light did not.
   LuminaireFit WithSeenRectangles(const LightData& part, LuminaireFit fit) {
     const std::optional<LightState> rectangles = WithRectangles(open_, part, fit);
     if (!rectangles) return fit;
-    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, start_.priors, OfPart(&fit));
+    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, Priors(), OfPart(&fit));
     const LightState kept = WithExplainedRectangles(part, fit, squared, result_.findings);
     const auto is_alike = [](const Luminaire& a, const Luminaire& b) { return a.shape == b.shape; };
     if (std::equal(kept.luminaires.begin(), kept.luminaires.end(), rectangles->luminaires.begin(), is_alike))
       return squared;
-    return FitLuminaires(room_, part, kept, start_.priors, OfPart(&fit));
+    return FitLuminaires(room_, part, kept, Priors(), OfPart(&fit));
   }
 
   // Takes outlines that the fit does not explain out of the data, and fits again without them.
@@ -321,7 +347,7 @@ class RoomFitter {
     result_.data.outlines = ExplainedOutlines(given_, part, fit, result_.findings);
     if (result_.data.outlines.size() == part.outlines.size()) return fit;
     part.outlines = result_.data.outlines;
-    return FitLuminaires(room_, part, fit.state, start_.priors, OfPart(&fit));
+    return FitLuminaires(room_, part, fit.state, Priors(), OfPart(&fit));
   }
 
   // `near`: a fit to the same part, from which the fit starts.
@@ -341,7 +367,7 @@ class RoomFitter {
     SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
     RecordNeedless(given_, simplified.needless, result_.findings);
     if (!simplified.needless.empty())
-      fit = FitLuminaires(room_, part, simplified.state, start_.priors, OfPart(&fit));
+      fit = FitLuminaires(room_, part, simplified.state, Priors(), OfPart(&fit));
     fit.state = WithoutVanishedSizes(fit.state);
     return fit;
   }

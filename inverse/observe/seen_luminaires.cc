@@ -74,7 +74,7 @@ class SeenSearch {
       SeenPlace place = PlaceOf(point, blobs);
       place.states = {state};
       CountPhotos(state, place);
-      if (place.photos > place.missing) places.push_back(place);
+      if (place.photos > place.missing && IsInFreeSight(place, point, blobs)) places.push_back(place);
     }
     return places;
   }
@@ -84,7 +84,7 @@ class SeenSearch {
     const Camera& camera = CameraOf(view);
     const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
     const double sigma_px =
-        std::hypot(options_.center_sigma_px, options_.width_sigma * std::sqrt(blob.area_px2));
+        std::hypot(options_.center_sigma_px, options_.width_sigma * blob.extent_px.sizes().maxCoeff());
     return {photo.view, world_from_cam.translation(),
             world_from_cam.linear() * Unproject(camera, blob.center_px),
             sigma_px / std::max(1.0, std::min(camera.fx_px, camera.fy_px))};
@@ -140,6 +140,15 @@ class SeenSearch {
           Eigen::Vector2d(camera.width_px - 1 - tolerance_px, camera.height_px - 1 - tolerance_px));
       if (inside.contains(pixel) && Sees(view, place)) ++place.missing;
     }
+  }
+
+  // Returns whether no surface stands between the place and half of the views that saw it, or more.
+  bool IsInFreeSight(const SeenPlace& place, const TriangulatedPoint& point,
+                     const std::vector<BlobOfPhoto>& blobs) const {
+    const auto free = std::count_if(point.sights.begin(), point.sights.end(), [&](int i) {
+      return Sees(View(*blobs[static_cast<size_t>(i)].photo), place);
+    });
+    return 2 * free >= static_cast<std::ptrdiff_t>(point.sights.size());
   }
 
   bool Sees(const RegisteredView& view, const SeenPlace& place) const {

@@ -45,10 +45,13 @@ struct SeenPlace {
   double area_m2 = 0;
 };
 
+// Returns whether enough views saw the place that chance is excluded: three.
+inline bool IsSure(const SeenPlace& place) { return place.views >= 3; }
+
 struct SeenLuminairesOptions {
   int min_views = 2;  // three would exclude chance; here the light decides
   double center_sigma_px = 1;
-  // As a share of a blob's width: a blob's centre is not the image of the luminaire's centre.
+  // As a share of a blob's longer side: a blob's centre is not the image of the luminaire's centre.
   double width_sigma = 0.05;
 };
 

@@ -329,7 +329,8 @@ struct ChosenType {
   }
 };
 
-// Chooses once more from other places and keeps what predicts better.
+// Chooses once more from the places that photos show, and keeps it unless the start predicts better by more than a
+// standard error.
 void TryPlaces(const Room& room, const TypePlaces& rival, const OpenChoice& open, const SubProblem& problem,
                ChosenType& chosen) {
   SubProblem moved = problem;
@@ -342,11 +343,13 @@ void TryPlaces(const Room& room, const TypePlaces& rival, const OpenChoice& open
   }
   ChosenModel model = LuminaireChooser(room, moved, rival.first, open).Run();
   if (!model.fitted) return;
+  SelectionOptions photos_settle;
+  photos_settle.keeps_first = true;
   const Selection selection =
-      SelectAmong(problem, {&chosen.model.fitted->model, &model.fitted->model}, {0, 0});
-  chosen.places =
-      PlacesChoice{chosen.luminaires, selection.best == 1, selection.score[0], selection.score[1]};
-  if (selection.best == 1) chosen.model = std::move(model);
+      SelectAmong(problem, {&model.fitted->model, &chosen.model.fitted->model}, {0, 0}, photos_settle);
+  const bool is_seen = selection.chosen == 0;
+  chosen.places = PlacesChoice{chosen.luminaires, is_seen, selection.score[1], selection.score[0]};
+  if (is_seen) chosen.model = std::move(model);
 }
 
 ChosenType ChooseType(const Room& room, const LightData& data, const LightState& start,

@@ -161,13 +161,22 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   } else {
     AddReadings(data, state_used, problem);
   }
-  for (ParameterPrior prior : priors) {
-    if (prior.kind == ParameterKind::kLogSensorGain) problem.priors.push_back(prior);
-    if (prior.kind != ParameterKind::kLuminaire && prior.kind != ParameterKind::kLogFlux) continue;
-    prior.index = member_of(prior.index);
-    if (prior.index >= 0) problem.priors.push_back(prior);
-  }
+  problem.priors = PriorsOfProblem(problem, luminaires, priors);
   return problem;
+}
+
+std::vector<ParameterPrior> PriorsOfProblem(const SubProblem& problem, const std::vector<int>& luminaires,
+                                            const std::vector<ParameterPrior>& priors) {
+  std::vector<ParameterPrior> own;
+  for (ParameterPrior prior : priors) {
+    if (prior.kind == ParameterKind::kLogSensorGain) own.push_back(prior);
+    if (prior.kind != ParameterKind::kLuminaire && prior.kind != ParameterKind::kLogFlux) continue;
+    const auto at = std::find(luminaires.begin(), luminaires.end(), prior.index);
+    if (at == luminaires.end()) continue;
+    prior.index = problem.members[static_cast<size_t>(at - luminaires.begin())];
+    own.push_back(prior);
+  }
+  return own;
 }
 
 SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {

@@ -52,6 +52,10 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
                           const std::vector<int>& luminaires, const std::vector<ParameterPrior>& priors,
                           int max_elements = 2500);
 
+// Returns those of the priors that concern the problem of these luminaires, by its own indices.
+std::vector<ParameterPrior> PriorsOfProblem(const SubProblem& problem, const std::vector<int>& luminaires,
+                                            const std::vector<ParameterPrior>& priors);
+
 // Returns all of the data, cut likewise. The caller sets state, luminaire and priors.
 SubProblem CutAll(const Room& room, const LightData& data, int max_elements);
 

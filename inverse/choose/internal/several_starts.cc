@@ -57,6 +57,7 @@ StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>
 SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, const LightState& state,
                                    const std::vector<std::vector<Luminaire>>& rivals,
                                    const std::vector<ParameterPrior>& priors,
+                                   const std::vector<ParameterPrior>& own_priors,
                                    const SeveralStartsOptions& options) {
   if (rivals.size() != state.luminaires.size())
     throw std::invalid_argument("FitFromSeveralStarts: rivals: expected one list a luminaire");
@@ -66,6 +67,10 @@ SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, cons
     const SubProblem problem =
         MakeSubProblem(room, data, result.state, {static_cast<int>(k)}, priors, options.max_elements);
     if (!problem.CanJudge()) continue;
+    std::vector<ParameterPrior> with_own = priors;
+    with_own.insert(with_own.end(), own_priors.begin(), own_priors.end());
+    SubProblem own = problem;
+    own.priors = PriorsOfProblem(problem, {static_cast<int>(k)}, with_own);
     std::vector<Luminaire> starts = {state.luminaires[k]};
     for (const Luminaire& rival : rivals[k]) {
       if (static_cast<int>(starts.size()) < options.max_starts)
@@ -73,7 +78,7 @@ SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, cons
     }
     std::vector<FittedModel> fitted(starts.size());
     tbb::parallel_for(size_t{0}, starts.size(), [&](size_t i) {
-      fitted[i] = FitModel(room, problem, starts[i], state.free[k],
+      fitted[i] = FitModel(room, i == 0 ? own : problem, starts[i], state.free[k],
                            {options.max_outer_iterations, options.max_inner_iterations});
     });
     StartComparison comparison = Compared(problem, starts, fitted, options);

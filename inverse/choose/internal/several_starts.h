@@ -46,10 +46,12 @@ struct SeveralStarts {
   std::vector<StartComparison> comparisons;
 };
 
-// `rivals`: one list for each luminaire, of which position, aim and lobe are used.
+// `rivals`: one list for each luminaire, of which position, aim and lobe are used. `own_priors`: what is known of the
+// first start alone, such as the place that photos show.
 SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, const LightState& state,
                                    const std::vector<std::vector<Luminaire>>& rivals,
                                    const std::vector<ParameterPrior>& priors = {},
+                                   const std::vector<ParameterPrior>& own_priors = {},
                                    const SeveralStartsOptions& options = {});
 
 }  // namespace luxfit

@@ -156,6 +156,7 @@ class Starter {
                                    "its photometry is the same all round: no light tells a heading"});
     }
     start_.luminaire_found.push_back(found);
+    start_.seen.push_back(SeenSurely(guessed));
     start_.rivals.push_back(known.position_m ? std::vector<Luminaire>() : guessed.rivals);
     start_.state.luminaires.push_back(luminaire);
     start_.state.free.push_back(found && !known.is_held ? FreeOf(known, luminaire) : NothingFree());
@@ -163,6 +164,13 @@ class Starter {
     if (found && guessed.is_aimed && !known.is_held && IsAimOpen(known) &&
         OpsOf(luminaire.distribution).has_aim)
       FreeAim(luminaire.id);
+  }
+
+  std::optional<SeenPlace> SeenSurely(const LuminaireGuess& guessed) const {
+    if (!guessed.seen || !IsSure(given_.seen[static_cast<size_t>(*guessed.seen)])) return {};
+    SeenPlace place = given_.seen[static_cast<size_t>(*guessed.seen)];
+    place.position = guessed.position;
+    return place;
   }
 
   // Returns the luminaire with which the fit starts.

@@ -2,10 +2,12 @@
 //
 // Each reflectance and the camera's scale are known, to be estimated, or out of reach. Luminaires have the
 // place, flux and photometry that are given; the guess supplies the rest. A value given with a sigma becomes
-// a prior.
+// a prior. A place that photos show to three views or more is kept beside it (FitStart::seen): knowledge of its own,
+// as long as no outline says more.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_START_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_START_H_
 
+#include <optional>
 #include <vector>
 
 #include "forward/light/room.h"
@@ -18,6 +20,7 @@ struct FitStart {
   std::vector<bool> luminaire_found;           // false: it has no place and gives no light
   std::vector<std::vector<Luminaire>> rivals;  // alternatives to each luminaire's first guess
   std::vector<ParameterPrior> priors;          // those of `light`, and those given for luminaires
+  std::vector<std::optional<SeenPlace>> seen;  // by luminaire, the place in photos from which it starts
   bool flux_known = false;                     // at least one luminaire's, which sets the scale
 };
 

@@ -45,12 +45,12 @@ Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p)
 
 struct SeenPositions {
   std::vector<int> index;
-  std::vector<Eigen::Vector3d> position;
+  std::vector<SeenPosition> places;
 
   std::optional<int> IndexAt(const Eigen::Vector3d& p) const {
-    const auto at = std::find(position.begin(), position.end(), p);
-    return at == position.end() ? std::nullopt
-                                : std::optional(index[static_cast<size_t>(at - position.begin())]);
+    const auto at = std::find_if(places.begin(), places.end(),
+                                 [&](const SeenPosition& place) { return place.position == p; });
+    return at == places.end() ? std::nullopt : std::optional(index[static_cast<size_t>(at - places.begin())]);
   }
 };
 
@@ -131,10 +131,12 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
   for (size_t g = 0; g < light.groups.size(); ++g) {
     const LuminaireGroup& group = light.groups[g];
     SeenPositions own{SeenOf(group, data, seen), {}};
-    for (const int i : own.index)
-      own.position.push_back(Inside(room.scene.Bounds(), seen[static_cast<size_t>(i)].position));
+    for (const int i : own.index) {
+      const SeenPlace& place = seen[static_cast<size_t>(i)];
+      own.places.push_back({Inside(room.scene.Bounds(), place.position), IsSure(place)});
+    }
     const SparseLuminaires found = search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
-                                               HeldSources(group, known_positions), own.position);
+                                               HeldSources(group, known_positions), own.places);
     Assign(group, found, known_positions, own, data.observations.empty() ? 1 : M_PI, guess);
     if (!found.sources.empty()) albedo.Add(found);
   }

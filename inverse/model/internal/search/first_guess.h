@@ -9,7 +9,8 @@
 //    group has, one by one. It searches a grid through the room, with a few lobes and aims at each place
 //    (inverse/model/internal/search/sparse_luminaires.h). With readings alone, the indirect light is taken as even.
 // 3. Photos may show places that are bright in states of the group and in no other
-//    (inverse/observe/seen_luminaires.h). They are tried first; where they suffice, nothing is searched.
+//    (inverse/observe/seen_luminaires.h). They are tried first; where they suffice, nothing is searched. Where
+//    they do not, those that three views or more show stay, and a search anywhere gives their rivals.
 //
 // Fluxes are those for a camera scale of 1. Distances are in m. Luminaires of one group are interchangeable.
 // They come in the order of x, then y, then z; those of a known position are apart.

@@ -72,7 +72,7 @@ class GroupSearch {
     }
     tried.column = LobeColumns(equations_.Weighted(here.light[0]), {tried.lobe}).cast<double>();
     sources_.push_back(tried);
-    is_held_.push_back(source.is_held);
+    kind_.push_back({source.is_held, source.is_seen});
   }
 
   // Adds a source about a place of the grid, or at a place seen. Returns false where it explains nothing
@@ -86,7 +86,7 @@ class GroupSearch {
     const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
     if (best == lobes.end() || !(best->cost < before)) return false;
     sources_.push_back(*best);
-    is_held_.push_back(false);
+    kind_.push_back({});
     return true;
   }
 
@@ -121,8 +121,8 @@ class GroupSearch {
 
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
   GroupEquations::Solution Solve() const { return equations_.Solve(Columns()).solution; }
-  // Returns the mean square that the sources leave of other rows, or of the same ones with other weights.
-  double MeanSquareIn(const GroupEquations& others) const {
+  // Returns the sources' columns on other rows, or on the same ones with other weights.
+  Eigen::MatrixXd ColumnsIn(const GroupEquations& others) const {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(others.rows().size()),
                             static_cast<Eigen::Index>(sources_.size()));
     for (size_t j = 0; j < sources_.size(); ++j) {
@@ -130,10 +130,15 @@ class GroupSearch {
       columns.col(static_cast<Eigen::Index>(j)) =
           LobeColumns(others.Weighted(here.light[0]), {sources_[j].lobe}).cast<double>();
     }
-    return others.Solve(columns).solution.cost / static_cast<double>(others.rows().size());
+    return columns;
+  }
+  double MeanSquareIn(const GroupEquations& others) const {
+    return others.Solve(ColumnsIn(others)).solution.cost / static_cast<double>(others.rows().size());
   }
   const std::vector<Tried>& sources() const { return sources_; }
-  bool is_held(size_t source) const { return is_held_[source]; }
+  bool is_held(size_t source) const { return kind_[source].is_held; }
+  bool is_seen(size_t source) const { return kind_[source].is_seen; }
+  bool stays(size_t source) const { return is_held(source) || is_seen(source); }
 
  private:
   // Returns the columns of all sources but one.
@@ -194,7 +199,7 @@ class GroupSearch {
   bool MoveEach(int from_halvings, int to_halvings) {
     bool moved = false;
     for (size_t j = 0; j < sources_.size(); ++j) {
-      if (is_held_[j]) continue;
+      if (stays(j)) continue;
       const Eigen::MatrixXd rest = Others(j);
       const Eigen::Vector3d from = sources_[j].position;
       sources_[j].cost = equations_.SolveWith(equations_.Solve(rest), sources_[j].column).cost;
@@ -213,7 +218,10 @@ class GroupSearch {
   double step_m_;
   int refinements_;
   std::vector<Tried> sources_;
-  std::vector<bool> is_held_;
+  struct Kind {
+    bool is_held = false, is_seen = false;
+  };
+  std::vector<Kind> kind_;
 };
 
 Luminaire LuminaireOf(const Tried& tried) {
@@ -235,6 +243,7 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
     source.luminaire = LuminaireOf(search.sources()[j]);
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
+    source.is_seen = search.is_seen(j);
     found.sources.push_back(source);
   }
   for (size_t m = 0; m < equations.materials().size(); ++m) {
@@ -252,11 +261,11 @@ struct SparseRun {
   double mean_square_of_all = 0;  // with no row's weight lowered
 };
 
-// Adds each place that photos show as a rival of the nearest source, before all others. It deserves its own
-// start even where this mesh does not explain its light.
-void AddSeenRivals(const std::vector<SparseSource>& seen, double apart_m,
-                   std::vector<SparseSource>& sources) {
-  for (const SparseSource& place : seen) {
+// Adds each source of another search as a rival of the nearest source, before all others: one at a place that photos
+// show deserves its own start even where this mesh does not explain its light, and so does one that explains more
+// light than the places that photos show.
+void AddRivals(const std::vector<SparseSource>& others, double apart_m, std::vector<SparseSource>& sources) {
+  for (const SparseSource& place : others) {
     if (place.is_held) continue;
     const auto distance_m = [&](const SparseSource& source) {
       return source.is_held ? std::numeric_limits<double>::infinity()
@@ -284,59 +293,127 @@ const LitPlaces& SparseSearch::Grid() const {
   return *grid_;
 }
 
-SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start,
-                                    const std::vector<Eigen::Vector3d>& seen) const {
-  const GroupEquations equations(light_, group);
-  constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
-  if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
-  const LitPlaces at_seen = Lit(room_, light_.places, seen);
-  const auto searched = [&](const GroupEquations& in, LobeSet lobes, const LitPlaces& grid, int refinements) {
-    auto search = std::make_unique<GroupSearch>(room_, light_.places, box_, in, lobes, step_m_, refinements);
+namespace {
+
+// Explains the light of one group.
+class GroupFinder {
+ public:
+  // `grid`: traces the room's grid when it is first needed.
+  GroupFinder(const Room& room, const std::vector<Sensor>& sensors, const Eigen::AlignedBox3d& box,
+              const GroupEquations& equations, int count, double step_m, int refinements,
+              std::function<const LitPlaces&()> grid)
+      : room_(room),
+        sensors_(sensors),
+        box_(box),
+        equations_(equations),
+        count_(count),
+        step_m_(step_m),
+        refinements_(refinements),
+        grid_(std::move(grid)) {}
+
+  SparseLuminaires Run(const std::vector<SparseSource>& start, const std::vector<SeenPosition>& seen) {
+    if (seen.empty()) return WithRivals(BestLobes(start, grid_(), refinements_));
+    std::vector<Eigen::Vector3d> positions;
+    for (const SeenPosition& place : seen) positions.push_back(place.position);
+    at_seen_ = Lit(room_, sensors_, positions);
+    SparseRun alone = BestLobes(start, {}, 0);
+    if (IsComplete(alone) && alone.found.mean_square < kExplained) {
+      alone.found.was_searched = false;
+      return std::move(alone.found);
+    }
+    SparseRun searched = BestLobes(start, grid_(), refinements_);
+    std::optional<SparseRun> sure = AtSurePlaces(start, seen, alone);
+    SparseLuminaires found = WithRivals(std::move(sure ? *sure : searched));
+    AddRivals((sure ? searched : alone).found.sources, step_m_, found.sources);
+    return found;
+  }
+
+ private:
+  bool IsComplete(const SparseRun& of) const { return static_cast<int>(of.found.sources.size()) == count_; }
+
+  std::unique_ptr<GroupSearch> Searched(const GroupEquations& in, LobeSet lobes,
+                                        const std::vector<SparseSource>& start, const LitPlaces& grid,
+                                        int refinements) const {
+    auto search = std::make_unique<GroupSearch>(room_, sensors_, box_, in, lobes, step_m_, refinements);
     for (const SparseSource& source : start) search->Start(source);
-    while (static_cast<int>(search->sources().size()) < count && search->AddOne(grid, at_seen))
+    while (static_cast<int>(search->sources().size()) < count_ && search->AddOne(grid, at_seen_))
       search->MoveAll();
     return search;
-  };
+  }
+
   // The first search finds rows that it cannot explain. The second lowers their weight.
-  const auto run = [&](LobeSet lobes, const LitPlaces& grid, int refinements) {
+  SparseRun RunWith(LobeSet lobes, const std::vector<SparseSource>& start, const LitPlaces& grid,
+                    int refinements) const {
     constexpr int kRough = 2;
     SparseRun result;
-    result.equations = std::make_unique<GroupEquations>(equations);
-    result.equations->Reweigh(searched(equations, lobes, grid, std::min(kRough, refinements))->Columns());
-    result.search = searched(*result.equations, lobes, grid, refinements);
+    result.equations = std::make_unique<GroupEquations>(equations_);
+    result.equations->Reweigh(
+        Searched(equations_, lobes, start, grid, std::min(kRough, refinements))->Columns());
+    result.search = Searched(*result.equations, lobes, start, grid, refinements);
     result.found = Result(*result.search, *result.equations, lobes);
-    result.mean_square_of_all = result.search->MeanSquareIn(equations);
+    result.mean_square_of_all = result.search->MeanSquareIn(equations_);
     return result;
-  };
-  const auto is_complete = [&](const SparseRun& of) {
-    return static_cast<int>(of.found.sources.size()) == count;
-  };
+  }
+
   // A narrow beam falls on few rows. Lowered weights would hide it, so all rows judge the lobes.
-  const auto best_lobes = [&](const LitPlaces& grid, int refinements) {
-    SparseRun simple = run(LobeSet::kSimple, grid, refinements);
-    if (is_complete(simple) && simple.mean_square_of_all < kExplained) return simple;
-    SparseRun aimed = run(LobeSet::kAimed, grid, refinements);
+  SparseRun BestLobes(const std::vector<SparseSource>& start, const LitPlaces& grid, int refinements) const {
+    SparseRun simple = RunWith(LobeSet::kSimple, start, grid, refinements);
+    if (IsComplete(simple) && simple.mean_square_of_all < kExplained) return simple;
+    SparseRun aimed = RunWith(LobeSet::kAimed, start, grid, refinements);
     const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
                            kRival * aimed.mean_square_of_all < simple.mean_square_of_all;
     return is_turned ? std::move(aimed) : std::move(simple);
-  };
-  SparseLuminaires seen_alone;
-  if (!seen.empty()) {
-    const SparseRun at_places = best_lobes({}, 0);
-    seen_alone = at_places.found;
-    if (is_complete(at_places) && seen_alone.mean_square < kExplained) {
-      seen_alone.was_searched = false;
-      return seen_alone;
+  }
+
+  // Returns the best sources with those that `alone` has at sure places left where they are; none where there is no
+  // such place.
+  std::optional<SparseRun> AtSurePlaces(const std::vector<SparseSource>& start,
+                                        const std::vector<SeenPosition>& seen, const SparseRun& alone) const {
+    std::vector<SparseSource> with_sure = start;
+    for (SparseSource source : alone.found.sources) {
+      if (source.is_held || !IsSure(seen, source.luminaire.position)) continue;
+      source.is_seen = true;
+      with_sure.push_back(std::move(source));
     }
+    if (with_sure.size() == start.size()) return {};
+    return BestLobes(with_sure, grid_(), refinements_);
   }
-  SparseRun best = best_lobes(Grid(), refinements_);
-  for (size_t j = 0; j < best.found.sources.size(); ++j) {
-    if (best.found.sources[j].is_held) continue;
-    for (const Tried& rival : best.search->RivalsOf(j, Grid()))
-      best.found.sources[j].rivals.push_back(LuminaireOf(rival));
+
+  static bool IsSure(const std::vector<SeenPosition>& seen, const Eigen::Vector3d& position) {
+    return std::any_of(seen.begin(), seen.end(),
+                       [&](const SeenPosition& s) { return s.is_sure && s.position == position; });
   }
-  AddSeenRivals(seen_alone.sources, step_m_, best.found.sources);
-  return std::move(best.found);
+
+  SparseLuminaires WithRivals(SparseRun run) const {
+    for (size_t j = 0; j < run.found.sources.size(); ++j) {
+      if (run.search->stays(j)) continue;
+      for (const Tried& rival : run.search->RivalsOf(j, grid_()))
+        run.found.sources[j].rivals.push_back(LuminaireOf(rival));
+    }
+    return std::move(run.found);
+  }
+
+  const Room& room_;
+  const std::vector<Sensor>& sensors_;
+  const Eigen::AlignedBox3d& box_;
+  const GroupEquations& equations_;
+  int count_;
+  double step_m_;
+  int refinements_;
+  std::function<const LitPlaces&()> grid_;
+  LitPlaces at_seen_;
+};
+
+}  // namespace
+
+SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start,
+                                    const std::vector<SeenPosition>& seen) const {
+  const GroupEquations equations(light_, group);
+  constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
+  if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
+  return GroupFinder(room_, light_.places, box_, equations, count, step_m_, refinements_,
+                     [this]() -> const LitPlaces& { return Grid(); })
+      .Run(start, seen);
 }
 
 }  // namespace luxfit

@@ -37,6 +37,7 @@ struct SparseSource {
   Luminaire luminaire;  // position, aim, lobe
   double strength = 0;  // g
   bool is_held = false;
+  bool is_seen = false;  // it stays where photos show it
   // Luminaires at other places, at least a grid step away. Those of the places seen alone come first, then
   // those that leave less than half more squares, best first.
   std::vector<Luminaire> rivals;
@@ -48,6 +49,12 @@ struct SparseLuminaires {
   double mean_square = 0;        // mean square of the weighted residuals: 1 is 10 %
   bool was_searched = true;      // false: only the places seen were tried
   bool is_aimed = false;         // true: lobes of any aim
+};
+
+// A place that photos show.
+struct SeenPosition {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  bool is_sure = false;  // enough views saw it that it is not there by chance
 };
 
 class SparseSearch {
@@ -64,9 +71,11 @@ class SparseSearch {
   // light.
   //
   // Places `seen` in photos are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
-  // the light unexplained, nothing else is searched. Else they are among the places of the search.
+  // the light unexplained, nothing else is searched. Else the sources at sure places stay, and the search adds
+  // what is missing: where the mesh is wrong about something, places in mid-air explain the light a little better
+  // than the true ones. Sources of a search anywhere are their rivals.
   SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
-                        const std::vector<Eigen::Vector3d>& seen = {}) const;
+                        const std::vector<SeenPosition>& seen = {}) const;
 
  private:
   const LitPlaces& Grid() const;
