@@ -116,7 +116,7 @@ double VisibleFraction(const RayScene& rays, const Luminaire& luminaire, const E
   const LuminousSurface surface(luminaire);
   const Eigen::Vector3d start = LiftedOff(p_in_world, normal);
   double seen = 0, in_front = 0, heights = 0;
-  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1))) {
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1), std::max(order, 1))) {
     const Eigen::Vector3d point = surface.PointOf({sample.a, sample.b});
     const double height = normal.dot(point - p_in_world);
     heights += height;

@@ -50,14 +50,16 @@ bool HasUnevenEmission(const Luminaire& luminaire) {
   return luminaire.shape == LuminaireShape::kRectangle && luminaire.emission.size() > 0;
 }
 
+// FluxIntegral's closed form, for each node's share of the straight pieces beside it.
 Eigen::VectorXd NodeFlux(const std::vector<double>& gamma_rad) {
-  const size_t n = gamma_rad.size();
-  Eigen::VectorXd flux(static_cast<Eigen::Index>(n));
-  for (size_t j = 0; j < n; ++j) {
-    std::vector<double> hat(n, 0.0);
-    hat[j] = 1;
-    flux[static_cast<Eigen::Index>(j)] =
-        FluxIntegral(ExpandPlanes({0}, gamma_rad, hat, PlaneSymmetry::kRotational));
+  Eigen::VectorXd flux = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gamma_rad.size()));
+  for (size_t g = 1; g < gamma_rad.size(); ++g) {
+    const double a = gamma_rad[g - 1], b = gamma_rad[g];
+    const double middle = 0.5 * (a + b), half = 0.5 * (b - a);
+    const double rising = std::cos(middle) * std::sin(half) / half - std::cos(b);
+    const auto node = static_cast<Eigen::Index>(g);
+    flux[node] += 2 * M_PI * rising;
+    flux[node - 1] += 2 * M_PI * (2 * std::sin(middle) * std::sin(half) - rising);
   }
   return flux;
 }

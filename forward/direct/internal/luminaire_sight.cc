@@ -58,7 +58,7 @@ struct Targets {
 Targets TargetsOn(const Luminaire& luminaire, int order) {
   const LuminousSurface surface(luminaire);
   Targets targets;
-  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1))) {
+  for (const SurfaceSample& sample : SurfaceRule(luminaire.shape, std::max(order, 1), std::max(order, 1))) {
     targets.point.emplace_back(surface.PointOf({sample.a, sample.b}).cast<float>());
     targets.weight.push_back(static_cast<float>(sample.weight));
   }

@@ -9,10 +9,10 @@
 
 namespace luxfit {
 
-PartLight::PartLight(const Luminaire& luminaire, PartKind kind) : whole_(luminaire), kind_(kind) {
+PartLight::PartLight(const Luminaire& luminaire, PartKind kind) : whole_(luminaire), kind_(kind), size_(PartShares(luminaire, kind).size()) {
   Luminaire one = luminaire;
   one.flux_lm = 1;
-  if (PartShares(luminaire, kind).size() == 0)
+  if (size_ == 0)
     throw std::invalid_argument("PartLight: expected a luminaire that has such parts");
   if (kind == PartKind::kCell) {
     one.flux_lm = static_cast<double>(luminaire.emission.size());

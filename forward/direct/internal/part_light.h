@@ -18,6 +18,7 @@ class PartLight {
   // Throws std::invalid_argument where the luminaire has no such parts.
   PartLight(const Luminaire& luminaire, PartKind kind);
 
+  Eigen::Index size() const { return size_; }
   Eigen::VectorXd At(const Sensor& place) const;
 
  private:
@@ -26,6 +27,7 @@ class PartLight {
 
   Luminaire whole_;
   PartKind kind_;
+  Eigen::Index size_;  // number of parts
   std::vector<Luminaire> cells_;  // kCell: each with 1 lm; else each with its share as flux
   Eigen::VectorXd node_flux_;
   Eigen::MatrixXd nodes_of_sides_;  // kSide only

@@ -1,6 +1,7 @@
 // Returns the points of a luminous surface that a lobe is summed over.
 //
-// Their number grows with the lobe's sharpness and falls with the distance; at most 24 a side.
+// Their number along each side grows with that side and with the lobe's sharpness, and falls with the distance; it is
+// at most 24. A long, narrow rectangle thus has many points along, few across.
 #ifndef LUXFIT_FORWARD_DIRECT_INTERNAL_SURFACE_RULE_H_
 #define LUXFIT_FORWARD_DIRECT_INTERNAL_SURFACE_RULE_H_
 
@@ -12,9 +13,9 @@
 
 namespace luxfit {
 
-// Returns a rule that is made once: rules depend on nothing but shape and order. Orders above the largest,
-// 24, count as 24.
-const std::vector<SurfaceSample>& SurfaceRule(LuminaireShape shape, int order);
+// Returns a rule that is made once: rules depend on nothing but shape and orders. Orders above the largest, 24, count
+// as 24. Of a disc, which has one order, the first counts.
+const std::vector<SurfaceSample>& SurfaceRule(LuminaireShape shape, int along, int across);
 
 // Returns the rule for a receiver; empty where all of the surface lies behind the receiver's plane.
 const std::vector<SurfaceSample>& SurfaceRuleFor(const LuminousSurface& surface, const Eigen::Vector3d& p,

@@ -63,11 +63,17 @@ class ColumnFiller {
   ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
                const DerivativeRequest& derivatives)
       : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
+    std::map<std::pair<int, LuminaireQuantity>, int> known;
     for (const LuminaireParameter& parameter : derivatives.parameters) {
+      parts_of_parameter_.push_back(-1);
       const std::optional<PartKind> kind = PartKindOf(parameter.quantity);
       if (!kind) continue;
-      parts_.try_emplace({parameter.luminaire, parameter.quantity},
-                         luminaires[static_cast<size_t>(parameter.luminaire)], *kind);
+      const auto [at, is_new] = known.try_emplace({parameter.luminaire, parameter.quantity},
+                                                  static_cast<int>(parts_.size()));
+      if (is_new)
+        parts_.push_back({parameter.luminaire,
+                          PartLight(luminaires[static_cast<size_t>(parameter.luminaire)], *kind)});
+      parts_of_parameter_.back() = at->second;
     }
   }
 
@@ -87,14 +93,13 @@ class ColumnFiller {
       direct[k] = Shadowed(spot, luminaires_[k]);
       share[k] = 1;  // its derivatives are those of the visible part already
     }
-    const std::map<PartsOf, Eigen::VectorXd> light_of_parts = LightOfParts(spot.place, visible);
+    const std::vector<Eigen::VectorXd> light_of_parts = LightOfParts(spot.place, visible);
     for (size_t p = 0; p < derivatives_.parameters.size(); ++p) {
       const LuminaireParameter& parameter = derivatives_.parameters[p];
       const size_t k = static_cast<size_t>(parameter.luminaire);
-      const auto part = light_of_parts.find({parameter.luminaire, parameter.quantity});
-      if (part != light_of_parts.end()) {
+      if (const int parts = parts_of_parameter_[p]; parts >= 0) {
         row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
-            static_cast<float>(part->second[parameter.part]);
+            static_cast<float>(light_of_parts[static_cast<size_t>(parts)][parameter.part]);
         continue;
       }
       row[static_cast<Eigen::Index>(luminaires_.size() + p)] =
@@ -103,14 +108,21 @@ class ColumnFiller {
   }
 
  private:
-  using PartsOf = std::pair<int, LuminaireQuantity>;
+  struct Parts {
+    int luminaire = 0;
+    PartLight light;
+  };
 
-  // Fills the light of every part, times the share of the whole that the place sees.
+  // Returns the light of every part, times the share of the whole that the place sees.
   template <typename Shares>
-  std::map<PartsOf, Eigen::VectorXd> LightOfParts(const Sensor& place, const Shares& visible) const {
-    std::map<PartsOf, Eigen::VectorXd> light;
-    for (const auto& [of, parts] : parts_)
-      light[of] = static_cast<double>(visible[of.first]) * parts.At(place);
+  std::vector<Eigen::VectorXd> LightOfParts(const Sensor& place, const Shares& visible) const {
+    std::vector<Eigen::VectorXd> light;
+    light.reserve(parts_.size());
+    for (const Parts& parts : parts_) {
+      const double share = static_cast<double>(visible[parts.luminaire]);
+      light.emplace_back(share == 0 ? Eigen::VectorXd::Zero(parts.light.size()).eval()
+                                    : (share * parts.light.At(place)).eval());
+    }
     return light;
   }
 
@@ -129,7 +141,8 @@ class ColumnFiller {
   const RayScene& rays_;
   const std::vector<Luminaire>& luminaires_;
   const DerivativeRequest& derivatives_;
-  std::map<PartsOf, PartLight> parts_;
+  std::vector<Parts> parts_;
+  std::vector<int> parts_of_parameter_;  // index of the parts; -1: a derivative of the whole
 };
 
 Spot SpotOf(const Patches& patches, int element) {

@@ -133,12 +133,38 @@ class Refiner {
     return Judged(std::move(step));
   }
 
+  // Returns whether a few steps towards the refinement gain half of what it must gain to be taken: shares of light are
+  // nearly linear, so these steps bring most of it.
+  bool MayGain(const FittedModel& screened) const {
+    const std::vector<GroupScores> scores = ScoreTogether(problem_, {&held_.left_out, &screened.left_out});
+    const double needed =
+        std::max(Difference(scores[0], scores[1]).standard_error, kWorthHaving * Mean(scores[1]));
+    return Mean(scores[0]) - Mean(scores[1]) > needed / 2;
+  }
+
+  FittedModel Screened(const Luminaire& luminaire, const FreeQuantities& free) const {
+    return FitModel(room_, problem_, luminaire, free, {1, 3});
+  }
+
   Step TableStep() const {
     Step step{RefinementKind::kTable, {{ToString(held_.luminaire.distribution), held_}}};
+    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire);
+    if (!open_.table_asked_for) {
+      FreeQuantities free = held_.free;
+      free.exponent = free.sides = false;
+      bool may_gain = false;
+      for (const double sigma : {0.03, 0.3}) {
+        free.table_sigma = sigma;
+        FittedModel screened = Screened(WithTable(held_.luminaire, nodes), free);
+        may_gain = may_gain || MayGain(screened);
+        step.candidates.push_back({fmt::format("table, smoothness {:g}, a few steps", sigma), std::move(screened)});
+      }
+      if (!may_gain) return Judged(std::move(step));
+      step.candidates.resize(1);
+    }
     std::vector<LuminaireShape> shapes{held_.luminaire.shape};
     const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
     if (may_be_point && !open_.table_asked_for) shapes.push_back(LuminaireShape::kPoint);
-    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire);
     for (const LuminaireShape shape : shapes) {
       Luminaire start = WithTable(held_.luminaire, nodes);
       FreeQuantities free = held_.free;
@@ -160,14 +186,17 @@ class Refiner {
     Step step{RefinementKind::kEmission, {{"even", held_}}};
     FreeQuantities free = held_.free;
     free.emission_sigma = 1;
+    FittedModel screened = Screened(WithCells(3), free);
+    if (!MayGain(screened)) {
+      step.candidates.push_back({"3 x 3 cells, a few steps", std::move(screened)});
+      return Judged(std::move(step));
+    }
     int without_gain = 0;
     double best = std::numeric_limits<double>::infinity();
     for (const int cells : {2, 3, 4, 6, 8}) {
       // The cost grows with the square of the cells: the search ends after two without gain.
       if (without_gain == 2) break;
-      Luminaire start = held_.luminaire;
-      start.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
-      step.candidates.push_back({fmt::format("{0} x {0} cells", cells), Fit(start, free)});
+      step.candidates.push_back({fmt::format("{0} x {0} cells", cells), Fit(WithCells(cells), free)});
       const std::vector<GroupScores> scores = Scores(step.candidates);
       best = std::min(best, Mean(scores.front()));
       const double score = Mean(scores.back());
@@ -175,6 +204,13 @@ class Refiner {
       best = std::min(best, score);
     }
     return Judged(std::move(step));
+  }
+
+  // Returns the luminaire with cells that emit alike.
+  Luminaire WithCells(int cells) const {
+    Luminaire luminaire = held_.luminaire;
+    luminaire.emission = Eigen::ArrayXXd::Constant(cells, cells, 1.0 / (cells * cells));
+    return luminaire;
   }
 
   std::vector<GroupScores> Scores(const std::vector<RefinedCandidate>& candidates) const {

@@ -322,10 +322,14 @@ class GroupFinder {
       return std::move(alone.found);
     }
     SparseRun searched = BestLobes(start, grid_(), refinements_);
-    std::optional<SparseRun> sure = AtSurePlaces(start, seen, alone);
-    SparseLuminaires found = WithRivals(std::move(sure ? *sure : searched));
-    AddRivals((sure ? searched : alone).found.sources, step_m_, found.sources);
-    return found;
+    const std::vector<SparseSource> with_sure = WithSurePlaces(start, seen, alone);
+    // A washed wall is bright too, and seen as surely.
+    if (with_sure.size() > start.size()) {
+      SparseRun sure = BestLobes(with_sure, grid_(), refinements_);
+      if (sure.found.mean_square <= kRival * searched.found.mean_square)
+        return WithRivals(std::move(sure), searched.found.sources);
+    }
+    return WithRivals(std::move(searched), alone.found.sources);
   }
 
  private:
@@ -365,18 +369,16 @@ class GroupFinder {
     return is_turned ? std::move(aimed) : std::move(simple);
   }
 
-  // Returns the best sources with those that `alone` has at sure places left where they are; none where there is no
-  // such place.
-  std::optional<SparseRun> AtSurePlaces(const std::vector<SparseSource>& start,
-                                        const std::vector<SeenPosition>& seen, const SparseRun& alone) const {
-    std::vector<SparseSource> with_sure = start;
+  // Returns the start with those sources that `alone` has at sure places.
+  static std::vector<SparseSource> WithSurePlaces(std::vector<SparseSource> start,
+                                                  const std::vector<SeenPosition>& seen,
+                                                  const SparseRun& alone) {
     for (SparseSource source : alone.found.sources) {
       if (source.is_held || !IsSure(seen, source.luminaire.position)) continue;
       source.is_seen = true;
-      with_sure.push_back(std::move(source));
+      start.push_back(std::move(source));
     }
-    if (with_sure.size() == start.size()) return {};
-    return BestLobes(with_sure, grid_(), refinements_);
+    return start;
   }
 
   static bool IsSure(const std::vector<SeenPosition>& seen, const Eigen::Vector3d& position) {
@@ -384,12 +386,14 @@ class GroupFinder {
                        [&](const SeenPosition& s) { return s.is_sure && s.position == position; });
   }
 
-  SparseLuminaires WithRivals(SparseRun run) const {
+  // Returns the sources of a search with their rivals, `others` among them.
+  SparseLuminaires WithRivals(SparseRun run, const std::vector<SparseSource>& others = {}) const {
     for (size_t j = 0; j < run.found.sources.size(); ++j) {
       if (run.search->stays(j)) continue;
       for (const Tried& rival : run.search->RivalsOf(j, grid_()))
         run.found.sources[j].rivals.push_back(LuminaireOf(rival));
     }
+    AddRivals(others, step_m_, run.found.sources);
     return std::move(run.found);
   }
 
