@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/luminaire/internal/polar_angle.h"
+
 namespace luxfit {
 namespace {
 
@@ -68,10 +70,16 @@ struct TableCell {
 };
 
 TableCell CellOf(const std::vector<double>& angles, double x) {
+  if (std::isnan(x)) return {0, x, 1};
   if (x < angles.front() - kSameAngle || x > angles.back() + kSameAngle) return {};
-  const auto above = std::upper_bound(angles.begin() + 1, angles.end() - 1, x);
-  const double low = *(above - 1), width = *above - low;
-  return {above - angles.begin() - 1, std::clamp((x - low) / width, 0.0, 1.0), width};
+  // Most tables have even steps: the guess is right at once.
+  const auto last = static_cast<std::ptrdiff_t>(angles.size()) - 2;
+  const double steps = (x - angles.front()) / (angles.back() - angles.front()) * static_cast<double>(last + 1);
+  std::ptrdiff_t index = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(steps), 0, last);
+  while (index > 0 && x < angles[static_cast<size_t>(index)]) --index;
+  while (index < last && x >= angles[static_cast<size_t>(index) + 1]) ++index;
+  const double low = angles[static_cast<size_t>(index)], width = angles[static_cast<size_t>(index) + 1] - low;
+  return {index, std::clamp((x - low) / width, 0.0, 1.0), width};
 }
 
 // In the luminaire's frame.
@@ -174,7 +182,7 @@ bool IsSymmetricAboutAim(const IntensityTable& table) {
 TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d d = table.table_from_luminaire * direction;
   const double sine = std::sqrt(d.x() * d.x() + d.y() * d.y());
-  const TableCell g = CellOf(table.gamma_rad, std::atan2(sine, -d.z()));
+  const TableCell g = CellOf(table.gamma_rad, PolarAngle(sine, -d.z()));
   if (g.index < 0) return {};
   if (IsOnePlaneAllRound(table)) return TowardsInOnePlane(table, g, d, sine);
   const double first = table.c_rad.front();

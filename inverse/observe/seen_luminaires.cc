@@ -24,6 +24,15 @@ struct BlobOfPhoto {
   const BrightBlob* blob = nullptr;
 };
 
+// Returns the side of the square that is as large as the blob or, of a longer blob, as long: a square's diagonal is
+// sqrt(2) of its side.
+double WidthOf(const BrightBlob& blob) {
+  double length2 = 0;
+  for (const Eigen::Vector2d& a : blob.contour_px)
+    for (const Eigen::Vector2d& b : blob.contour_px) length2 = std::max(length2, (a - b).squaredNorm());
+  return std::sqrt(std::max(blob.area_px2, length2 / 2));
+}
+
 class SeenSearch {
  public:
   SeenSearch(const Room& room, const std::vector<Camera>& cameras, const std::vector<RegisteredView>& views,
@@ -84,7 +93,7 @@ class SeenSearch {
     const Camera& camera = CameraOf(view);
     const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
     const double sigma_px =
-        std::hypot(options_.center_sigma_px, options_.width_sigma * blob.extent_px.sizes().maxCoeff());
+        std::hypot(options_.center_sigma_px, options_.width_sigma * WidthOf(blob));
     return {photo.view, world_from_cam.translation(),
             world_from_cam.linear() * Unproject(camera, blob.center_px),
             sigma_px / std::max(1.0, std::min(camera.fx_px, camera.fy_px))};

@@ -51,7 +51,8 @@ inline bool IsSure(const SeenPlace& place) { return place.views >= 3; }
 struct SeenLuminairesOptions {
   int min_views = 2;  // three would exclude chance; here the light decides
   double center_sigma_px = 1;
-  // As a share of a blob's longer side: a blob's centre is not the image of the luminaire's centre.
+  // As a share of the width of a square as large as the blob, or as long: a blob's centre is not the image of the
+  // luminaire's centre, the less the longer it is.
   double width_sigma = 0.05;
 };
 

@@ -4,12 +4,14 @@
 //   build/release/tests/benchmarks/forward_benchmark
 #include <benchmark/benchmark.h>
 
+#include <memory>
 #include <numeric>
 #include <random>
 
 #include "forward/direct/direct_light.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "forward/luminaire/luminaire_parts.h"
 #include "forward/room/scene.h"
 #include "tests/paths.h"
 
@@ -90,13 +92,15 @@ BENCHMARK_CAPTURE(Predict, with_derivatives, true)
     ->UseRealTime();
 
 // On the floor and on a wall.
-void Direct(benchmark::State& state, LuminaireShape shape, Distribution distribution) {
+void Direct(benchmark::State& state, LuminaireShape shape, Distribution distribution,
+            const Eigen::Vector2d& size_m = {0.6, 0.6}) {
   Luminaire luminaire;
   luminaire.position = {0.3, -0.2, 2.5};
   luminaire.aim = Eigen::Vector3d(0.1, 0.05, -1).normalized();
   luminaire.shape = shape;
   luminaire.distribution = distribution;
-  luminaire.size_m = {0.6, 0.6};
+  luminaire.size_m = size_m;
+  luminaire.table = std::make_shared<IntensityTable>(TwoSidedTable(0.3));
   std::mt19937_64 rng(1);
   std::uniform_real_distribution<double> across(-2, 2), height(0, 2.8);
   const Eigen::Vector3d up(0, 0, 1), inwards(-1, 0, 0);
@@ -118,6 +122,9 @@ BENCHMARK_CAPTURE(Direct, rectangle, LuminaireShape::kRectangle, Distribution::k
 BENCHMARK_CAPTURE(Direct, disc, LuminaireShape::kDisc, Distribution::kLambertian);
 BENCHMARK_CAPTURE(Direct, rectangle_by_sum, LuminaireShape::kRectangle, Distribution::kCosinePower);
 BENCHMARK_CAPTURE(Direct, disc_by_sum, LuminaireShape::kDisc, Distribution::kCosinePower);
+BENCHMARK_CAPTURE(Direct, rectangle_of_table, LuminaireShape::kRectangle, Distribution::kMeasured);
+BENCHMARK_CAPTURE(Direct, strip_of_table, LuminaireShape::kRectangle, Distribution::kMeasured,
+                  Eigen::Vector2d(2.4, 0.1));
 
 }  // namespace
 }  // namespace luxfit

@@ -38,22 +38,6 @@ std::vector<Eigen::Vector2d> LuminousSurface::Outline(int pieces_a_side) const {
   return outline;
 }
 
-void LuminousSurface::AddMotion(const Eigen::Vector2d& place, const Eigen::Vector3d& gradient,
-                                DirectIlluminance& sum) const {
-  const double along = gradient.dot(axes_.along), across = gradient.dot(axes_.across);
-  const double x = place[0] * sides_[0], y = place[1] * sides_[1];
-  sum.d_position += gradient;
-  // A turn about w moves the point by w x offset; tilts are about across and -along, the heading is about
-  // aim.
-  sum.d_tilt -= gradient.dot(luminaire_->aim) * Eigen::Vector2d(x, y);
-  sum.d_heading += x * across - y * along;
-  if (is_disc()) {
-    sum.d_size[0] += place[0] * along + place[1] * across;
-  } else {
-    sum.d_size += Eigen::Vector2d(place[0] * along, place[1] * across);
-  }
-}
-
 double LuminousSurface::area_m2() const { return is_disc() ? M_PI / 4 * sides_.prod() : sides_.prod(); }
 
 }  // namespace luxfit

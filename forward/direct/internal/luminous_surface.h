@@ -57,6 +57,23 @@ class LuminousSurface {
   Eigen::Vector2d sides_;
 };
 
+// Here, because sums over surfaces call it at every point.
+inline void LuminousSurface::AddMotion(const Eigen::Vector2d& place, const Eigen::Vector3d& gradient,
+                                       DirectIlluminance& sum) const {
+  const double along = gradient.dot(axes_.along), across = gradient.dot(axes_.across);
+  const double x = place[0] * sides_[0], y = place[1] * sides_[1];
+  sum.d_position += gradient;
+  // A turn about w moves the point by w x offset; tilts are about across and -along, the heading is about
+  // aim.
+  sum.d_tilt -= gradient.dot(luminaire_->aim) * Eigen::Vector2d(x, y);
+  sum.d_heading += x * across - y * along;
+  if (is_disc()) {
+    sum.d_size[0] += place[0] * along + place[1] * across;
+  } else {
+    sum.d_size += Eigen::Vector2d(place[0] * along, place[1] * across);
+  }
+}
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_DIRECT_INTERNAL_LUMINOUS_SURFACE_H_

@@ -19,7 +19,7 @@ std::array<int, 2> OrdersFor(const LuminousSurface& surface, const Eigen::Vector
   const Luminaire& luminaire = surface.luminaire();
   const double per_m = 2 * std::sqrt(OpsOf(luminaire.distribution).sharpness(luminaire) + 3) / distance;
   const auto order = [&](double side) {
-    const double n = std::ceil(2 + per_m * side) * (is_cut ? 3 : 1);
+    const double n = std::ceil(1 + per_m * side) * (is_cut ? 3 : 1);
     return n < kMaxOrder ? static_cast<int>(n) : kMaxOrder;  // NaN too
   };
   return {order(surface.sides()[0]), order(surface.sides()[1])};

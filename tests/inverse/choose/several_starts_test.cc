@@ -95,7 +95,7 @@ TEST(SeveralStarts, TheBestIsKeptWhereOthersAreStuck) {
   SeveralStartsOptions options;
   options.max_outer_iterations = 4;
   const SeveralStarts result =
-      FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}}, {}, options);
+      FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}}, {}, {}, options);
   ASSERT_EQ(result.comparisons.size(), 1u);
   const StartComparison& c = result.comparisons[0];
   EXPECT_EQ(c.chosen, 1);
