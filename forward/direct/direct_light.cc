@@ -87,7 +87,39 @@ DirectIlluminance SumOverSurface(const LuminousSurface& surface, const Eigen::Ve
   return sum;
 }
 
+double LxSummedOverSurface(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                           const Eigen::Vector3d& normal) {
+  double lx = 0;
+  for (const SurfaceSample& sample : SurfaceRuleFor(surface, p, normal)) {
+    const Eigen::Vector3d to_lamp = surface.PointOf({sample.a, sample.b}) - p;
+    const double r2 = to_lamp.squaredNorm(), height = normal.dot(to_lamp);
+    if (height <= 0 || r2 < 1e-12) continue;
+    const double r = std::sqrt(r2);
+    lx += surface.IntensityTowards(-to_lamp / r).cd_per_lm * sample.weight * height / (r2 * r);
+  }
+  return lx;
+}
+
+double LxOfRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                     const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d u = surface.sides()[0] * surface.axes().along,
+                        v = surface.sides()[1] * surface.axes().across;
+  return PointToPolygon(p, normal,
+                        MakePolygon(surface.PointOf({-0.5, -0.5}), u, v, FacetKind::kParallelogram)) /
+         surface.area_m2();
+}
+
 }  // namespace
+
+double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                        const Eigen::Vector3d& normal) {
+  if (HasUnevenEmission(luminaire))
+    return DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
+  const LuminousSurface surface(luminaire);
+  if (!HasClosedForm(surface, p_in_world)) return LxSummedOverSurface(surface, p_in_world, normal);
+  return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal).lx_per_lm
+                           : LxOfRectangle(surface, p_in_world, normal);
+}
 
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                                             const Eigen::Vector3d& normal) {

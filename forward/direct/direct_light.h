@@ -49,6 +49,10 @@ struct DirectIlluminance {
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                                             const Eigen::Vector3d& normal);
 
+// Returns the same without derivatives, in about half of the time.
+double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
+                        const Eigen::Vector3d& normal);
+
 // Returns the share of the luminaire's surface points (`order` a side) in front of the receiver's plane that
 // the receiver sees; 0 where no point is in front. DirectIlluminancePerLumen leaves out the points behind the
 // plane too. Every point weighs the same: forward/direct/internal/shadowed_light.h weighs points by their

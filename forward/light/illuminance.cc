@@ -119,9 +119,11 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
   const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
 
   DirectColumns columns = ComputeDirectColumns(room, receivers, visibility, luminaires, derivatives);
-  const Eigen::MatrixXf at_elements = Summed(std::move(columns.elements), lamps, derivatives.parameter_sum);
+  const Eigen::MatrixXf at_elements =
+      derivatives.reflected ? Summed(std::move(columns.elements), lamps, derivatives.parameter_sum)
+                            : std::move(columns.elements);
   Eigen::MatrixXf at_receivers = Summed(std::move(columns.receivers), lamps, derivatives.parameter_sum);
-  const Columns layout{lamps, at_receivers.cols() - lamps, derivatives.materials,
+  const Columns layout{lamps, at_elements.cols() - lamps, derivatives.materials,
                        SumsOrEach(derivatives.luminaire_sum, lamps)};
   const Eigen::Index of_albedo = layout.sums() * materials;
 
@@ -139,11 +141,11 @@ Illuminance ComputeIlluminance(const Room& room, const Receivers& receivers,
           derivatives.materials, summed_direct + transport.Irradiance(summed_exitance));
     }
     const Eigen::MatrixXf gathered = Gather(room, receivers, at_elements, transport, layout, exitance);
-    at_receivers += gathered.leftCols(layout.lit());
+    at_receivers.leftCols(layout.lit()) += gathered.leftCols(layout.lit());
     result.d_albedo = gathered.rightCols(of_albedo);
   }
   result.total = at_receivers.leftCols(lamps);
-  result.d_luminaire = at_receivers.rightCols(layout.parameters);
+  result.d_luminaire = at_receivers.rightCols(at_receivers.cols() - lamps);
   return result;
 }
 

@@ -64,6 +64,9 @@ struct DerivativeRequest {
   // (forward/direct/internal/shadowed_light.h). It costs some hundred rays per place. Fits that update
   // visibility between their steps do without.
   bool moving_shadows = false;
+  // Whether d_luminaire contains reflected light. Without it, derivatives cost the receivers' direct light alone: near
+  // enough for the steps of a fit, not for its covariance. d_albedo is exact either way.
+  bool reflected = true;
   // Sums, one a column, with the lumens of each term. Empty: each luminaire and parameter by itself, per lumen.
   Eigen::SparseMatrix<float> luminaire_sum;  // luminaires x sums, for d_albedo
   Eigen::SparseMatrix<float> parameter_sum;  // parameters x sums, for d_luminaire

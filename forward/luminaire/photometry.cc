@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "forward/luminaire/internal/polar_angle.h"
+#include "forward/room/internal/polar_angle.h"
 
 namespace luxfit {
 namespace {

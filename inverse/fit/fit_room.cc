@@ -155,6 +155,7 @@ class RoomFitter {
       // The radiosity is solved here, so that the models are compared with its indirect light.
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
+      quick.steps_by_direct_light = true;
       fit = FitLuminaires(room_, part, fit.state, Priors(), quick);
       is_textured_ = IsTextured(fit);
       data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
@@ -355,6 +356,7 @@ class RoomFitter {
     FitLuminairesOptions options;
     options.on_round = KeepBest();
     options.subtracts_discretisation = false;
+    options.steps_by_direct_light = !result_.data.observations.empty();
     options.has_texture = is_textured_;
     if (near == nullptr) return options;
     options.start_is_near = true;

@@ -74,6 +74,7 @@ class OuterLoop {
   // Takes outer iterations until nothing moves. Returns whether that was reached.
   bool Settle(bool start_is_near) {
     bool settled = false;
+    model_.ReflectDerivatives(!options_.steps_by_direct_light);
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
       if (data_.checkpoint) data_.checkpoint();
       ++fit_.outer_iterations;
@@ -97,6 +98,7 @@ class OuterLoop {
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
+    model_.ReflectDerivatives(true);
     return settled;
   }
 
@@ -105,9 +107,10 @@ class OuterLoop {
     if (data_.indirect_is_held || room_.sparse) return false;
     Refresh(true);
     fit_.patch_factor = weigher_.elements().PatchFactors(room_, weights_.texture);
+    if (fit_.patch_factor.size() == 0) return false;
     model_.SetPatchFactor(fit_.patch_factor);
-    frozen_.clear();
-    return fit_.patch_factor.size() > 0;
+    model_.FreezeReflected(fit_.state);
+    return true;
   }
 
   // Returns whether rows other than photos', or priors, share a parameter with the photos: only then their

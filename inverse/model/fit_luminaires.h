@@ -87,6 +87,10 @@ struct FitLuminairesOptions {
   // Set it where the start came from a fit to a part of the same data. relative_sigma then begins at
   // initial_relative_sigma, steps need no damping, and one round that moves nothing is enough.
   bool start_is_near = false;
+  // Whether the rounds' derivatives by luminaires' parameters leave out reflected light. They cost a fraction, and the
+  // fit ends beside the minimum by what reflected light would change in the weight of residuals: for fits whose result
+  // is a start. The covariance is exact.
+  bool steps_by_direct_light = false;
   std::function<void(const FitRound&)> on_round = {};  // empty: no calls
 };
 

@@ -6,6 +6,8 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
+#include "forward/room/internal/polar_angle.h"
+
 namespace luxfit {
 namespace {
 
@@ -132,7 +134,7 @@ double PointToPolygon(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, c
     const double sine = cross.norm();
     // In line with an edge: it adds nothing, beyond it or within it (where the angle is pi, the normal gives
     // 0).
-    if (!(sine <= 1e-300)) sum += std::atan2(sine, a.dot(b)) * normal.dot(cross) / sine;
+    if (!(sine <= 1e-300)) sum += PolarAngle(sine, a.dot(b)) * normal.dot(cross) / sine;
     a = b;
   }
   // Counter-clockwise from its front means clockwise for the point that it faces.
@@ -161,7 +163,7 @@ PolygonGradient PointToPolygonGradient(const Eigen::Vector3d& p, const Eigen::Ve
     const Eigen::Vector3d &a = from.at, &b = to.at, w = a.cross(b);
     const double s = w.norm(), q = a.dot(b), r4 = a.squaredNorm() * b.squaredNorm();
     if (s < 1e-100) continue;  // in line with the edge; s^3 is still a number
-    const double angle = std::atan2(s, q), height = normal.dot(w);
+    const double angle = PolarAngle(s, q), height = normal.dot(w);
     result.factor += angle * height / s;
     const double bend = (q / r4 - angle / s) / (s * s);  // of angle / s with s, over s
     from.gradient += height * (bend * b.cross(w) - b / r4) + angle / s * b.cross(normal);

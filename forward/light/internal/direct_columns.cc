@@ -80,6 +80,11 @@ class ColumnFiller {
   // Fills the columns of the luminaires, then those of the parameters.
   template <typename Row, typename Shares>
   void Fill(const Spot& spot, const Shares& visible, Row&& row) const {
+    const bool is_cosine = spot.place.response.kind == ResponseKind::kCosine;
+    if (derivatives_.parameters.empty() && is_cosine) {
+      FillValues(spot.place, visible, row);
+      return;
+    }
     std::vector<DirectIlluminance> direct(luminaires_.size());
     std::vector<double> share(luminaires_.size());
     for (size_t k = 0; k < luminaires_.size(); ++k) {
@@ -87,8 +92,7 @@ class ColumnFiller {
       if (share[k] == 0) continue;
       direct[k] = SensorIlluminancePerLumen(luminaires_[k], spot.place);
       row[static_cast<Eigen::Index>(k)] = static_cast<float>(share[k] * direct[k].lx_per_lm);
-      const bool cosine = spot.place.response.kind == ResponseKind::kCosine;
-      if (!derivatives_.moving_shadows || derivatives_.parameters.empty() || share[k] == 1 || !cosine)
+      if (!derivatives_.moving_shadows || derivatives_.parameters.empty() || share[k] == 1 || !is_cosine)
         continue;
       direct[k] = Shadowed(spot, luminaires_[k]);
       share[k] = 1;  // its derivatives are those of the visible part already
@@ -108,6 +112,17 @@ class ColumnFiller {
   }
 
  private:
+  template <typename Row, typename Shares>
+  void FillValues(const Sensor& place, const Shares& visible, Row&& row) const {
+    for (size_t k = 0; k < luminaires_.size(); ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const double share = static_cast<double>(visible[column]);
+      if (share == 0) continue;
+      row[column] =
+          static_cast<float>(share * DirectLxPerLumen(luminaires_[k], place.position, place.normal));
+    }
+  }
+
   struct Parts {
     int luminaire = 0;
     PartLight light;
@@ -156,6 +171,11 @@ DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,
                                    const LuminaireVisibility& visibility,
                                    const std::vector<Luminaire>& luminaires,
                                    const DerivativeRequest& derivatives) {
+  if (!derivatives.reflected && !derivatives.parameters.empty()) {
+    DirectColumns values = ComputeDirectColumns(room, receivers, visibility, luminaires, {});
+    values.receivers = ComputeReceiverColumns(room, receivers, visibility, luminaires, derivatives);
+    return values;
+  }
   ExpectValid(luminaires);
   const auto elements = static_cast<int>(room.patches.elements.size());
   const auto columns = static_cast<Eigen::Index>(luminaires.size() + derivatives.parameters.size());

@@ -16,7 +16,7 @@
 namespace luxfit {
 
 struct DirectColumns {
-  Eigen::MatrixXf elements;  // all elements of the room
+  Eigen::MatrixXf elements;  // all elements of the room; luminaires alone where derivatives are not reflected
   Eigen::MatrixXf receivers;
 };
 DirectColumns ComputeDirectColumns(const Room& room, const Receivers& receivers,

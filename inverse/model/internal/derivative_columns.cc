@@ -5,8 +5,9 @@
 namespace luxfit {
 
 DerivativeColumns::DerivativeColumns(const LightState& state, const std::vector<Parameter>& parameters,
-                                     const DimmingGroups& groups)
+                                     const DimmingGroups& groups, bool reflected)
     : lit_(state.luminaires.size()), terms_(parameters.size()) {
+  request_.reflected = reflected;
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   const auto group_count = static_cast<Eigen::Index>(groups.groups.size());
   std::vector<Eigen::Triplet<float>> of_luminaires;

@@ -22,8 +22,9 @@ class DerivativeColumns {
     Eigen::Index group = 0, column = 0;
   };
 
+  // `reflected`: DerivativeRequest::reflected.
   DerivativeColumns(const LightState& state, const std::vector<Parameter>& parameters,
-                    const DimmingGroups& groups);
+                    const DimmingGroups& groups, bool reflected = true);
 
   const DerivativeRequest& request() const { return request_; }
   // Returns the columns of d_luminaire or d_albedo whose sum, each times its group's dimming, is the derivative of

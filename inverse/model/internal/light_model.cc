@@ -25,7 +25,11 @@ class ReceiverDerivative {
  public:
   ReceiverDerivative(const LightState& state, const std::vector<Parameter>& parameters,
                      const Illuminance& light, const DerivativeColumns& columns, bool is_direct)
-      : state_(state), light_(light), columns_(columns), is_direct_(is_direct) {
+      : state_(state),
+        light_(light),
+        whole_(columns.request().reflected ? light.total : light.direct),
+        columns_(columns),
+        is_direct_(is_direct) {
     for (const Parameter& p : parameters) share_.push_back(IsPart(p) ? ReferenceShare(state, p) : 0);
   }
 
@@ -39,8 +43,9 @@ class ReceiverDerivative {
     if (parameter.kind != ParameterKind::kLuminaire) return 0;
     double sum = Sum(light_.d_luminaire, r, columns_.Of(p), dimming);
     if (IsPart(parameter)) {
-      sum -= lumens[k] * light_.total(r, k);
-      for (const int j : parameter.tied) sum -= lumens[j] * light_.total(r, j);
+      // Light of the whole, reflected or not as that of its parts.
+      sum -= lumens[k] * whole_(r, k);
+      for (const int j : parameter.tied) sum -= lumens[j] * whole_(r, j);
       return gain * share_[p] * sum;
     }
     // The parameter is the exponent's logarithm.
@@ -59,6 +64,7 @@ class ReceiverDerivative {
 
   const LightState& state_;
   const Illuminance& light_;
+  const Eigen::MatrixXf& whole_;
   const DerivativeColumns& columns_;
   const bool is_direct_;
   std::vector<double> share_;  // of parts
@@ -102,6 +108,10 @@ LightModel::LightModel(const Room& room, const LightData& data)
 void LightModel::FreezeVisibility(const LightState& state, int order) {
   visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
       room_, receivers_, state.luminaires, order);
+  FreezeReflected(state);
+}
+
+void LightModel::FreezeReflected(const LightState& state) {
   hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
   if (data_.indirect_is_held || room_.sparse) return;
   const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0;
@@ -202,7 +212,7 @@ const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
                                bool with_jacobian) const {
   const std::vector<Parameter> asked = with_jacobian ? parameters : std::vector<Parameter>();
-  const DerivativeColumns columns(state, asked, groups_);
+  const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_);
   const Illuminance light = Light(state, columns.request());
   const ReceiverDerivative derivative(state, asked, light, columns, data_.indirect_is_held);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);

@@ -54,9 +54,13 @@ class LightModel {
   // Computes the visible shares that Predict uses, and what bodies hide, for the luminaires where `state` has
   // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
-  // Sets what the next FreezeVisibility counts with: the reflectance of each patch over that of its material.
+  // Freezes anew what bodies and colours do to reflected light, with the visibility as it is.
+  void FreezeReflected(const LightState& state);
+  // Sets what the next of these two counts with: the reflectance of each patch over that of its material.
   // Empty: all are like their material.
   void SetPatchFactor(Eigen::VectorXd factor) { patch_factor_ = std::move(factor); }
+  // Says whether derivatives by luminaires' parameters contain reflected light (DerivativeRequest::reflected).
+  void ReflectDerivatives(bool reflects) { reflects_derivatives_ = reflects; }
   // Marks rows that a shadow edge crosses, in the blocks that it spoils. There, a luminaire dimmed to more
   // than `min_dimming` is seen in part.
   std::vector<bool> InPenumbra(double min_dimming = 0.02) const;
@@ -103,6 +107,7 @@ class LightModel {
   LuminaireVisibility visibility_;
   Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
   Eigen::VectorXd colour_;              // k; empty: the surfaces are grey
+  bool reflects_derivatives_ = true;
   Eigen::VectorXd patch_factor_;
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.
   mutable std::optional<Transport> transport_;

@@ -157,6 +157,16 @@ TEST(DirectLight, LambertianSurfacesAreTheirDefiningIntegralWholeAndCut) {
 }
 
 // Where a closed form would be rounding, a sum takes over; a lamp without extent is a point.
+TEST(DirectLight, ValuesAloneAreThoseWithDerivatives) {
+  for (const LuminaireShape shape : {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+    for (const Distribution distribution : {Distribution::kLambertian, Distribution::kCosinePower}) {
+      const Luminaire lamp = Lamp(distribution, shape, 1.2, 0.3);
+      for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -2, 0.4)})
+        EXPECT_NEAR(DirectLxPerLumen(lamp, p, kUp) / LxPerLm(lamp, p), 1, 1e-12) << ToString(shape);
+    }
+  }
+}
+
 TEST(DirectLight, ATinyLampIsAPoint) {
   for (const LuminaireShape shape : {LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
     const Eigen::Vector3d p(0.7, -0.4, 0.3), n = Eigen::Vector3d(-0.2, 0.1, 1).normalized();
@@ -207,6 +217,7 @@ void ExpectSumsHold(Luminaire lamp, double whole_error, double cut_error, const 
         EXPECT_NEAR(LxPerLm(lamp, p, n), expected, bound)
             << what << ", " << ToString(lamp.shape) << ", " << distance << " m, " << degrees << " deg, depth "
             << depth;
+        EXPECT_NEAR(DirectLxPerLumen(lamp, p, n), LxPerLm(lamp, p, n), 1e-12 * beam_lx) << what;
       }
     }
   }
@@ -226,6 +237,7 @@ TEST(DirectLight, SumsHoldWhatTheHeaderPromises) {
     lamp.table = BeamTable();
     ExpectSumsHold(lamp, 2e-3, 2e-3, "beam");
   }
+  ExpectSumsHold(Lamp(Distribution::kCosinePower, LuminaireShape::kRectangle, 1, 0.05), 1e-3, 2e-3, "strip");
 }
 
 TEST(DirectLight, NaNInIsNaNOut) {

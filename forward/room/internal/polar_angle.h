@@ -3,9 +3,9 @@
 //   atan(t) = atan(c) + atan((t - c) / (1 + t c)),  c: the nearest of 0, 1/8, ..., 1
 //
 // The rest is at most 1/16, where five terms of the series leave 1e-14. Sums over luminous surfaces ask for an angle at
-// every point.
-#ifndef LUXFIT_FORWARD_LUMINAIRE_INTERNAL_POLAR_ANGLE_H_
-#define LUXFIT_FORWARD_LUMINAIRE_INTERNAL_POLAR_ANGLE_H_
+// every point, form factors of polygons at every corner.
+#ifndef LUXFIT_FORWARD_ROOM_INTERNAL_POLAR_ANGLE_H_
+#define LUXFIT_FORWARD_ROOM_INTERNAL_POLAR_ANGLE_H_
 
 #include <array>
 #include <cmath>
@@ -35,4 +35,4 @@ inline double PolarAngle(double sine, double cosine) {
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_FORWARD_LUMINAIRE_INTERNAL_POLAR_ANGLE_H_
+#endif  // LUXFIT_FORWARD_ROOM_INTERNAL_POLAR_ANGLE_H_

@@ -1,4 +1,4 @@
-#include "forward/luminaire/internal/polar_angle.h"
+#include "forward/room/internal/polar_angle.h"
 
 #include <gtest/gtest.h>
 
