@@ -113,8 +113,7 @@ double LxOfRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
 
 double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                         const Eigen::Vector3d& normal) {
-  if (HasUnevenEmission(luminaire))
-    return DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
+  if (HasUnevenEmission(luminaire)) return DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
   const LuminousSurface surface(luminaire);
   if (!HasClosedForm(surface, p_in_world)) return LxSummedOverSurface(surface, p_in_world, normal);
   return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal).lx_per_lm

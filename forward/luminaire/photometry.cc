@@ -74,7 +74,8 @@ TableCell CellOf(const std::vector<double>& angles, double x) {
   if (x < angles.front() - kSameAngle || x > angles.back() + kSameAngle) return {};
   // Most tables have even steps: the guess is right at once.
   const auto last = static_cast<std::ptrdiff_t>(angles.size()) - 2;
-  const double steps = (x - angles.front()) / (angles.back() - angles.front()) * static_cast<double>(last + 1);
+  const double steps =
+      (x - angles.front()) / (angles.back() - angles.front()) * static_cast<double>(last + 1);
   std::ptrdiff_t index = std::clamp<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(steps), 0, last);
   while (index > 0 && x < angles[static_cast<size_t>(index)]) --index;
   while (index < last && x >= angles[static_cast<size_t>(index) + 1]) ++index;

@@ -161,8 +161,8 @@ class RoomFitter {
       data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
     }
     if (!fit.IsUsable()) return start_.state;
-    const SeveralStarts starts = FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors,
-                                                      SeenPriors());
+    const SeveralStarts starts =
+        FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
@@ -205,7 +205,8 @@ class RoomFitter {
                           [&](const Luminaire& l) { return l.position == place; }) -
              after.luminaires.begin();
     };
-    for (StartComparison& c : starts_) c.luminaire = static_cast<int>(named(static_cast<size_t>(c.luminaire)));
+    for (StartComparison& c : starts_)
+      c.luminaire = static_cast<int>(named(static_cast<size_t>(c.luminaire)));
     const std::vector<std::optional<SeenPlace>> seen = start_.seen;
     for (size_t k = 0; k < seen.size(); ++k) start_.seen[static_cast<size_t>(named(k))] = seen[k];
   }

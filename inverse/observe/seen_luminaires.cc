@@ -92,8 +92,7 @@ class SeenSearch {
     const RegisteredView& view = View(photo);
     const Camera& camera = CameraOf(view);
     const Eigen::Isometry3d world_from_cam = view.cam_from_world.inverse();
-    const double sigma_px =
-        std::hypot(options_.center_sigma_px, options_.width_sigma * WidthOf(blob));
+    const double sigma_px = std::hypot(options_.center_sigma_px, options_.width_sigma * WidthOf(blob));
     return {photo.view, world_from_cam.translation(),
             world_from_cam.linear() * Unproject(camera, blob.center_px),
             sigma_px / std::max(1.0, std::min(camera.fx_px, camera.fy_px))};

@@ -9,11 +9,11 @@
 
 namespace luxfit {
 
-PartLight::PartLight(const Luminaire& luminaire, PartKind kind) : whole_(luminaire), kind_(kind), size_(PartShares(luminaire, kind).size()) {
+PartLight::PartLight(const Luminaire& luminaire, PartKind kind)
+    : whole_(luminaire), kind_(kind), size_(PartShares(luminaire, kind).size()) {
   Luminaire one = luminaire;
   one.flux_lm = 1;
-  if (size_ == 0)
-    throw std::invalid_argument("PartLight: expected a luminaire that has such parts");
+  if (size_ == 0) throw std::invalid_argument("PartLight: expected a luminaire that has such parts");
   if (kind == PartKind::kCell) {
     one.flux_lm = static_cast<double>(luminaire.emission.size());
     one.emission.setConstant(1 / one.flux_lm);  // cells without light are parts too

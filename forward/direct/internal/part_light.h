@@ -27,7 +27,7 @@ class PartLight {
 
   Luminaire whole_;
   PartKind kind_;
-  Eigen::Index size_;  // number of parts
+  Eigen::Index size_;             // number of parts
   std::vector<Luminaire> cells_;  // kCell: each with 1 lm; else each with its share as flux
   Eigen::VectorXd node_flux_;
   Eigen::MatrixXd nodes_of_sides_;  // kSide only

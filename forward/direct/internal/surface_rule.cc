@@ -34,7 +34,8 @@ std::array<RulesByOrder, kMaxOrder + 1> RectangleRules() {
     for (int m = 1; m <= kMaxOrder; ++m) {
       std::vector<SurfaceSample>& rule = rules[static_cast<size_t>(n)][static_cast<size_t>(m)];
       for (const LineNode& a : GaussLegendre(n))
-        for (const LineNode& b : GaussLegendre(m)) rule.push_back({a.t - 0.5, b.t - 0.5, a.weight * b.weight});
+        for (const LineNode& b : GaussLegendre(m))
+          rule.push_back({a.t - 0.5, b.t - 0.5, a.weight * b.weight});
     }
   }
   return rules;
@@ -54,7 +55,8 @@ const std::vector<SurfaceSample>& SurfaceRule(LuminaireShape shape, int along, i
   static const RulesByOrder disc = DiscRules();
   static const std::vector<SurfaceSample> point = SampleSurface(LuminaireShape::kPoint, 1);
   const auto n = static_cast<size_t>(std::min(along, kMaxOrder));
-  if (shape == LuminaireShape::kRectangle) return rectangle[n][static_cast<size_t>(std::min(across, kMaxOrder))];
+  if (shape == LuminaireShape::kRectangle)
+    return rectangle[n][static_cast<size_t>(std::min(across, kMaxOrder))];
   if (shape == LuminaireShape::kDisc) return disc[n];
   return point;
 }

@@ -68,11 +68,11 @@ class ColumnFiller {
       parts_of_parameter_.push_back(-1);
       const std::optional<PartKind> kind = PartKindOf(parameter.quantity);
       if (!kind) continue;
-      const auto [at, is_new] = known.try_emplace({parameter.luminaire, parameter.quantity},
-                                                  static_cast<int>(parts_.size()));
+      const auto [at, is_new] =
+          known.try_emplace({parameter.luminaire, parameter.quantity}, static_cast<int>(parts_.size()));
       if (is_new)
-        parts_.push_back({parameter.luminaire,
-                          PartLight(luminaires[static_cast<size_t>(parameter.luminaire)], *kind)});
+        parts_.push_back(
+            {parameter.luminaire, PartLight(luminaires[static_cast<size_t>(parameter.luminaire)], *kind)});
       parts_of_parameter_.back() = at->second;
     }
   }

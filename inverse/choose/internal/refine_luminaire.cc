@@ -157,7 +157,8 @@ class Refiner {
         free.table_sigma = sigma;
         FittedModel screened = Screened(WithTable(held_.luminaire, nodes), free);
         may_gain = may_gain || MayGain(screened);
-        step.candidates.push_back({fmt::format("table, smoothness {:g}, a few steps", sigma), std::move(screened)});
+        step.candidates.push_back(
+            {fmt::format("table, smoothness {:g}, a few steps", sigma), std::move(screened)});
       }
       if (!may_gain) return Judged(std::move(step));
       step.candidates.resize(1);

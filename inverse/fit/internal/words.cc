@@ -90,7 +90,8 @@ void RecordFirstGuess(const RoomObservations& given, const FirstGuess& guess,
          fmt::format(
              "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
              place.photos, place.views, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
-             luminaire.was_searched ? "; a search anywhere gives its rivals" : ", so that no other was searched")});
+             luminaire.was_searched ? "; a search anywhere gives its rivals"
+                                    : ", so that no other was searched")});
   }
 }
 

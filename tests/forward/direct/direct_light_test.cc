@@ -158,7 +158,8 @@ TEST(DirectLight, LambertianSurfacesAreTheirDefiningIntegralWholeAndCut) {
 
 // Where a closed form would be rounding, a sum takes over; a lamp without extent is a point.
 TEST(DirectLight, ValuesAloneAreThoseWithDerivatives) {
-  for (const LuminaireShape shape : {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
+  for (const LuminaireShape shape :
+       {LuminaireShape::kPoint, LuminaireShape::kDisc, LuminaireShape::kRectangle}) {
     for (const Distribution distribution : {Distribution::kLambertian, Distribution::kCosinePower}) {
       const Luminaire lamp = Lamp(distribution, shape, 1.2, 0.3);
       for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, -2, 0.4)})

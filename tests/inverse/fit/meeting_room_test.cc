@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -36,7 +35,8 @@ constexpr double kScale = 2e-3;  // relative luminance per cd/m2
 
 Scene MeshOfRoom() {
   Scene scene = support::ClosedRoom({7, 5, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"});
-  AddBox(scene, {Eigen::Vector3d(2.0, 1.9, 0.69), Eigen::Vector3d(5.0, 3.1, 0.73)}, Facing::kOutward, {"table"});
+  AddBox(scene, {Eigen::Vector3d(2.0, 1.9, 0.69), Eigen::Vector3d(5.0, 3.1, 0.73)}, Facing::kOutward,
+         {"table"});
   return scene;
 }
 
@@ -67,7 +67,8 @@ std::vector<Luminaire> TrueLuminaires() {
   luminaires[0].distribution = Distribution::kMeasured;
   luminaires[0].table = std::make_shared<IntensityTable>(TwoSidedTable(0.35));
   luminaires[0].flux_lm = 5200;
-  const std::vector<Eigen::Vector3d> panels = {{1.2, 1.2, 2.795}, {1.2, 3.8, 2.795}, {5.8, 1.2, 2.795}, {5.8, 3.8, 2.795}};
+  const std::vector<Eigen::Vector3d> panels = {
+      {1.2, 1.2, 2.795}, {1.2, 3.8, 2.795}, {5.8, 1.2, 2.795}, {5.8, 3.8, 2.795}};
   for (size_t i = 0; i < panels.size(); ++i) {
     Luminaire& panel = luminaires[1 + i];
     panel.id = "D" + std::to_string(i + 1);
@@ -100,7 +101,8 @@ std::vector<Eigen::VectorXd> Dimming() {
 }
 
 std::vector<Eigen::Vector3d> Eyes() {
-  return {{0.4, 0.4, 1.6}, {6.6, 0.4, 1.7}, {6.6, 4.6, 1.5}, {0.4, 4.6, 1.6}, {3.5, 0.3, 1.7}, {3.5, 4.7, 1.6}};
+  return {{0.4, 0.4, 1.6}, {6.6, 0.4, 1.7}, {6.6, 4.6, 1.5},
+          {0.4, 4.6, 1.6}, {3.5, 0.3, 1.7}, {3.5, 4.7, 1.6}};
 }
 
 struct Seen {
@@ -109,10 +111,11 @@ struct Seen {
 };
 
 // Returns what the eye sees where the mesh has the point; nothing where the mesh itself hides it.
-std::optional<Seen> SeenAt(const Room& room, const Scene& truth, const RayScene& rays, const Eigen::Vector3d& eye,
-                           const Element& element) {
+std::optional<Seen> SeenAt(const Room& room, const Scene& truth, const RayScene& rays,
+                           const Eigen::Vector3d& eye, const Element& element) {
   const Eigen::Vector3d point = LiftedOff(element.center, element.normal);
-  if ((eye - point).dot(element.normal) <= 0.1 * (eye - point).norm() || room.rays.Occluded(eye, point)) return {};
+  if ((eye - point).dot(element.normal) <= 0.1 * (eye - point).norm() || room.rays.Occluded(eye, point))
+    return {};
   const RayHit hit = rays.Trace(eye, element.center - eye);
   if (hit.facet < 0 || !hit.front) return {};
   const Facet& facet = truth.facets[static_cast<size_t>(hit.facet)];
@@ -120,7 +123,8 @@ std::optional<Seen> SeenAt(const Room& room, const Scene& truth, const RayScene&
               TrueAlbedo()[facet.material]};
 }
 
-SeenPlace Place(const Eigen::Vector3d& at, double sigma_m, double area_m2, std::vector<int> states, int views) {
+SeenPlace Place(const Eigen::Vector3d& at, double sigma_m, double area_m2, std::vector<int> states,
+                int views) {
   SeenPlace place;
   place.position = at;
   place.sigma_m = sigma_m;
@@ -142,7 +146,8 @@ void AddPlaces(std::mt19937_64& rng, RoomObservations& given) {
   given.seen.push_back(Place({3.9, 2.7, 0.735}, 0.01, 0.03, {0, 4}, 4));
   given.seen.push_back(Place(truth[0].position + off(0.06), 0.06, 0.24, {0, 4}, 5));
   for (int k = 1; k < 5; ++k)
-    given.seen.push_back(Place(truth[static_cast<size_t>(k)].position + off(0.02), 0.02, 0.37, {k < 3 ? 1 : 2, 4}, 3));
+    given.seen.push_back(
+        Place(truth[static_cast<size_t>(k)].position + off(0.02), 0.02, 0.37, {k < 3 ? 1 : 2, 4}, 3));
   given.seen.push_back(Place({2.4, 4.99, 1.9}, 0.02, 0.4, {3, 4}, 3));
   given.seen.push_back(Place({2.0, 2.0, 0.72}, 0.03, 0.02, {2, 4}, 3));
 }
@@ -152,7 +157,8 @@ void AddOutlines(RoomObservations& given) {
   for (int k = 0; k < 5; ++k) {
     const int state = k == 0 ? 0 : k < 3 ? 1 : 2;
     for (int v = 0; v < 4; ++v)
-      given.outlines.push_back(support::OutlineFrom(Eyes()[static_cast<size_t>(v)], truth[static_cast<size_t>(k)], {v, state}));
+      given.outlines.push_back(
+          support::OutlineFrom(Eyes()[static_cast<size_t>(v)], truth[static_cast<size_t>(k)], {v, state}));
   }
 }
 
@@ -178,7 +184,8 @@ RoomObservations Observe(const Room& room) {
   LightTracerOptions options;
   options.paths_per_sensor = 1024;
   options.replicates = 8;
-  const TracedIlluminance lx = TraceIlluminance(truth, rays, TrueLuminaires(), TrueAlbedo(), sensors, options);
+  const TracedIlluminance lx =
+      TraceIlluminance(truth, rays, TrueLuminaires(), TrueAlbedo(), sensors, options);
   RoomObservations given;
   given.dimming = Dimming();
   std::mt19937_64 rng(11);
@@ -205,43 +212,52 @@ RoomObservations Observe(const Room& room) {
   for (const double y : {0.6, 2.5, 4.4})
     for (const double x : {0.8, 3.2, 6.1}) places.push_back({{x, y, 0.75}, {0, 0, 1}, {}});
   options.paths_per_sensor = 32768;
-  const TracedIlluminance read = TraceIlluminance(truth, rays, TrueLuminaires(), TrueAlbedo(), places, options);
+  const TracedIlluminance read =
+      TraceIlluminance(truth, rays, TrueLuminaires(), TrueAlbedo(), places, options);
   const Eigen::VectorXd read_lx = (read.direct + read.indirect) * given.dimming.back();
   for (size_t i = 0; i < places.size(); ++i) {
-    given.meter.readings.push_back(
-        {places[i], 4, read_lx[static_cast<Eigen::Index>(i)] * (1 + kReadingNoise * normal(rng)), 0, i == 0, -1});
+    given.meter.readings.push_back({places[i], 4,
+                                    read_lx[static_cast<Eigen::Index>(i)] * (1 + kReadingNoise * normal(rng)),
+                                    0, i == 0, -1});
   }
   AddPlaces(rng, given);
   AddOutlines(given);
   return given;
 }
 
+// Returns which luminaire of a fit stands for the true one: those of one switch are interchangeable.
+const Luminaire& NearestOf(const std::vector<Luminaire>& found, int first, int count,
+                           const Luminaire& truth) {
+  return *std::min_element(
+      found.begin() + first, found.begin() + first + count, [&](const Luminaire& a, const Luminaire& b) {
+        return (a.position - truth.position).norm() < (b.position - truth.position).norm();
+      });
+}
+
+// Measured: pendant and panels 0.6 mm at worst (their outlines are exact), fluxes +2.5 to +6.4 %, washers 100 mm. The
+// mesh lacks the chairs, so that all fluxes are too large. Only their own light tells where the washers are.
 TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   RoomOptions options;
   options.patches.patch_size_m = 0.4;
   options.patches.element_size_m = 0.125;
   const Room room = MakeRoom(MeshOfRoom(), options);
-  const RoomObservations given = Observe(room);
-  FitRoomOptions fit_options;
-  const auto begin = std::chrono::steady_clock::now();
-  fit_options.on_step = [&](const std::string& step, const std::string& words) -> std::shared_ptr<void> {
-    std::printf("%.1f s %s %s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), step.c_str(), words.c_str()); fflush(stdout);
-    return nullptr; };
-  fit_options.on_round = [&](const FitRound& r) { std::printf("%.1f s round %d\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), r.round); fflush(stdout);};
-  const RoomFit fit = FitRoom(room, given, fit_options);
+  const RoomFit fit = FitRoom(room, Observe(room));
   ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
-  for (const Choice& c : fit.findings.choices)
-    if (c.what.rfind("first guess", 0) == 0 || c.what.rfind("aim", 0) == 0 || c.what.rfind("places", 0) == 0) std::printf("  %s: %s: %s\n", c.what.c_str(), c.chosen.c_str(), c.because.c_str());
-  for (const Warning& w : fit.findings.warnings) std::printf("  %s: %s\n", w.code.c_str(), w.message.c_str());
   const std::vector<Luminaire> truth = TrueLuminaires();
+  const int first_of_switch[] = {0, 1, 1, 3, 3, 5, 5};
   for (size_t k = 0; k < truth.size(); ++k) {
-    const Luminaire& found = fit.fit.state.luminaires[k];
+    const bool is_shown = k < 5;
+    const Luminaire& found =
+        NearestOf(fit.fit.state.luminaires, first_of_switch[k], k == 0 ? 1 : 2, truth[k]);
     const double off_mm = 1000 * (found.position - truth[k].position).norm();
     const double off_percent = 100 * (found.flux_lm / truth[k].flux_lm - 1);
-    std::printf("  %s off by %6.1f mm, flux %+6.2f %%, %s %s %.2f x %.2f, aim %.2f %.2f %.2f\n", truth[k].id.c_str(), off_mm,
-                off_percent, ToString(found.distribution).c_str(), ToString(found.shape).c_str(), found.size_m[0],
-                found.size_m[1], found.aim.x(), found.aim.y(), found.aim.z());
+    std::printf("  %s off by %6.1f mm, flux %+6.2f %%\n", truth[k].id.c_str(), off_mm, off_percent);
+    EXPECT_LT(off_mm, is_shown ? 0.9 : 150) << truth[k].id;
+    EXPECT_LT(std::abs(off_percent), 9.5) << truth[k].id;
   }
+  const auto disagree = std::count_if(fit.findings.warnings.begin(), fit.findings.warnings.end(),
+                                      [](const Warning& w) { return w.code == "starts_disagree"; });
+  EXPECT_EQ(disagree, 2) << "both washers may hang elsewhere, and the fit says so";
 }
 
 }  // namespace
