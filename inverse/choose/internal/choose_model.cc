@@ -365,12 +365,22 @@ ChosenType ChooseType(const Room& room, const LightData& data, const LightState&
   return chosen;
 }
 
+// Lets a Lambertian lobe be narrower or wider: of luminaires of two kinds the mean may be Lambertian, and neither kind.
+void FreeLobe(Luminaire& luminaire, FreeQuantities& free) {
+  if (luminaire.distribution != Distribution::kLambertian) return;
+  luminaire.distribution = Distribution::kCosinePower;
+  luminaire.cosine_exponent = 1;
+  free.exponent = true;
+}
+
 // Fits the luminaires of a type, as chosen, each with numbers of its own: from where the type ended, and from where it
 // started, for luminaires of two kinds may have led it astray. Returns the better.
 FittedModel Untied(const Room& room, const SubProblem& problem, const FittedCandidate& type) {
   LightState ended = problem.state;
   TakeOver(type, ended, problem.members);
   ended.first_of_type.clear();
+  for (const int k : problem.members)
+    FreeLobe(ended.luminaires[static_cast<size_t>(k)], ended.free[static_cast<size_t>(k)]);
   LightState started = ended;
   for (const int k : problem.members) {
     const auto member = static_cast<size_t>(k);
