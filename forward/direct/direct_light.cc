@@ -14,20 +14,22 @@
 namespace luxfit {
 namespace {
 
+ConvexPolygon PolygonOf(const LuminousSurface& rectangle) {
+  return MakePolygon(rectangle.PointOf({-0.5, -0.5}), rectangle.sides()[0] * rectangle.axes().along,
+                     rectangle.sides()[1] * rectangle.axes().across, FacetKind::kParallelogram);
+}
+
 // Returns E = pi L F, L = Phi / (pi A), with F in closed form.
 DirectIlluminance LambertianRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
                                       const Eigen::Vector3d& normal) {
-  const Eigen::Vector2d& sides = surface.sides();
-  const Eigen::Vector3d u = sides[0] * surface.axes().along, v = sides[1] * surface.axes().across;
-  const PolygonGradient factor = PointToPolygonGradient(
-      p, normal, MakePolygon(surface.PointOf({-0.5, -0.5}), u, v, FacetKind::kParallelogram));
+  const PolygonGradient factor = PointToPolygonGradient(p, normal, PolygonOf(surface));
   const double area = surface.area_m2();
   DirectIlluminance sum;
   sum.lx_per_lm = factor.factor / area;
   const Eigen::Vector2d corners[4] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
   // A Lambertian lobe adds nothing of its own to a turn: it is the cosine of the surface.
   for (size_t k = 0; k < 4; ++k) surface.AddMotion(corners[k], factor.d_vertex[k] / area, sum);
-  sum.d_size -= sum.lx_per_lm * sides.cwiseInverse();
+  sum.d_size -= sum.lx_per_lm * surface.sides().cwiseInverse();
   return sum;
 }
 
@@ -100,15 +102,6 @@ double LxSummedOverSurface(const LuminousSurface& surface, const Eigen::Vector3d
   return lx;
 }
 
-double LxOfRectangle(const LuminousSurface& surface, const Eigen::Vector3d& p,
-                     const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d u = surface.sides()[0] * surface.axes().along,
-                        v = surface.sides()[1] * surface.axes().across;
-  return PointToPolygon(p, normal,
-                        MakePolygon(surface.PointOf({-0.5, -0.5}), u, v, FacetKind::kParallelogram)) /
-         surface.area_m2();
-}
-
 }  // namespace
 
 double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
@@ -116,8 +109,8 @@ double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_
   if (HasUnevenEmission(luminaire)) return DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
   const LuminousSurface surface(luminaire);
   if (!HasClosedForm(surface, p_in_world)) return LxSummedOverSurface(surface, p_in_world, normal);
-  return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal).lx_per_lm
-                           : LxOfRectangle(surface, p_in_world, normal);
+  if (surface.is_disc()) return LambertianDisc(surface, p_in_world, normal).lx_per_lm;
+  return PointToPolygon(p_in_world, normal, PolygonOf(surface)) / surface.area_m2();
 }
 
 DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,

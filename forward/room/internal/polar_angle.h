@@ -24,7 +24,7 @@ inline double PolarAngle(double sine, double cosine) {
   const double numerator = is_steep ? size : sine, denominator = is_steep ? sine : size;
   if (!(denominator > 0) || std::isnan(numerator)) return std::atan2(sine, cosine);
   const double t = numerator / denominator;
-  const auto nearest = static_cast<size_t>(8 * t + 0.5);
+  const auto nearest = static_cast<size_t>(std::lround(8 * t));
   const double c = static_cast<double>(nearest) / 8;
   const double d = (t - c) / (1 + t * c), d2 = d * d;
   const double rest = d * (1 - d2 * (1.0 / 3 - d2 * (1.0 / 5 - d2 * (1.0 / 7 - d2 / 9))));

@@ -121,8 +121,8 @@ class GroupSearch {
 
   Eigen::MatrixXd Columns() const { return Others(sources_.size()); }
   GroupEquations::Solution Solve() const { return equations_.Solve(Columns()).solution; }
-  // Returns the sources' columns on other rows, or on the same ones with other weights.
-  Eigen::MatrixXd ColumnsIn(const GroupEquations& others) const {
+  // Returns the mean square that the sources leave of other rows, or of the same ones with other weights.
+  double MeanSquareIn(const GroupEquations& others) const {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(others.rows().size()),
                             static_cast<Eigen::Index>(sources_.size()));
     for (size_t j = 0; j < sources_.size(); ++j) {
@@ -130,10 +130,7 @@ class GroupSearch {
       columns.col(static_cast<Eigen::Index>(j)) =
           LobeColumns(others.Weighted(here.light[0]), {sources_[j].lobe}).cast<double>();
     }
-    return columns;
-  }
-  double MeanSquareIn(const GroupEquations& others) const {
-    return others.Solve(ColumnsIn(others)).solution.cost / static_cast<double>(others.rows().size());
+    return others.Solve(columns).solution.cost / static_cast<double>(others.rows().size());
   }
   const std::vector<Tried>& sources() const { return sources_; }
   bool is_held(size_t source) const { return kind_[source].is_held; }
@@ -314,6 +311,7 @@ class GroupFinder {
   SparseLuminaires Run(const std::vector<SparseSource>& start, const std::vector<SeenPosition>& seen) {
     if (seen.empty()) return WithRivals(BestLobes(start, grid_(), refinements_));
     std::vector<Eigen::Vector3d> positions;
+    positions.reserve(seen.size());
     for (const SeenPosition& place : seen) positions.push_back(place.position);
     at_seen_ = Lit(room_, sensors_, positions);
     SparseRun alone = BestLobes(start, {}, 0);
