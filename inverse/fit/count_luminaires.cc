@@ -59,7 +59,7 @@ void Record(const CountChoice& choice, int most, Findings& findings) {
 
 int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
                     const std::function<std::string()>& stop_reason) {
-  LightData data = LightOf(given).data;
+  LightData data = LightOf(room, given).data;
   if (!data.observations.empty()) data = WithMeasuredIndirect(room, data);
   std::atomic<int> rounds = 0;
   data.checkpoint = CheckpointOf(stop_reason, rounds);

@@ -34,6 +34,7 @@
 #include "inverse/fit/internal/start.h"
 #include "inverse/fit/internal/surface_texture.h"
 #include "inverse/fit/internal/type_fluxes.h"
+#include "inverse/fit/internal/unmodelled.h"
 #include "inverse/fit/internal/words.h"
 #include "inverse/model/internal/measured_indirect.h"
 
@@ -44,7 +45,8 @@ namespace {
 class RoomFitter {
  public:
   RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
-      : room_(room), given_(given), options_(options), light_(LightOf(given)) {
+      : room_(room), given_(given), options_(options), light_(LightOf(room, given)) {
+    RecordLabels(room, light_.labels, result_.findings);
     RecordBetweenViews(light_, result_.findings);
     RecordReadings(given.meter, light_, result_.findings);
     result_.data = light_.data;

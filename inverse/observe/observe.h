@@ -92,6 +92,9 @@ struct BetweenViews {
   bool is_estimated = false;  // false: fewer than 30 groups, too few for s within a quarter
 };
 
+// Registration and the size of elements leave errors that views share, which their differences do not show. Relative.
+constexpr double kLeastBetweenViews = 0.01;
+
 struct MergeViewsOptions {
   std::optional<double> relative_sigma;  // s; not given: EstimateBetweenViews
   double outlier_sigmas = 4;

@@ -133,12 +133,18 @@ class Refiner {
     return Judged(std::move(step));
   }
 
+  // Returns what a step must gain, as a share of the best score. Errors of the mesh that repeat from surface to surface
+  // look like uneven emission. A table is one for all directions, and views of what the mesh lacks are left out.
+  static double WorthHaving(RefinementKind kind) {
+    return kind == RefinementKind::kTable ? 0 : kWorthHaving;
+  }
+
   // Returns whether a few steps towards the refinement gain half of what it must gain to be taken: shares of light are
   // nearly linear, so these steps bring most of it.
-  bool MayGain(const FittedModel& screened) const {
+  bool MayGain(RefinementKind kind, const FittedModel& screened) const {
     const std::vector<GroupScores> scores = ScoreTogether(problem_, {&held_.left_out, &screened.left_out});
-    const double needed =
-        std::max(Difference(scores[0], scores[1]).standard_error, kWorthHaving * Mean(scores[1]));
+    const double needed = std::max(Difference(scores[0], scores[1]).standard_error,
+                                   WorthHaving(kind) * Mean(scores[1]));
     return Mean(scores[0]) - Mean(scores[1]) > needed / 2;
   }
 
@@ -156,31 +162,41 @@ class Refiner {
       for (const double sigma : {0.03, 0.3}) {
         free.table_sigma = sigma;
         FittedModel screened = Screened(WithTable(held_.luminaire, nodes), free);
-        may_gain = may_gain || MayGain(screened);
+        may_gain = may_gain || MayGain(RefinementKind::kTable, screened);
         step.candidates.push_back(
             {fmt::format("table, smoothness {:g}, a few steps", sigma), std::move(screened)});
       }
       if (!may_gain) return Judged(std::move(step));
       step.candidates.resize(1);
     }
-    std::vector<LuminaireShape> shapes{held_.luminaire.shape};
+    AddTables(held_.luminaire.shape, nodes, step.candidates);
     const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
-    if (may_be_point && !open_.table_asked_for) shapes.push_back(LuminaireShape::kPoint);
-    for (const LuminaireShape shape : shapes) {
-      Luminaire start = WithTable(held_.luminaire, nodes);
-      FreeQuantities free = held_.free;
-      start.shape = shape;
-      free.size = free.size && shape != LuminaireShape::kPoint;
-      free.exponent = free.sides = false;
-      for (const double sigma : {0.01, 0.03, 0.1, 0.3}) {
-        free.table_sigma = sigma;
-        FittedModel fitted = Fit(start, free);
-        start = fitted.luminaire;  // the next, freer candidate starts from here
-        step.candidates.push_back(
-            {fmt::format("table {}, smoothness {:g}", ToString(shape), sigma), std::move(fitted)});
-      }
-    }
+    if (may_be_point && !open_.table_asked_for) AddTables(LuminaireShape::kPoint, nodes, step.candidates);
     return Judged(std::move(step));
+  }
+
+  // Adds tables from the stiffest to the softest, until a softer one is no better, or the first has less than the lobe
+  // by more than a standard error: the shape is wrong then, and no table makes up for it.
+  void AddTables(LuminaireShape shape, const std::vector<double>& nodes,
+                 std::vector<RefinedCandidate>& candidates) const {
+    Luminaire start = WithTable(held_.luminaire, nodes);
+    FreeQuantities free = held_.free;
+    start.shape = shape;
+    free.size = free.size && shape != LuminaireShape::kPoint;
+    free.exponent = free.sides = false;
+    const size_t first = candidates.size();
+    for (const double sigma : {0.01, 0.03, 0.1, 0.3}) {
+      free.table_sigma = sigma;
+      FittedModel fitted = Fit(start, free);
+      start = fitted.luminaire;  // the next, freer candidate starts from here
+      candidates.push_back({fmt::format("table {}, smoothness {:g}", ToString(shape), sigma), std::move(fitted)});
+      const std::vector<GroupScores> scores = Scores(candidates);
+      const bool is_first = candidates.size() == first + 1;
+      if (is_first && open_.table_asked_for) continue;
+      const GroupScores& before = is_first ? scores.front() : scores[scores.size() - 2];
+      const PairedDifference worse = Difference(scores.back(), before);
+      if (worse.mean > (is_first ? worse.standard_error : 0)) break;
+    }
   }
 
   Step EmissionStep() const {
@@ -188,7 +204,7 @@ class Refiner {
     FreeQuantities free = held_.free;
     free.emission_sigma = 1;
     FittedModel screened = Screened(WithCells(3), free);
-    if (!MayGain(screened)) {
+    if (!MayGain(RefinementKind::kEmission, screened)) {
       step.candidates.push_back({"3 x 3 cells, a few steps", std::move(screened)});
       return Judged(std::move(step));
     }
@@ -231,8 +247,7 @@ class Refiner {
     selectable[0].is_eligible = !(open_.table_asked_for && step.kind == RefinementKind::kTable);
     SelectionOptions options;
     options.keeps_first = true;
-    // Furniture that the mesh lacks, or a shiny floor, is in all that is left out: nodes and cells absorb it.
-    options.worth_having = kWorthHaving;
+    options.worth_having = WorthHaving(step.kind);
     Selection selection = SimplestWithinOneStandardError(selectable, options);
     step.gain = selection.score[0] - selection.score[selection.best];
     step.standard_error = selection.standard_error[0];

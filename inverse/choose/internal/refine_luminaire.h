@@ -10,12 +10,14 @@
 //
 // Each candidate is fitted to the data that concern the luminaire and scored by cross-validation
 // (inverse/choose/internal/left_out.h). Each step keeps the candidate with the fewest effective parameters
-// within one standard error of the best, or within a quarter of its score: nodes and cells absorb what the mesh
-// lacks, and predict what is left out of it. The step is taken only if it lowers the score by more than that.
+// within one standard error of the best. Aims and cells must gain a quarter of the score, too: they absorb what the mesh
+// lacks, and predict what is left out of it. A table is one for all directions, and views of what the mesh lacks take no
+// part (inverse/observe/surface_labels.h). The step is taken only if it lowers the score by more than that.
 //
 // Table and emission are tried only where the model error is above 1 %: a luxmeter could not show a
 // smaller effect. A few steps towards one table or emission come first: where they gain less than half of what must be
-// gained, the other candidates are not fitted. All headings have as many parameters, so the lowest score alone chooses.
+// gained, the other candidates are not fitted. Tables end where a softer one is no better. All headings have as many
+// parameters, so the lowest score alone chooses.
 //
 // Sources: Breiman, Friedman, Olshen, Stone (1984), sec. 3.4 (one-standard-error rule); Eilers and Marx
 // (1996) (smoothness by differences).

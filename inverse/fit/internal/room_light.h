@@ -1,6 +1,6 @@
 // Turns the observations of a room into data of the light model: rows, their sigmas and the meter's priors.
 //
-// Views of one element are merged (inverse/observe/observe.h). Where the meter's class is given, its calibration is
+// Views of one element that show the element are merged (inverse/observe/surface_labels.h, observe.h). Where the meter's class is given, its calibration is
 // one scale with a prior, shared by all readings. Units: lx, relative luminance.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_ROOM_LIGHT_H_
@@ -12,12 +12,14 @@
 #include "inverse/fit/room_observations.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/observe/observe.h"
+#include "inverse/observe/surface_labels.h"
 
 namespace luxfit {
 
 struct RoomLight {
   LightData data;                      // views of one element merged
   BetweenViews between_views;          // error of each view that they were merged with
+  SurfaceLabels labels;                // which views show something else
   std::vector<ParameterPrior> priors;  // for the meter's calibration and its sensors' gains
   bool meter_scale_free = false;       // true: the calibration is one common scale factor
   Eigen::VectorXd sensor_gain;         // starting values, one for each named sensor
@@ -25,7 +27,7 @@ struct RoomLight {
   int used_readings = 0;  // for the fit or the scale
 };
 
-RoomLight LightOf(const RoomObservations& given);
+RoomLight LightOf(const Room& room, const RoomObservations& given);
 
 // Records in `choices` how much views of one element disagree beyond noise.
 void RecordBetweenViews(const RoomLight& light, Findings& findings);

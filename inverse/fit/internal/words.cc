@@ -204,10 +204,11 @@ void RecordRefinement(const RoomObservations& given, const Refinement& step, Fin
     if (step.effective_parameters[i] > 1)
       scores += fmt::format(" ({:.1f} effective parameters)", step.effective_parameters[i]);
   }
-  const bool is_heading = step.kind == RefinementKind::kHeading;
-  const std::string rule = is_heading ? "the best"
-                                      : "the fewest effective parameters within one standard error of the "
-                                        "best, or within a quarter of it,";
+  std::string rule = "the best";
+  if (step.kind != RefinementKind::kHeading)
+    rule = "the fewest effective parameters within one standard error of the best";
+  if (step.kind == RefinementKind::kAim || step.kind == RefinementKind::kEmission)
+    rule += ", or within a quarter of it,";
   findings.choices.push_back(
       {NameOf(step.kind) + " of " + id, step.among[static_cast<size_t>(step.chosen)], step.among,
        fmt::format("{} on what was left out (mean squared normalised error: {}; standard error of the best "

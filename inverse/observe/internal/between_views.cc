@@ -5,20 +5,16 @@
 #include <map>
 #include <utility>
 
+#include "inverse/observe/internal/pair_scatter.h"
+
 namespace luxfit {
 namespace {
 
 constexpr size_t kLeastGroups = 30;
-constexpr double kLeastBetweenViews = 1e-3;
+constexpr double kLeastEstimate = 1e-3;
 constexpr size_t kMostViewPairs = 400'000;  // they tell s within 1 %
 
 using ViewGroup = std::vector<Observation>;  // views of one element in one state
-
-struct ViewPair {
-  double squared_difference = 0;  // relative
-  double noise_variance = 0;      // of the relative difference
-  double weight = 0;
-};
 
 // Returns the groups that at least two different views show.
 std::vector<ViewGroup> SharedGroups(const std::vector<Observation>& observations) {
@@ -36,7 +32,7 @@ std::vector<ViewGroup> SharedGroups(const std::vector<Observation>& observations
   return shared;
 }
 
-void AddPairs(const ViewGroup& group, std::vector<ViewPair>& pairs) {
+void AddPairs(const ViewGroup& group, std::vector<ScatterPair>& pairs) {
   for (size_t a = 0; a < group.size(); ++a) {
     for (size_t b = 0; b < a; ++b) {
       if (group[a].view == group[b].view) continue;  // two photos of one pose share its errors
@@ -49,27 +45,14 @@ void AddPairs(const ViewGroup& group, std::vector<ViewPair>& pairs) {
 }
 
 // Returns the pairs of evenly taken groups, at most about kMostViewPairs.
-std::vector<ViewPair> PairsOf(const std::vector<ViewGroup>& groups) {
+std::vector<ScatterPair> PairsOf(const std::vector<ViewGroup>& groups) {
   size_t all = 0;
   for (const ViewGroup& group : groups) all += group.size() * (group.size() - 1) / 2;
   const size_t stride = 1 + all / kMostViewPairs;
-  std::vector<ViewPair> pairs;
+  std::vector<ScatterPair> pairs;
   pairs.reserve(std::min(all, 2 * kMostViewPairs));
   for (size_t g = 0; g < groups.size(); g += stride) AddPairs(groups[g], pairs);
   return pairs;
-}
-
-// Returns whether s is at least the one whose pairs are spread as a Gaussian's.
-bool IsWideEnough(const std::vector<ViewPair>& pairs, double s) {
-  constexpr double kInner = 0.6745, kOuter = 2.5;  // half and 98.76 % of a Gaussian
-  constexpr double kInnerShare = 0.5 / 0.98758;
-  double inner = 0, outer = 0;
-  for (const ViewPair& pair : pairs) {
-    const double variance = pair.noise_variance + 2 * s * s;
-    if (pair.squared_difference <= kInner * kInner * variance) inner += pair.weight;
-    if (pair.squared_difference <= kOuter * kOuter * variance) outer += pair.weight;
-  }
-  return outer > 0 && inner >= kInnerShare * outer;
 }
 
 }  // namespace
@@ -79,15 +62,7 @@ BetweenViews EstimateBetweenViews(const std::vector<Observation>& observations) 
   BetweenViews found;
   found.groups = static_cast<int>(groups.size());
   if (groups.size() < kLeastGroups) return found;
-  const std::vector<ViewPair> pairs = PairsOf(groups);
-  // Halving comes from above, where all pairs lie within the limits. Far below the solution few do, and by
-  // chance.
-  double low = 0, high = 1;
-  for (int i = 0; i < 24; ++i) {
-    const double middle = 0.5 * (low + high);
-    (IsWideEnough(pairs, middle) ? high : low) = middle;
-  }
-  found.relative_sigma = std::max(kLeastBetweenViews, high);
+  found.relative_sigma = std::max(kLeastEstimate, ComponentOf(PairsOf(groups)));
   found.is_estimated = true;
   return found;
 }

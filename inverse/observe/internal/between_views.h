@@ -3,19 +3,16 @@
 //   y_v = mu (1 + s e_v) + noise_v                    e_v ~ N(0, 1), var noise_v = n_v
 //   d_ab = 2 (y_a - y_b) / (y_a + y_b)                relative difference of a pair of views
 //   sigma_ab^2 = 2 s^2 + 4 (n_a + n_b) / (y_a + y_b)^2
-//   share(|d_ab| < 0.6745 sigma_ab) / share(|d_ab| < 2.5 sigma_ab) = 0.5 / 0.9876     the largest s that solves this
+//   s: inverse/observe/internal/pair_scatter.h
 //
 // y_v: relative luminance of one element in one state. s is the relative variance component between views:
-// registration, vignetting, gloss, interpolation within the element. The shares run over all pairs of
+// registration, vignetting, gloss, interpolation within the element. It is taken over all pairs of
 // different views of an element and state; a pair of m views weighs 2 / m, so that m views count as their m -
 // 1 degrees of freedom.
 //
-// Differences of pairs need no centre, so groups of all sizes have one distribution. Pairs beyond 2.5 sigma
-// count nowhere: gross outliers (occluders that the mesh lacks, highlights) bias s little as long as they are
-// fewer than half of all pairs. Errors that all views of an element share are not seen; the fit's model error
-// holds those. Source: Searle, Casella, McCulloch (1992), Variance Components, for the model; Rousseeuw and
-// Croux (1993), Alternatives to the Median Absolute Deviation, for scales of pairwise differences. The limit
-// at 2.5 sigma is the house's.
+// Differences of pairs need no centre, so groups of all sizes have one distribution. Errors that all views of
+// an element share are not seen; the fit's model error holds those. Source: Searle, Casella, McCulloch (1992),
+// Variance Components, for the model.
 #ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_BETWEEN_VIEWS_H_
 #define LUXFIT_INVERSE_OBSERVE_INTERNAL_BETWEEN_VIEWS_H_
 

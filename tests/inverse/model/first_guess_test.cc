@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "forward/light/light_tracer.h"
+#include "forward/luminaire/luminaire_parts.h"
 #include "inverse/model/internal/measured_indirect.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/inverse/cube_photos.h"
@@ -253,6 +255,19 @@ TEST_F(GuessInCube, PlacesThatAreNoLuminairesDoNotLeadAstray) {
     EXPECT_TRUE(guess.luminaires[0].was_searched);
     EXPECT_EQ(guess.luminaires[0].position, alone.luminaires.at(0).position) << wrong.transpose();
   }
+}
+
+// Two luminaires at one place, one aimed up and one down, explain a pendant's light. Of two that are on together, a place
+// that photos show is one.
+TEST_F(GuessInCube, OnePlaceThatIsSeenIsOneLuminaire) {
+  Luminaire pendant = lamp_;
+  pendant.distribution = Distribution::kMeasured;
+  pendant.table = std::make_shared<IntensityTable>(TwoSidedTable(0.3));
+  LightData data = TracedPhotos(*cube_, pendant, kRho);
+  data.dimming = {Eigen::VectorXd::Ones(2)};
+  const FirstGuess guess = GuessLuminaires(*cube_, data, {}, {SeenAt(pendant.position)});
+  ASSERT_EQ(guess.luminaires.size(), 2u);
+  EXPECT_FALSE(guess.luminaires[0].seen && guess.luminaires[1].seen);
 }
 
 TEST_F(GuessInCube, WhatIsBrightWithoutALuminaireIsNotIt) {

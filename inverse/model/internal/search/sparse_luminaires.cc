@@ -81,7 +81,11 @@ class GroupSearch {
     const Eigen::MatrixXd rest = Others(sources_.size());
     const double before = equations_.Solve(rest).solution.cost;
     std::vector<Tried> lobes = RefinedBins(trials_.BestOfBins(lobes_, rest, grid), rest);
-    for (Tried& at_seen : trials_.BestOfBins(lobes_, rest, seen))
+    // One place that photos show is one luminaire.
+    const auto is_free = [&](const Eigen::Vector3d& p) {
+      return std::none_of(sources_.begin(), sources_.end(), [&](const Tried& t) { return t.position == p; });
+    };
+    for (Tried& at_seen : trials_.BestOfBins(lobes_, rest, seen, is_free))
       lobes.push_back(TurnedInPlace(at_seen, rest));
     const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
     if (best == lobes.end() || !(best->cost < before)) return false;
