@@ -262,7 +262,7 @@ class RoomFitter {
     for (const Refinement& r : choice.refinements) RecordRefinement(given_, r, result_.findings);
     for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, Priors()))
       WarnOfContradiction(given_, c, result_.findings);
-    return choice.state;
+    return WithSidesAlike(choice.state, open_);
   }
 
   // Compares finer and coarser models at the fitted state. A material that fits as well in grey becomes grey.
@@ -372,7 +372,7 @@ class RoomFitter {
     SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
     RecordNeedless(given_, simplified.needless, result_.findings);
     if (!simplified.needless.empty())
-      fit = FitLuminaires(room_, part, simplified.state, Priors(), OfPart(&fit));
+      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(), OfPart(&fit));
     fit.state = WithoutVanishedSizes(fit.state);
     return fit;
   }

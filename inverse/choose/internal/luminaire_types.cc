@@ -39,6 +39,15 @@ bool HaveOneForm(const Luminaire& a, const Luminaire& b) {
          (!is_turnable || std::abs(AxesOf(a).along.dot(AxesOf(b).along)) > kNearlyAlike);
 }
 
+bool IsTurnableByQuarter(const Luminaire& luminaire, const OpenChoice& open) {
+  return IsOpen(open) && open.heading && luminaire.shape == LuminaireShape::kRectangle &&
+         luminaire.emission.size() == 0 && (!luminaire.table || IsSymmetricAboutAim(*luminaire.table));
+}
+
+double SidesApart(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (a.array() / b.array()).log().abs().sum();
+}
+
 bool IsPlace(LuminaireQuantity quantity) {
   return quantity == LuminaireQuantity::kPositionX || quantity == LuminaireQuantity::kPositionY ||
          quantity == LuminaireQuantity::kPositionZ;
@@ -187,6 +196,28 @@ std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, co
     if (!AreReached(places.places, state, type)) all.push_back(std::move(places));
   }
   return all;
+}
+
+LightState WithSidesAlike(LightState state, const std::vector<OpenChoice>& open) {
+  constexpr double kUnlike = 0.2;  // sum of the sides' logarithmic ratios
+  std::vector<int> earlier;
+  for (const std::vector<int>& type : TypesOf(state)) {
+    const int k = type.front();
+    Luminaire& first = state.luminaires[static_cast<size_t>(k)];
+    if (!IsTurnableByQuarter(first, open[static_cast<size_t>(k)]) || state.free[static_cast<size_t>(k)].heading)
+      continue;
+    const bool is_other_way = std::any_of(earlier.begin(), earlier.end(), [&](int j) {
+      const Eigen::Vector2d& sides = state.luminaires[static_cast<size_t>(j)].size_m;
+      const double as_it_is = SidesApart(first.size_m, sides);
+      return as_it_is > kUnlike && SidesApart(first.size_m.reverse(), sides) < as_it_is / 2;
+    });
+    if (is_other_way) {
+      first.heading = AxesOf(first).across;
+      first.size_m.reverseInPlace();
+    }
+    earlier.push_back(k);
+  }
+  return WithLikeTypes(std::move(state));
 }
 
 TypedState WithMergedTypes(const LuminaireFit& fit, const std::vector<OpenChoice>& open) {

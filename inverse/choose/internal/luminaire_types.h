@@ -32,6 +32,11 @@ LightState WithTypes(LightState state, const std::vector<int>& first_of_type);
 std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, const LightData& data,
                                           const LightState& state);
 
+// Names the sides of rectangles alike: where a type's sides are those of an earlier type the other way round, its
+// heading turns by a quarter and its sides change places, which leaves its light as it is. Only types of `open`
+// distribution, shape and heading whose light is symmetric about the aim.
+LightState WithSidesAlike(LightState state, const std::vector<OpenChoice>& open);
+
 // Holds two types that became one: the first luminaire of each.
 struct MergedTypes {
   int into = 0, merged = 0;

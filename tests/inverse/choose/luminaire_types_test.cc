@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace luxfit {
@@ -109,6 +110,44 @@ TEST_F(LuminaireTypes, AnotherFormStaysApart) {
   fit_.state.luminaires[0].shape = LuminaireShape::kRectangle;
   fit_.state.luminaires[1].distribution = Distribution::kLambertian;
   EXPECT_EQ(Merged(), (std::vector<int>{0, 1, 2}));
+}
+
+// A strip of 1.5 m x 0.1 m along x may be told as 0.1 m x 1.5 m with a heading along y.
+TEST_F(LuminaireTypes, AStripIsTheSameWhicheverSideItsHeadingFollows) {
+  for (size_t k = 0; k < 3; ++k) {
+    fit_.state.luminaires[k].shape = LuminaireShape::kRectangle;
+    fit_.state.luminaires[k].size_m = {1.5, 0.1};
+    open_[k].heading = true;
+  }
+  Luminaire& turned = fit_.state.luminaires[2];
+  turned.size_m = {0.1, 1.5};
+  turned.heading = {0, 1, 0};
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 0, 2}));
+  const LightState named = WithSidesAlike(fit_.state, open_);
+  EXPECT_EQ(named.luminaires[2].size_m, Eigen::Vector2d(1.5, 0.1));
+  EXPECT_NEAR(std::abs(AxesOf(named.luminaires[2]).along.x()), 1, 1e-12);  // double rounding
+  fit_.state = named;
+  EXPECT_EQ(Merged(), (std::vector<int>{0, 0, 0}));
+}
+
+TEST_F(LuminaireTypes, SquaresKeepTheirHeading) {
+  for (size_t k = 0; k < 3; ++k) {
+    fit_.state.luminaires[k].shape = LuminaireShape::kRectangle;
+    fit_.state.luminaires[k].size_m = {0.6 + 0.01 * static_cast<double>(k), 0.61 - 0.01 * static_cast<double>(k)};
+    open_[k].heading = true;
+  }
+  const LightState named = WithSidesAlike(fit_.state, open_);
+  for (size_t k = 0; k < 3; ++k) EXPECT_EQ(named.luminaires[k].heading, fit_.state.luminaires[k].heading);
+}
+
+// What is given is kept as it is given.
+TEST_F(LuminaireTypes, AGivenHeadingIsKept) {
+  for (size_t k = 0; k < 3; ++k) {
+    fit_.state.luminaires[k].shape = LuminaireShape::kRectangle;
+    fit_.state.luminaires[k].size_m = k == 2 ? Eigen::Vector2d(0.1, 1.5) : Eigen::Vector2d(1.5, 0.1);
+    open_[k].heading = k != 2;
+  }
+  EXPECT_EQ(WithSidesAlike(fit_.state, open_).luminaires[2].size_m, Eigen::Vector2d(0.1, 1.5));
 }
 
 TEST_F(LuminaireTypes, WithoutACovarianceNothingIsMerged) {
