@@ -16,7 +16,8 @@ namespace luxfit {
 
 struct GivenLuminaire {
   Luminaire luminaire;                 // shape, size and flux are the session's, else the file's
-  std::optional<PhotometryFile> file;  // where the session names one
+  // Where the session names one. Its light_notes are those on what the session does not give itself.
+  std::optional<PhotometryFile> file;
 };
 GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given);
 
