@@ -9,7 +9,6 @@
 
 #include "forward/light/internal/adaptive_patches.h"
 #include "forward/light/internal/room_again.h"
-#include "forward/room/mesh_check.h"
 
 namespace luxfit {
 namespace {
@@ -34,23 +33,42 @@ std::string Number(double number) {
   return text;
 }
 
-// Returns the size of the first patches: those asked for, or larger ones that can be halved once. Where
-// facets are long and narrow, or many, their number says more than the area.
-double CoarsestPatchM(const Scene& given, const AccuracyOptions& options) {
+// Counts the patches of Subdivide, but for those that solids split, without making them.
+struct PatchCounts {
+  double patches = 0, elements = 0;
+};
+PatchCounts CountPatches(const Scene& scene, const PatchesOptions& sizes) {
+  const auto count = [](double length_m, double size_m) {
+    return std::max(1.0, std::ceil(length_m / size_m));
+  };
+  PatchCounts counts;
+  for (const Facet& facet : scene.facets) {
+    double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
+    if (facet.kind == FacetKind::kTriangle)
+      u_m = v_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
+    const double along_u = count(u_m, sizes.patch_size_m), along_v = count(v_m, sizes.patch_size_m);
+    counts.patches += along_u * along_v;
+    counts.elements += along_u * count(u_m / along_u, sizes.element_size_m) * along_v *
+                       count(v_m / along_v, sizes.element_size_m);
+  }
+  return counts;
+}
+
+// Returns the size of the first patches: those asked for, or larger ones that can be halved once. Where facets are long
+// and narrow, or many, their number says more than the area.
+double CoarsestPatchM(const Scene& scene, const AccuracyOptions& options) {
   double area_m2 = 0;
-  for (const Facet& facet : given.facets) area_m2 += facet.AreaM2();
+  for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
   double size_m = std::max(options.coarsest_patch_m, std::sqrt(16 * area_m2 / options.max_patches));
-  if (given.facets.empty()) return size_m;
-  constexpr double kHalvingGrows = 8, kStep = 1.5;
-  const Scene scene = WithoutOverlaps(given);
-  const RayScene rays(scene);
-  for (size_t before = 0;; size_m *= kStep) {
-    const Patches patches = Subdivide(scene, rays, PatchesOfSize(size_m));
-    const size_t count = patches.patches.size();
-    const double bytes = static_cast<double>(count * patches.elements.size() * sizeof(float));
-    const bool is_as_coarse_as_facets = before > 0 && 10 * count > 9 * before;
-    if (kHalvingGrows * bytes <= options.max_matrix_bytes || is_as_coarse_as_facets) return size_m;
-    before = count;
+  constexpr double kHalvingGrows = 8, kStep = 1.5, kHardlyFewer = 0.9;
+  double before = std::numeric_limits<double>::infinity();
+  for (;; size_m *= kStep) {
+    const PatchCounts counts = CountPatches(scene, PatchesOfSize(size_m));
+    const double bytes = counts.patches * counts.elements * sizeof(float);
+    if (kHalvingGrows * bytes <= options.max_matrix_bytes) return size_m;
+    const double facets = static_cast<double>(scene.facets.size());
+    if (counts.patches > kHardlyFewer * before && counts.patches <= 2 * facets) return size_m;
+    before = counts.patches;
   }
 }
 
