@@ -117,9 +117,7 @@ std::string UnsettledText(const BundleContext& context, const BundleAdjustment& 
   return std::string("the poses did not settle: ") +
          (count > 0 ? std::string("the corners of tags stay ") + rms_px + " px (RMS) off their places; "
                     : "no corner of a tag has a place in the photos; ") +
-         "the intrinsics may be of another lens model, camera or picture size, or the tags hang elsewhere "
-         "than "
-         "the map says";
+         kWhyNothingFits;
 }
 
 }  // namespace
