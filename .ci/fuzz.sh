@@ -1,16 +1,16 @@
 #!/bin/sh
-# Fuzzes the readers of photometric files, meshes, cameras, tables and tag maps over the fixtures, each for some seconds; nothing of the
-# repository is changed.
+# Fuzzes the readers of photometric files, meshes, cameras, tables, tag maps, sessions and areas of a report, and the writer of JSON, over the
+# fixtures, each for some seconds; nothing of the repository is changed.
 #   .ci/fuzz.sh [SECONDS]        default 20
 # What breaks a reader is left in the folder that is named at the end.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 seconds=${1:-20}
 "$root/.ci/setup.sh" clang libclang-rt-14-dev libeigen3-dev libembree-dev libtbb-dev \
-  nlohmann-json3-dev libopencv-dev libmrcal-dev libyaml-cpp-dev libfmt-dev cmake ninja-build
+  nlohmann-json3-dev libopencv-dev libmrcal-dev libyaml-cpp-dev libfmt-dev libtomlplusplus-dev libxxhash-dev libapriltag-dev pkg-config cmake ninja-build
 work=$(mktemp -d)
 cmake -S "$root/tests/fuzz" -B "$work/build" -G Ninja -D CMAKE_CXX_COMPILER=clang++ >"$work/log"
-cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camera_fuzz table_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
+cmake --build "$work/build" --target ies_fuzz ldt_fuzz mesh_fuzz gltf_fuzz camera_fuzz table_fuzz session_fuzz >>"$work/log" || { cat "$work/log"; exit 1; }
 
 mkdir "$work/ies" "$work/ldt" "$work/mesh"
 name_of() { cksum <"$1" | cut -d ' ' -f 1; }
@@ -49,6 +49,13 @@ mkdir "$work/table"
 { printf '\000id,x_m,lux\nL1,1.2,257.6\n"a, b",3,\n'; } >"$work/table/table"
 { printf '\001'; cat "$root/fixtures/office/tags.json"; } >"$work/table/tags"
 
+# 0 is a session, 1 the areas of a report, 2 OpenCV's camera file, 3 texts of a JSON artifact. A session names the files that the target writes.
+mkdir "$work/session"
+{ printf '\000'; cat "$root/tests/fuzz/session_seeds/session.toml"; } >"$work/session/session"
+{ printf '\001'; cat "$root/tests/fuzz/session_seeds/targets.toml"; } >"$work/session/targets"
+{ printf '\002'; cat "$root/fixtures/office/cam0.yaml"; } >"$work/session/camera"
+printf '\003M\374ller\355\240\200/\303\244.png' >"$work/session/names"
+
 # fuzz KIND MAX_BYTES MAX_MB [OPTION ...]
 fuzz() {
   kind=$1 max_bytes=$2 max_mb=$3
@@ -69,5 +76,6 @@ export ASAN_OPTIONS
 fuzz mesh 8192 2048
 fuzz camera 2048 1024
 fuzz table 4096 1024
+fuzz session 4096 1024
 fuzz gltf 4096 2048 -dict="$root/tests/fuzz/gltf.dict"
 rm -r "$work"

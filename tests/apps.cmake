@@ -91,3 +91,7 @@ if(LUXFIT_PYTHON)
   python_test(fit_room_test fast)
   python_test(python_example_test slow)
 endif()
+# 100 of the 700 that tests/validation/mutations.py makes by default.
+add_test(NAME apps/mutations COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/validation/mutations.py $<TARGET_FILE:luxfit>
+         ${PROJECT_SOURCE_DIR}/fixtures 100)
+set_tests_properties(apps/mutations PROPERTIES LABELS slow TIMEOUT 900)

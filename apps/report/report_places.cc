@@ -1,5 +1,6 @@
 #include "apps/report/report_places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -44,11 +45,18 @@ struct ReportPlaces {
   double relative_model_error = 0;
   std::vector<std::string> undetermined;  // parameters of the fit
 };
-// Refines the grid by an odd factor, so that the standard's points are among the fine ones.
+
+// Refines the grid by an odd factor, so that the standard's points are among the fine ones. Closer than 5 cm light
+// hardly differs: small areas, of which there are many, then cost little.
 void Refine(const FittedRoom& fitted, ReportPlane& plane) {
   constexpr Eigen::Index kMaxFinePoints = 800;
-  for (Eigen::Index side = 3; side * side * plane.grid.points.cols() <= kMaxFinePoints; side += 2)
+  constexpr double kFinestM = 0.05;
+  const double step_m = std::min(plane.plane.edge_u.norm() / plane.grid.count_u,
+                                 plane.plane.edge_v.norm() / plane.grid.count_v);
+  for (Eigen::Index side = 3; side * side * plane.grid.points.cols() <= kMaxFinePoints; side += 2) {
+    if (step_m < kFinestM * static_cast<double>(side)) break;
     plane.refined = static_cast<int>(side);
+  }
   plane.fine_grid =
       GridOf(plane.plane, plane.refined * plane.grid.count_u, plane.refined * plane.grid.count_v);
   plane.fine_kinds = ClassifyPoints(fitted.room, plane.fine_grid, plane.area.polygon_m, !plane.area.plane);

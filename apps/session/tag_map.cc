@@ -133,14 +133,31 @@ SurveyedTag ReadEntry(const TagEntry& entry) {
   return tag;
 }
 
+// Returns the line of a byte without the blanks at its ends, cut to 60 bytes of whole characters. The parser's own words
+// cut characters apart.
+std::string LineAround(const std::string& text, size_t at) {
+  const size_t before = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  size_t first = before == std::string::npos ? 0 : before + 1;
+  const size_t end = std::min(text.find('\n', first), text.size());
+  while (first < end && (text[first] == ' ' || text[first] == '\t')) ++first;
+  size_t last = std::min(end, first + 60);
+  const auto continues = [&](size_t i) {
+    return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80;
+  };
+  while (last > first && continues(last)) --last;
+  return text.substr(first, last - first);
+}
+
 Json ParseText(const std::string& path, const std::string& text) {
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
-    const int line = LineOf(text, error.byte > 0 ? error.byte - 1 : 0);
-    throw InputError({path, line}, "",
-                     std::string("expected valid JSON, got ") + error.what() +
+    const size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+    throw InputError({path, LineOf(text, at)}, "",
+                     "expected valid JSON, got " + Quoted(LineAround(text, at)) +
                          "; fix the line, or the comma or bracket before it");
+  } catch (const Json::out_of_range&) {
+    throw InputError({path, 0}, "", "expected numbers of up to 1e308, got a larger one; correct it");
   }
 }
 

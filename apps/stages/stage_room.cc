@@ -28,17 +28,27 @@ void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
                   session.path, session.scene->unit, check.distance_m, remedy));
 }
 
+// Returns the area of a facet's elements before they are trimmed: a triangle is cut as finely along both edges as along
+// its longest one (forward/room/patches.h).
+double AreaAsCutM2(const Facet& facet, double element_size_m) {
+  const double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
+  const double longest_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
+  if (longest_m <= element_size_m) return facet.AreaM2();  // one element
+  if (facet.kind == FacetKind::kTriangle) return longest_m * longest_m;
+  return std::max(u_m, element_size_m) * std::max(v_m, element_size_m);
+}
+
 // Checks the size of the room. Form factors take elements x patches x 4 bytes: a room in millimetres that is
 // read as metres would take petabytes.
 void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOptions& options) {
   constexpr double kMaxElements = 1e6;
   double area_m2 = 0;
-  for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
+  for (const Facet& facet : scene.facets) area_m2 += AreaAsCutM2(facet, options.element_size_m);
   if (area_m2 <= kMaxElements * options.element_size_m * options.element_size_m) return;
   const Eigen::Vector3d size = scene.Bounds().sizes();
   throw std::runtime_error(fmt::format(
       "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the mesh is "
-      "{:.4g} m x {:.4g} m x {:.4g} m; check the unit",
+      "{:.4g} m x {:.4g} m x {:.4g} m; check the unit, and whether a corner lies far off all others",
       session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
       size.x(), size.y(), size.z()));
 }

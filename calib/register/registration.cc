@@ -171,6 +171,8 @@ void Summarise(const BundleContext& context, const BundleAdjustment& adjustment,
   registration.point_sigma_px = registration.points > 0 ? adjustment.point_sigma_px : 0;
   AddCovariances(covariance, focal, registration);
   LeaveOutUncertain(context.options.max_rotation_sigma_rad, registration);
+  if (registration.views.empty() && registration.message.empty())
+    registration.message = std::string("no view's tags agree with one another: ") + kWhyNothingFits;
   double total = 0, measured = 0;
   for (const RegisteredView& view : registration.views) {
     const double weight = 4 * view.tags_used + view.points_used;

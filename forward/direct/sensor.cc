@@ -8,6 +8,7 @@
 #include "forward/direct/internal/cell_sum.h"
 #include "forward/direct/internal/expect_sensor.h"
 #include "forward/direct/internal/luminous_surface.h"
+#include "forward/direct/internal/sensor_rows.h"
 #include "forward/direct/internal/shadowed_light.h"
 #include "forward/luminaire/internal/tabulated.h"
 #include "forward/room/internal/sampling.h"
@@ -41,18 +42,6 @@ bool SeesHemisphere(const SensorResponse& response) {
   return response.kind == ResponseKind::kCosine || response.kind == ResponseKind::kTable;
 }
 
-// Returns a frame whose columns are facing (or any tangent), the tangent across it, the normal.
-Eigen::Matrix3d FrameOf(const Sensor& sensor) {
-  Eigen::Vector3d along = sensor.response.facing - sensor.response.facing.dot(sensor.normal) * sensor.normal;
-  if (sensor.response.kind != ResponseKind::kSemicylindrical || along.norm() < 1e-9)
-    along = sensor.normal.unitOrthogonal();
-  Eigen::Matrix3d frame;
-  frame.col(0) = along.normalized();
-  frame.col(1) = sensor.normal.cross(frame.col(0));
-  frame.col(2) = sensor.normal;
-  return frame;
-}
-
 // Returns points that share the unit square evenly.
 std::vector<Eigen::Vector2d> Recurrence(int count) {
   std::vector<Eigen::Vector2d> points;
@@ -70,6 +59,17 @@ double PolarDensity(const SensorResponse& response, double theta) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d SensorFrameOf(const Sensor& sensor) {
+  Eigen::Vector3d along = sensor.response.facing - sensor.response.facing.dot(sensor.normal) * sensor.normal;
+  if (sensor.response.kind != ResponseKind::kSemicylindrical || along.norm() < 1e-9)
+    along = sensor.normal.unitOrthogonal();
+  Eigen::Matrix3d frame;
+  frame.col(0) = along.normalized();
+  frame.col(1) = sensor.normal.cross(frame.col(0));
+  frame.col(2) = sensor.normal;
+  return frame;
+}
 
 bool operator==(const SensorResponse& a, const SensorResponse& b) {
   return a.kind == b.kind && a.angle_rad == b.angle_rad && a.relative == b.relative && a.facing == b.facing;
@@ -116,7 +116,7 @@ DirectionWeight WeightOf(const Sensor& sensor, const Eigen::Vector3d& direction)
       break;
     case ResponseKind::kSemicylindrical: {
       // sin(epsilon) cos(alpha) = d . facing
-      const Eigen::Vector3d facing = FrameOf(sensor).col(0);
+      const Eigen::Vector3d facing = SensorFrameOf(sensor).col(0);
       weight.value = (sine + direction.dot(facing)) / M_PI;
       if (sine > 1e-9) weight.d_direction = (across / sine + facing) / M_PI;
       break;
@@ -180,12 +180,10 @@ double SensorVisibleFraction(const RayScene& rays, const Luminaire& luminaire, c
   return all == 0 ? 0 : seen / all;
 }
 
-SensorRays SampleResponse(const Sensor& sensor, int ray_count) {
+SensorRays SampleInFrame(const SensorResponse& response, int ray_count) {
   if (ray_count < 1) throw std::invalid_argument("SampleResponse: expected ray_count >= 1");
-  const SensorResponse& response = sensor.response;
   const std::vector<Eigen::Vector2d> points =
       SeesHemisphere(response) ? Isocell(ray_count) : Recurrence(ray_count);
-  const Eigen::Matrix3d frame = FrameOf(sensor);
   SensorRays rays;
   rays.directions.resize(3, static_cast<Eigen::Index>(points.size()));
   const bool cosine = response.kind == ResponseKind::kCosine;
@@ -198,9 +196,15 @@ SensorRays SampleResponse(const Sensor& sensor, int ray_count) {
     const Eigen::Vector2d& point = points[static_cast<size_t>(k)];
     const double theta = cosine ? std::asin(std::sqrt(point[0])) : polar.Quantile(point[0]);
     const double alpha = azimuth.Quantile(point[1]);
-    rays.directions.col(k) = frame * Eigen::Vector3d(std::sin(theta) * std::cos(alpha),
-                                                     std::sin(theta) * std::sin(alpha), std::cos(theta));
+    rays.directions.col(k) = Eigen::Vector3d(std::sin(theta) * std::cos(alpha),
+                                             std::sin(theta) * std::sin(alpha), std::cos(theta));
   }
+  return rays;
+}
+
+SensorRays SampleResponse(const Sensor& sensor, int ray_count) {
+  SensorRays rays = SampleInFrame(sensor.response, ray_count);
+  rays.directions = SensorFrameOf(sensor) * rays.directions;
   return rays;
 }
 
@@ -211,15 +215,7 @@ Eigen::Vector3d RayOrigin(const Sensor& sensor) {
 Eigen::VectorXf SensorFormFactors(const RayScene& rays, const Patches& patches, const Sensor& sensor,
                                   int ray_count) {
   ExpectValid(sensor);
-  const SensorRays sample = SampleResponse(sensor, ray_count);
-  const Eigen::Vector3d start = RayOrigin(sensor);
-  Eigen::VectorXf row = Eigen::VectorXf::Zero(static_cast<Eigen::Index>(patches.elements.size()));
-  for (Eigen::Index k = 0; k < sample.directions.cols(); ++k) {
-    const RayHit hit = rays.Trace(start, sample.directions.col(k));
-    if (hit.facet < 0 || !hit.front) continue;
-    if (const int element = patches.ElementAt(hit.facet, hit.u, hit.v); element >= 0) row[element] += 1.0f;
-  }
-  return static_cast<float>(sample.total / static_cast<double>(sample.directions.cols())) * row;
+  return SensorRowOf(rays, patches, sensor, SampleInFrame(sensor.response, ray_count));
 }
 
 }  // namespace luxfit

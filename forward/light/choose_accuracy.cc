@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "forward/light/internal/adaptive_patches.h"
+#include "forward/light/internal/room_again.h"
 
 namespace luxfit {
 namespace {
 
-// These shares of the error, as a root of squares plus a twentieth, stay below it together.
-constexpr double kPatchesShare = 0.85, kRaysShare = 0.3, kSensorsShare = 0.2, kBouncesShare = 0.05;
+// Shares of the error. Patches may use what rays and sensors leave of kTogether, as a root of squares.
+constexpr double kTogether = 0.95, kRaysShare = 0.3, kSensorsShare = 0.4, kBouncesShare = 0.05;
+constexpr double kPatchesShare = 0.8;  // at least, also where those two missed theirs
+constexpr size_t kMostTried = 100;  // sensors, for a root mean square that is within a tenth of that of all
 constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64, kFewestSensorRays = 1024;
 constexpr double kFirstBoundPercent = 1;  // error_percent of AdaptivePatches at the first halving
 constexpr double kOneDraw = 2;            // a sampled error over its sigma, at 95 %
@@ -30,13 +33,50 @@ std::string Number(double number) {
   return text;
 }
 
+// Counts the patches of Subdivide, but for those that solids split, without making them.
+struct PatchCounts {
+  double patches = 0, elements = 0;
+};
+PatchCounts CountPatches(const Scene& scene, const PatchesOptions& sizes) {
+  const auto count = [](double length_m, double size_m) {
+    return std::max(1.0, std::ceil(length_m / size_m));
+  };
+  PatchCounts counts;
+  for (const Facet& facet : scene.facets) {
+    double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
+    if (facet.kind == FacetKind::kTriangle)
+      u_m = v_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
+    const double along_u = count(u_m, sizes.patch_size_m), along_v = count(v_m, sizes.patch_size_m);
+    counts.patches += along_u * along_v;
+    counts.elements += along_u * count(u_m / along_u, sizes.element_size_m) * along_v *
+                       count(v_m / along_v, sizes.element_size_m);
+  }
+  return counts;
+}
+
+// Returns the size of the first patches: those asked for, or larger ones that can be halved once. Where facets are long
+// and narrow, or many, their number says more than the area.
+double CoarsestPatchM(const Scene& scene, const AccuracyOptions& options) {
+  double area_m2 = 0;
+  for (const Facet& facet : scene.facets) area_m2 += facet.AreaM2();
+  double size_m = std::max(options.coarsest_patch_m, std::sqrt(16 * area_m2 / options.max_patches));
+  constexpr double kHalvingGrows = 8, kStep = 1.5, kHardlyFewer = 0.9;
+  double before = std::numeric_limits<double>::infinity();
+  for (;; size_m *= kStep) {
+    const PatchCounts counts = CountPatches(scene, PatchesOfSize(size_m));
+    const double bytes = counts.patches * counts.elements * sizeof(float);
+    if (kHalvingGrows * bytes <= options.max_matrix_bytes) return size_m;
+    const double facets = static_cast<double>(scene.facets.size());
+    if (counts.patches > kHardlyFewer * before && counts.patches <= 2 * facets) return size_m;
+    before = counts.patches;
+  }
+}
+
 class Chooser {
  public:
-  Chooser(const LitScene& lit, const AccuracyOptions& options) : lit_(lit), options_(options) {
-    double area_m2 = 0;
-    for (const Facet& facet : lit.scene.facets) area_m2 += facet.AreaM2();
-    // Two halvings are always possible.
-    coarsest_m_ = std::max(options.coarsest_patch_m, std::sqrt(16 * area_m2 / options.max_patches));
+  Chooser(const LitScene& lit, const AccuracyOptions& options)
+      : all_(lit), lit_(WithFewSensors(lit)), options_(options) {
+    coarsest_m_ = CoarsestPatchM(lit.scene, options);
     choice_.options.solver.tolerance_percent = kBouncesShare * options.error_percent;
   }
 
@@ -47,7 +87,7 @@ class Chooser {
     if (last.room.patches.patches.empty()) {
       choice_.patches_because = choice_.rays_because = choice_.sensors_because = choice_.bounces_because =
           "no surface reflects: all light is direct";
-      return {choice_, std::move(last)};
+      return {choice_, AtAllSensors(std::move(last))};
     }
     // Many facets: only rays can find the pairs that see one another.
     choice_.options.room.form_factors.method = last.room.form_factors.method;
@@ -61,10 +101,30 @@ class Chooser {
                    std::hypot(choice_.rays_error_percent, choice_.sensors_error_percent)) +
         choice_.bounces_error_percent;
     choice_.reached = choice_.estimated_error_percent <= options_.error_percent;
-    return {choice_, std::move(last)};
+    return {choice_, AtAllSensors(std::move(last))};
   }
 
  private:
+  // Returns the scene with sensors evenly taken from the list. What all of them cost is then paid once.
+  static LitScene WithFewSensors(const LitScene& lit) {
+    LitScene few = lit;
+    const size_t count = lit.sensors.size();
+    if (count <= kMostTried) return few;
+    few.sensors.clear();
+    for (size_t i = 0; i < kMostTried; ++i) few.sensors.push_back(lit.sensors[i * count / kMostTried]);
+    return few;
+  }
+
+  // Computes the light of all sensors in the room that was chosen.
+  SceneLight AtAllSensors(SceneLight chosen) const {
+    if (lit_.sensors.size() == all_.sensors.size()) return chosen;
+    chosen.receivers = MakeReceivers(chosen.room, {}, all_.sensors, choice_.options.rays_per_sensor);
+    chosen.visibility.receivers =
+        ComputeReceiverVisibility(chosen.room, chosen.receivers, all_.luminaires).receivers;
+    chosen.light = Relight(all_, chosen, choice_.options.solver);
+    return chosen;
+  }
+
   static double ChangePercent(const ColourIlluminance& before, const ColourIlluminance& now) {
     return RelativeRmsPercent(before.total.cast<double>(), now.total.cast<double>());
   }
@@ -73,6 +133,14 @@ class Chooser {
   SceneLight Try(const ColourIlluminance* before) {
     SceneLight now = ComputeSceneLight(lit_, choice_.options);
     Record(now, before ? ChangePercent(*before, now.light) : 0);
+    return now;
+  }
+
+  // Computes the same patches' light by other form factors.
+  SceneLight TryFormFactors(SceneLight now, const ColourIlluminance& before) {
+    now.room = WithFormFactors(std::move(now.room), choice_.options.room.form_factors);
+    now.light = Relight(lit_, now, choice_.options.solver);
+    Record(now, ChangePercent(before, now.light));
     return now;
   }
 
@@ -101,25 +169,27 @@ class Chooser {
     }
   }
 
-  SceneLight ChooseRays(SceneLight closed_form) {
+  SceneLight ChooseRays(SceneLight last) {
+    const ColourIlluminance closed_form = last.light;
     const double allowed = kRaysShare * options_.error_percent;
     const std::string where = " on patches of " + Number(coarsest_m_) + " m";
     double change = 0;
     FormFactorOptions& form_factors = choice_.options.room.form_factors;
     for (int rays = kFewestRays; rays <= std::min(kMostSampled, options_.max_rays); rays *= 2) {
       form_factors = {rays, FormFactorMethod::kMalleyStratified};
-      SceneLight sampled = Try(&closed_form.light);
+      last = TryFormFactors(std::move(last), closed_form);
       change = kOneDraw * choice_.tried.back().change_percent;
       if (change > allowed) continue;
       choice_.rays_error_percent = change;
       choice_.rays_because = "twice its difference from closed forms is " + Percent(change) + ", below " +
                              Percent(allowed) + where;
-      return sampled;
+      return last;
     }
     const std::string sampled_because = "twice the difference of sampling from closed forms is " +
                                         Percent(change) + ", more than " + Percent(allowed) + where;
     form_factors = {kHybridRays, FormFactorMethod::kHybrid};
-    return DoubleRays(std::move(closed_form), sampled_because + "; ");
+    last.light = closed_form;
+    return DoubleRays(std::move(last), sampled_because + "; ");
   }
 
   SceneLight DoubleRays(SceneLight last, const std::string& because) {
@@ -128,7 +198,8 @@ class Chooser {
     double change = 0;
     do {
       form_factors.rays_per_element *= 2;
-      last = Try(&last.light);
+      const ColourIlluminance before = last.light;
+      last = TryFormFactors(std::move(last), before);
       change = choice_.tried.back().change_percent;
     } while (change > allowed && form_factors.rays_per_element < options_.max_rays);
     choice_.rays_error_percent = change;
@@ -174,7 +245,9 @@ class Chooser {
 
   // Chooses the coarsest patches that a halving shows to suffice.
   SceneLight ChoosePatches(SceneLight last) {
-    const double allowed = kPatchesShare * options_.error_percent;
+    const double left = std::pow(kTogether * options_.error_percent, 2) -
+                        std::pow(choice_.rays_error_percent, 2) - std::pow(choice_.sensors_error_percent, 2);
+    const double allowed = std::max(kPatchesShare * options_.error_percent, std::sqrt(std::max(0.0, left)));
     PatchesOptions sizes = PatchesOfSize(coarsest_m_);
     double bound_percent = kFirstBoundPercent, before = 0, error = std::numeric_limits<double>::infinity();
     choice_.patches_because = "no finer ones fit into memory to compare them with";
@@ -223,7 +296,8 @@ class Chooser {
     return change * (ratio > 1 ? std::clamp(1 / (ratio - 1), 1.0, kSlowest) : kSlowest);
   }
 
-  const LitScene& lit_;
+  const LitScene& all_;
+  const LitScene lit_;  // with the sensors that choose
   const AccuracyOptions& options_;
   double coarsest_m_ = 0;
   AccuracyChoice choice_;

@@ -17,9 +17,12 @@
 //   bounces   The fewest are chosen whose truncation bound (forward/radiosity/solvers.h) is below a twentieth
 //             of the error, where they take fewer products than to iterate to that bound; else all.
 //
-// The result has been computed on the way and is not computed again. A halving costs at least 4 times what
-// went before, so all coarser ones together stay below the finest. Changes are root mean squares over all
-// sensors and luminaires (RelativeRmsPercent). The choice is deterministic: it reads no clock.
+// Patches may use the error that rays and sensors leave, as a root of squares. Changes are root mean squares
+// over luminaires and a hundred sensors, evenly taken from the list (RelativeRmsPercent): what a sensor costs
+// is paid once for all others. The choice is deterministic: it reads no clock.
+//
+// The result has been computed on the way and is not computed again, but for the other sensors. A halving
+// costs at least 4 times what went before, so all coarser ones together stay below the finest.
 //
 // Limits of memory end the halving: `reached` is false, and the estimate says how far it came (infinity:
 // there was nothing to compare with). In scenes of so many facets that even the coarsest patches have no

@@ -7,6 +7,8 @@
 #include "forward/direct/direct_light.h"
 #include "forward/direct/internal/expect_sensor.h"
 #include "forward/direct/internal/luminaire_sight.h"
+#include "forward/direct/internal/sensor_rows.h"
+#include "forward/light/internal/room_again.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
 #include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/room/internal/expect_valid.h"
@@ -28,23 +30,6 @@ void FillSensorRows(const Room& room, const Receivers& receivers, const std::vec
   });
 }
 
-// Returns the rows as one matrix; they are appended, since a row that is assigned moves all those behind it.
-Eigen::SparseMatrix<float, Eigen::RowMajor> FromRows(const std::vector<Eigen::SparseVector<float>>& rows,
-                                                     Eigen::Index columns) {
-  Eigen::SparseMatrix<float, Eigen::RowMajor> matrix(static_cast<Eigen::Index>(rows.size()), columns);
-  Eigen::Index entries = 0;
-  for (const Eigen::SparseVector<float>& row : rows) entries += row.nonZeros();
-  matrix.reserve(entries);
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const auto index = static_cast<Eigen::Index>(i);
-    matrix.startVec(index);
-    for (Eigen::SparseVector<float>::InnerIterator it(rows[i]); it; ++it)
-      matrix.insertBack(index, it.index()) = it.value();
-  }
-  matrix.finalize();
-  return matrix;
-}
-
 // Returns the bytes of form factors (elements x patches) and coupling (patches x patches).
 double MatrixBytes(const Patches& patches) {
   const double n = static_cast<double>(patches.patches.size());
@@ -64,6 +49,13 @@ Room SparseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOpt
           std::move(form_factors), std::move(transport), std::move(sparse)};
 }
 
+Room DenseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOptions& options) {
+  FormFactors form_factors = ComputeFormFactors(rays, patches, options);
+  TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
+  return {std::move(scene),        std::move(rays),      std::move(patches),
+          std::move(form_factors), std::move(transport), nullptr};
+}
+
 }  // namespace
 
 Room MakeRoom(const Scene& given, const RoomOptions& options) {
@@ -73,10 +65,12 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
   Patches patches = Subdivide(scene, rays, options.patches);
   if (MatrixBytes(patches) > options.max_matrix_bytes)
     return SparseRoom(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
-  FormFactors form_factors = ComputeFormFactors(rays, patches, options.form_factors);
-  TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
-  return {std::move(scene),        std::move(rays),      std::move(patches),
-          std::move(form_factors), std::move(transport), nullptr};
+  return DenseRoom(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
+}
+
+Room WithFormFactors(Room room, const FormFactorOptions& options) {
+  const auto make = room.sparse ? SparseRoom : DenseRoom;
+  return make(std::move(room.scene), std::move(room.rays), std::move(room.patches), options);
 }
 
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
@@ -89,13 +83,7 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
     receivers.points.push_back({element.center, element.normal, {}});
   }
   receivers.points.insert(receivers.points.end(), sensors.begin(), sensors.end());
-  const Eigen::Index count = static_cast<Eigen::Index>(room.patches.elements.size());
-  std::vector<Eigen::SparseVector<float>> rows(sensors.size());
-  // Without elements there is nothing to gather from.
-  tbb::parallel_for(size_t{0}, count == 0 ? 0 : sensors.size(), [&](size_t i) {
-    rows[i] = SensorFormFactors(room.rays, room.patches, sensors[i], rays_per_sensor).sparseView();
-  });
-  receivers.sensor_to_element = FromRows(rows, count);
+  receivers.sensor_to_element = SensorRows(room.rays, room.patches, sensors, rays_per_sensor);
   return receivers;
 }
 

@@ -130,20 +130,41 @@ IntensityTable TableOfTypeB(const IesFile& file, const std::vector<double>& cd) 
   return table;
 }
 
-std::vector<std::string> NotesOn(const IesFile& file, const Opening& opening) {
-  std::vector<std::string> notes = file.notes;
-  if (!opening.note.empty()) notes.push_back(opening.note);
+// Tells whether the outermost directions of a file have light, so that more may lie beyond them.
+bool ShinesAtItsEdge(const IesFile& file) {
+  constexpr double kDark = 0.01;  // of the peak: the scatter of a measurement
+  const size_t vertical = file.vertical_deg.size(), horizontal = file.horizontal_deg.size();
+  double edge = 0;
+  for (size_t h = 0; h < horizontal; ++h) {
+    for (size_t v = 0; v < vertical; ++v) {
+      // Files that begin at 0 are the same on both sides.
+      const bool is_side = h + 1 == horizontal || (h == 0 && file.horizontal_deg[0] != 0);
+      if (is_side || v == 0 || v + 1 == vertical) edge = std::max(edge, file.candela[h * vertical + v]);
+    }
+  }
+  return edge > kDark * *std::max_element(file.candela.begin(), file.candela.end());
+}
+
+void AddNotes(const IesFile& file, const Opening& opening, PhotometryFile& photometry) {
+  photometry.notes = file.notes;
+  photometry.light_notes = file.light_notes;
+  if (!opening.note.empty()) AddLightNote(photometry, LightNote::Of::kOpening, opening.note);
   if (file.tilt.source != "NONE") {
-    notes.push_back(file.tilt.angle_deg.empty()
-                        ? "the TILT file was not read: its factors are left out"
-                        : "its TILT factors apply by the angle between aim and straight down");
+    photometry.notes.emplace_back(file.tilt.angle_deg.empty()
+                                      ? "the TILT file was not read: its factors are left out"
+                                      : "its TILT factors apply by the angle between aim and straight down");
   }
   const double last = file.horizontal_deg.back();
   if (file.type == IesType::kC && last > 180 && last < 360 && file.horizontal_deg.front() == 0)
-    notes.push_back("the planes end at " + NumberText(last) + " degrees: the circle was closed with C0");
-  if (file.type != IesType::kC)
-    notes.push_back("photometry of type A or B: directions that the file does not give are dark");
-  return notes;
+    photometry.notes.push_back("the planes end at " + NumberText(last) +
+                               " degrees: the circle was closed with C0");
+  if (file.type == IesType::kC) return;
+  const std::string dark = "photometry of type A or B: directions that the file does not give are dark";
+  if (ShinesAtItsEdge(file)) {
+    AddLightNote(photometry, LightNote::Of::kDistribution, dark);
+  } else {
+    photometry.notes.push_back(dark);
+  }
 }
 
 }  // namespace
@@ -159,6 +180,7 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   const double scale = ScaleOf(file);
   for (double& value : cd) value *= scale;
   PhotometryFile photometry;
+  photometry.name = file.name;
   photometry.format = file.version == IesVersion::k1986 ? "IES LM-63-1986" : FirstLineOf(file.version);
   photometry.keywords = file.keywords;
   if (file.lumens_per_lamp > 0) photometry.lamp_flux_lm = file.lamps * file.lumens_per_lamp;
@@ -166,7 +188,7 @@ PhotometryFile PhotometryOf(const IesFile& file) {
   const Opening opening = OpeningOf(file);
   photometry.shape = opening.shape;
   photometry.size_m = opening.size_m;
-  photometry.notes = NotesOn(file, opening);
+  AddNotes(file, opening, photometry);
   const double at_0 = TiltFactorAt0(file.tilt);
   if (at_0 > 0) {  // else the file has no light to scale, which is refused below
     photometry.tilt_deg = file.tilt.angle_deg;

@@ -39,7 +39,15 @@ struct PhotometryKeyword {
   std::string name, text;
 };
 
+// Says by what the light of a file as read may differ from the light that its maker measured.
+struct LightNote {
+  enum class Of { kFlux, kOpening, kDistribution };
+  Of of;  // the flux, the luminous opening or the distribution: a session that gives it does without the file's
+  std::string text;
+};
+
 struct PhotometryFile {
+  std::string name;    // as it was given
   std::string format;  // "IESNA:LM-63-2002", "EULUMDAT"
   std::vector<PhotometryKeyword> keywords;
   IntensityTable table;                              // normalised: cd per lm of the luminaire
@@ -50,6 +58,7 @@ struct PhotometryFile {
   LuminaireShape shape = LuminaireShape::kPoint;     // of the luminous opening, seen along the aim
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // along C0, across; or a diameter
   std::vector<std::string> notes;
+  std::vector<LightNote> light_notes;  // those of the notes that change the light, but for TILT
   // How the flux depends on the tilt of the lamp (LM-63, TILT): factors to the flux at 0, by the angle between the aim
   // and straight down, linear between. Empty: the file gives none, or names one that was not found.
   std::vector<double> tilt_deg, tilt_factor;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "inverse/fit/fit_room.h"
@@ -34,12 +35,32 @@ std::optional<LampContradiction> ContradictionOfLamps(const PhotometryFile& file
   return std::nullopt;
 }
 
+std::string RemedyFor(LightNote::Of of) {
+  if (of == LightNote::Of::kFlux) return "give flux_lm, or correct the file";
+  if (of == LightNote::Of::kOpening) return "give shape and size_m where luminaires are near what they light";
+  return "complete the file, or ask the maker for one that is whole";
+}
+
+// Warns of what changes the light, once for all luminaires that share a file.
+void WarnOfLightNotes(const std::string& id, const PhotometryFile& file, Findings& findings) {
+  const std::string name = std::filesystem::path(file.name).filename().string();
+  for (const LightNote& note : file.light_notes) {
+    const std::string message = name.empty() ? fmt::format("the photometry of {}: {}", id, note.text)
+                                             : fmt::format("{}: {}", name, note.text);
+    const bool is_said = std::any_of(findings.warnings.begin(), findings.warnings.end(),
+                                     [&](const Warning& warning) { return warning.message == message; });
+    if (is_said) continue;
+    findings.warnings.push_back({"photometry_changed", message, RemedyFor(note.of)});
+  }
+}
+
 }  // namespace
 
 void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Findings& findings) {
   std::string because = fmt::format("the file's intensities integrate to {:.6g} lm", file.luminaire_flux_lm);
   for (const std::string& note : file.notes) because += "; " + note;
   findings.choices.push_back({"photometry of " + id, file.format + ", C0 along the heading", {}, because});
+  WarnOfLightNotes(id, file, findings);
   if (const auto lamps = ContradictionOfLamps(file)) {
     findings.warnings.push_back(
         {"photometry_flux",

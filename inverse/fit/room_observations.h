@@ -76,7 +76,8 @@ struct RoomObservations {
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
 };
 
-// Records what was taken from a photometric file. Warns ("photometry_flux") where its intensities contradict
+// Records what was taken from a photometric file. Warns ("photometry_changed") of each of its light_notes, once for all
+// luminaires of one file. Warns ("photometry_flux") where its intensities contradict
 // its stated flux or, where it states none, that of its lamps: more than 1.1 times it, or less than a tenth.
 void RecordPhotometryFile(const std::string& id, const PhotometryFile& file, Findings& findings);
 

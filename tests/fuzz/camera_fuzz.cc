@@ -1,6 +1,6 @@
 // Any bytes as a camera file of COLMAP, Kalibr or mrcal, or as COLMAP's images and points: the readers must
 // answer with cameras and poses of finite numbers or with a std::runtime_error. The first byte says which
-// reader. (OpenCV's own files are parsed by OpenCV.)
+// reader. (OpenCV's own files: session_fuzz.)
 //
 // Run by .ci/fuzz.sh. Source: LLVM, "libFuzzer".
 #include <unistd.h>

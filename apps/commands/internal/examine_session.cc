@@ -13,6 +13,7 @@
 
 #include "apps/stages/session_check.h"
 #include "apps/stages/session_light.h"
+#include "apps/stages/simulate/given_luminaire.h"
 #include "apps/stages/stages.h"
 #include "apps/text/file_stem.h"
 #include "apps/text/suggest.h"
@@ -75,6 +76,21 @@ void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& fi
   } catch (const std::runtime_error& e) {
     findings.push_back({Health::kBad, e.what(), ""});
   }
+}
+
+void ExaminePhotometry(const Session& session, DoctorFindings& findings) {
+  Findings said;
+  for (const SessionLuminaire& luminaire : session.luminaires) {
+    if (luminaire.photometry_path.empty()) continue;
+    try {
+      const GivenLuminaire known = ReadGivenLuminaire(luminaire);
+      RecordPhotometryFile(luminaire.id, *known.file, said);
+      if (!luminaire.flux_lm) WarnOfTilt(known.luminaire, *known.file, said);
+    } catch (const std::runtime_error& e) {
+      findings.push_back({Health::kBad, e.what(), ""});
+    }
+  }
+  AddWarnings(said.warnings, findings);
 }
 
 // Linearizes and registers as `run` does, but for COLMAP, which takes minutes.
@@ -251,6 +267,7 @@ std::vector<DoctorFinding> ExamineSession(const Session& session) {
   DoctorFindings findings;
   TrialFolder folder;
   ExamineRoom(session, folder.context(), findings);
+  ExaminePhotometry(session, findings);
   ExaminePhotos(session, folder.context(), findings);
   if (!session.lights) {
     ExamineStates(session, findings);

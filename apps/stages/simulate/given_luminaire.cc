@@ -1,5 +1,6 @@
 #include "apps/stages/simulate/given_luminaire.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -28,6 +29,17 @@ std::shared_ptr<const IntensityTable> GivenTable(const SessionLuminaire& given) 
   return std::make_shared<IntensityTable>(RotationalTable(gamma_rad, given.cd_per_klm));
 }
 
+// Drops the notes on what the session gives itself.
+void DropNotesOnGiven(const SessionLuminaire& given, PhotometryFile& file) {
+  const auto is_given = [&](const LightNote& note) {
+    if (note.of == LightNote::Of::kFlux) return given.flux_lm.has_value();
+    return note.of == LightNote::Of::kOpening && given.shape &&
+           (*given.shape == "point" || !given.size_m.empty());
+  };
+  std::vector<LightNote>& notes = file.light_notes;
+  notes.erase(std::remove_if(notes.begin(), notes.end(), is_given), notes.end());
+}
+
 }  // namespace
 
 GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
@@ -38,6 +50,7 @@ GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given) {
   luminaire.distribution = DistributionFrom(given.photometry);
   if (!given.photometry_path.empty()) {
     result.file = ReadPhotometry(given.photometry_path);
+    DropNotesOnGiven(given, *result.file);
     luminaire.distribution = Distribution::kMeasured;
     luminaire.table = std::make_shared<IntensityTable>(result.file->table);
     luminaire.shape = result.file->shape;

@@ -15,8 +15,9 @@
 namespace luxfit {
 
 struct GivenLuminaire {
-  Luminaire luminaire;                 // shape, size and flux are the session's, else the file's
-  std::optional<PhotometryFile> file;  // where the session names one
+  Luminaire luminaire;  // shape, size and flux are the session's, else the file's
+  // Where the session names one. Its light_notes are those on what the session does not give itself.
+  std::optional<PhotometryFile> file;
 };
 GivenLuminaire ReadGivenLuminaire(const SessionLuminaire& given);
 

@@ -79,7 +79,10 @@ nlohmann::json ReadJson(const std::string& path) {
   try {
     return nlohmann::json::parse(file);
   } catch (const nlohmann::json::parse_error& e) {
-    throw std::runtime_error(path + ": expected JSON; " + e.what());
+    throw std::runtime_error(path + ": expected JSON, got something else at byte " + std::to_string(e.byte) +
+                             "; run the command that wrote the file again");
+  } catch (const nlohmann::json::out_of_range&) {
+    throw std::runtime_error(path + ": expected numbers of up to 1e308, got a larger one");
   }
 }
 

@@ -258,7 +258,8 @@ SolvedState SolveByMrcal(const CalibrationProblem& problem, const CalibrationSta
       arguments.point_observations.data(), arguments.board_count(), arguments.point_observation_count(),
       arguments.pool.data(), &arguments.model, arguments.image_sizes.data(), arguments.selections,
       &arguments.constants, arguments.spacing_m, arguments.columns, arguments.rows, false, false);
-  if (!(stats.rms_reproj_error__pixels >= 0)) return {false, start, "libmrcal's optimiser failed"};
+  if (!(stats.rms_reproj_error__pixels >= 0))
+    return {false, start, "no lens of this kind brings the corners to their places in the images"};
   SolvedState solved{true, StateOf(arguments, start), ""};
   if (!IsFinite(solved.state)) return {false, start, "the fit ran away to infinity"};
   return solved;

@@ -104,8 +104,8 @@ SolvedState SolveByOpenCv(const CalibrationProblem& problem, const CalibrationSt
                           estimate.rodrigues, estimate.translations, FlagsOf(start.lens.kind.coefficients),
                           {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 200, 1e-12});
     }
-  } catch (const cv::Exception& error) {
-    return {false, start, "OpenCV: " + error.err};
+  } catch (const cv::Exception&) {
+    return {false, start, "OpenCV's solver finds no lens of this kind for these corners"};
   }
   SolvedState solved{true, StateOf(seen, estimate, start), ""};
   solved.state.warp_m.setZero();

@@ -97,7 +97,7 @@ class Adjustment {
     for (std::vector<double>& parameters : state_.intrinsics) AddLens(parameters, selection);
   }
 
-  bool Solve(std::string& message) {
+  bool Solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering = ordering_;
@@ -107,7 +107,6 @@ class Adjustment {
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    message = summary.message;
     return summary.IsSolutionUsable();
   }
 
@@ -190,8 +189,8 @@ SolvedState SolveByCeres(const CalibrationProblem& problem, const CalibrationSta
                          const SolveSelection& selection) {
   if (!IsFinite(start)) return {false, start, "the start is not finite"};
   Adjustment adjustment(problem, start, selection);
-  std::string message;
-  if (!adjustment.Solve(message)) return {false, start, message};
+  if (!adjustment.Solve())
+    return {false, start, "no lens of this kind brings the corners to their places in the images"};
   SolvedState solved{true, adjustment.State(), ""};
   if (!IsFinite(solved.state)) return {false, start, "the fit ran away to infinity"};
   return solved;

@@ -24,8 +24,16 @@ cv::Mat ReadMatrix(const cv::FileStorage& file, const std::string& path, const s
   if (node.empty()) {
     Fail(path, key + ": expected an !!opencv-matrix, got nothing; is this a calibration written by OpenCV?");
   }
+  // OpenCV makes room for as many numbers as the file claims, whatever follows.
+  constexpr int kMost = 16;
+  for (const char* count : {"rows", "cols"}) {
+    if (!node.isMap() || !node[count].isInt()) Fail(path, key + ": expected an !!opencv-matrix of numbers");
+    const int given = static_cast<int>(node[count]);
+    if (given < 1 || given > kMost)
+      Fail(path, key + ": expected 1 to 16 " + count + ", got " + std::to_string(given));
+  }
   cv::Mat matrix;
-  if (node.isMap()) node >> matrix;
+  node >> matrix;
   if (matrix.empty() || matrix.channels() != 1) Fail(path, key + ": expected an !!opencv-matrix of numbers");
   matrix.convertTo(matrix, CV_64F);
   for (int row = 0; row < matrix.rows; ++row) {

@@ -93,9 +93,11 @@ std::vector<Hypothesis> Hypotheses() {
 
 // Returns the factor on all sizes under which `needed` tags agree, searched from 1 outwards and among units
 // taken for others. The result is the middle of adjacent factors that agree.
-std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agreeing, int needed) {
+std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agreeing, int needed,
+                                     double size_m) {
   constexpr double kStep = 1.04;  // within a tag's tolerance of a twentieth of its side
   constexpr double kMost = 3.2;   // beyond it sizes are wrong by a unit
+  constexpr double kLeastTagM = 0.005, kMostTagM = 5;
   for (const double step : {kStep, 1 / kStep}) {
     double log_sum = 0, found = 0;
     for (double factor = step; factor < kMost && factor > 1 / kMost; factor *= step) {
@@ -108,6 +110,8 @@ std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agr
     if (found > 0) return std::exp(log_sum / found);
   }
   for (const double unit : {0.001, 0.01, 0.0254, 0.1, 0.3048, 3.28084, 10., 39.3701, 100., 1000.}) {
+    // Tags of a millimetre are points, whose places agree with wrong intrinsics as well.
+    if (unit * size_m < kLeastTagM || unit * size_m > kMostTagM) continue;
     if (count_agreeing(unit) >= needed) return unit;
   }
   return std::nullopt;
@@ -134,7 +138,7 @@ std::optional<RegistrationNote> DiagnoseSurvey(const BundleContext& context,
       return tag;
     });
   };
-  const std::optional<double> factor = FindSizeFactor(count_agreeing, needed);
+  const std::optional<double> factor = FindSizeFactor(count_agreeing, needed, survey.begin()->second.size_m);
   return factor ? std::optional(SizesWrong(*factor)) : std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "forward/luminaire/internal/ies_dialect.h"
+#include "forward/luminaire/internal/photometry_planes.h"
 #include "forward/luminaire/internal/photometry_text.h"
 #include "forward/room/text_encoding.h"
 
@@ -173,7 +174,8 @@ void ReadNumbers(PhotometryText& text, IesFile& file) {
   if (file.tilt.source == "INCLUDE") file.tilt = ReadTiltData(text, file.tilt.source);
   const AngleCounts counts = ReadMeasures(text, file);
   if (IesNumbersAhead(text, counts.vertical, counts.horizontal) == IesNumbers::kWithoutBallastLine)
-    file.notes.push_back("the line of ballast factor and watts is missing: the factor was taken as 1");
+    AddLightNote(file, LightNote::Of::kFlux,
+                 "the line of ballast factor and watts is missing: the factor was taken as 1");
   else
     ReadBallastLine(text, file);
   const Limits v = VerticalLimits(file.type), h = HorizontalLimits(file.type);

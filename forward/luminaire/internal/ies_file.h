@@ -48,6 +48,7 @@ struct IesFile {
   std::vector<double> vertical_deg, horizontal_deg;
   std::vector<double> candela;     // horizontal x vertical, vertical running fastest
   std::vector<std::string> notes;  // what the reader passed over
+  std::vector<LightNote> light_notes;
 };
 
 // Throw std::runtime_error("NAME:LINE: field: expected X, got Y; remedy"). ReadIes also reads the TILT file, by

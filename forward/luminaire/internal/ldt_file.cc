@@ -83,10 +83,13 @@ void ReadTable(PhotometryText& text, LdtFile& file, size_t gammas) {
 void NoteWhatFollows(const PhotometryText& text, LdtFile& file) {
   if (text.AtEnd()) return;
   const size_t surplus = text.NumbersAhead();
-  const std::string what =
-      surplus == 0 ? "what follows"
-                   : std::to_string(surplus) + (surplus == 1 ? " number after" : " numbers after");
-  file.notes.push_back(what + " the last intensity was ignored: a count in the file may be too small");
+  if (surplus == 0) {
+    file.notes.emplace_back("what follows the last intensity was ignored");
+    return;
+  }
+  AddLightNote(file, LightNote::Of::kDistribution,
+               std::to_string(surplus) + (surplus == 1 ? " number" : " numbers") +
+                   " after the last intensity not read: a count in the file may be too small");
 }
 
 // Symmetry and number of planes, which must go together.
@@ -187,13 +190,16 @@ PhotometryFile PhotometryOf(const LdtFile& file) {
       {"MANUFAC", file.company},        {"TEST", file.report}, {"LUMINAIRE", file.luminaire},
       {"LUMCAT", file.number},          {"FILE", file.file},   {"DATE", file.date},
       {"LAMP", file.lamps.front().type}};
+  photometry.name = file.name;
   photometry.notes = file.notes;
+  photometry.light_notes = file.light_notes;
   const LdtLamps& lamps = file.lamps.front();
   if (lamps.count >= 0) photometry.lamp_flux_lm = lamps.flux_lm;
   photometry.factor = file.conversion_factor;
   photometry.stated_flux_lm = lamps.flux_lm * file.light_output_percent / 100;
   if (file.lamps.size() > 1)
-    photometry.notes.push_back("the first of " + std::to_string(file.lamps.size()) + " lamp sets was used");
+    AddLightNote(photometry, LightNote::Of::kFlux,
+                 "the first of " + std::to_string(file.lamps.size()) + " lamp sets was used");
   if (file.area_length_mm > 0 && file.area_width_mm > 0) {
     photometry.shape = LuminaireShape::kRectangle;
     photometry.size_m = {file.area_width_mm / 1000, file.area_length_mm / 1000};
@@ -202,7 +208,7 @@ PhotometryFile PhotometryOf(const LdtFile& file) {
     photometry.size_m[0] = std::max(file.area_length_mm, file.area_width_mm) / 1000;
   }
   if (*std::max_element(file.area_height_mm.begin(), file.area_height_mm.end()) > 0)
-    photometry.notes.push_back("the luminous sides of the opening were left out");
+    AddLightNote(photometry, LightNote::Of::kOpening, "the luminous sides of the opening were left out");
   const double scale = file.conversion_factor * lamps.flux_lm / 1000;
   std::vector<double> cd = file.cd_per_klm, c_deg;
   for (double& value : cd) value *= scale;

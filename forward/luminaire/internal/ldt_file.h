@@ -47,6 +47,7 @@ struct LdtFile {
   std::vector<double> gamma_deg;
   std::vector<double> cd_per_klm;  // stored planes x gamma, gamma running fastest
   std::vector<std::string> notes;  // what the reader passed over
+  std::vector<LightNote> light_notes;
 };
 
 // Throw std::runtime_error("NAME:LINE: field: expected X, got Y; remedy").

@@ -3,6 +3,7 @@
 #define LUXFIT_FORWARD_LUMINAIRE_INTERNAL_PHOTOMETRY_PLANES_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "forward/luminaire/photometry_file.h"
@@ -13,6 +14,13 @@ std::vector<double> RadFromDeg(const std::vector<double>& deg);
 
 // `file` with the table normalised and its flux. Throws std::runtime_error naming the file if it has no flux.
 PhotometryFile WithTable(PhotometryFile file, const IntensityTable& table_cd, const std::string& name);
+
+// Adds a note on what changes the light; `File` has notes and light_notes.
+template <typename File>
+void AddLightNote(File& file, LightNote::Of of, std::string text) {
+  file.notes.push_back(text);
+  file.light_notes.push_back({of, std::move(text)});
+}
 
 // The table about the luminaire's own axis, all round: as it is, or resampled where it is about another axis
 // or leaves planes out.

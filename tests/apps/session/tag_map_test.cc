@@ -99,6 +99,22 @@ TEST_F(TagMapTest, MissingKeysNameTheMisspeltOne) {
   EXPECT_THAT(ErrorAfter(", \"up\": [0, 0, 1]", ""), HasSubstr("got nothing; add \"up\" to the entry"));
 }
 
+// The parser's own words end amid a character.
+TEST_F(TagMapTest, AnErrorShowsWholeCharacters) {
+  folder_.Write("tags.json", "[\n  \u00e4 7]");
+  EXPECT_THAT(Error(), HasSubstr("tags.json:2: expected valid JSON, got \"\u00e4 7]\"; fix the line"));
+  folder_.Write("tags.json", "[{\"id\": \u00e4}]");
+  EXPECT_THAT(Error(), HasSubstr("\u00e4}]\""));
+  std::string many;
+  for (int i = 0; i < 40; ++i) many += "\u20ac";
+  folder_.Write("tags.json", "[" + many + "]");
+  EXPECT_THAT(Error(), HasSubstr("got \"[" + many.substr(0, 19 * 3) + "\""));
+}
+
+TEST_F(TagMapTest, ANumberBeyondAllIsReported) {
+  EXPECT_THAT(ErrorAfter("0.2", "1e999"), HasSubstr("expected numbers of up to 1e308"));
+}
+
 TEST_F(TagMapTest, OtherThanAListOfTagsIsReported) {
   folder_.Write("tags.json", "[]");
   EXPECT_THAT(Error(),

@@ -152,6 +152,23 @@ TEST_F(Simulate, LeavesAnArtifactThatCanBeUnderstoodAlone) {
   for (const auto& choice : artifact["choices"]) EXPECT_FALSE(choice["because"].get<std::string>().empty());
 }
 
+TEST_F(Simulate, WarnsOfWhatChangesTheLightOfAPhotometricFileAsDoctorDoes) {
+  folder_.Replace("lamp.ies", " 2 -0.1 -0.1 0\n", " 2 -0.1 -0.1 0.05\n");
+  const auto doctor = [&] {
+    return support::RunProgram("doctor '" + folder_.Path("session.toml") + "'").output;
+  };
+  const char* const sides = "lamp.ies: the luminous sides of the opening were left out";
+  const support::ProgramRun run = Run();
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr(sides));
+  EXPECT_EQ(Artifact()["warnings"].at(0)["code"], "photometry_changed");
+  EXPECT_THAT(doctor(), HasSubstr(sides));
+  folder_.Replace("session.toml", "position_m = [2, 1, 1.9]",
+                  "position_m = [2, 1, 1.9]\nshape = \"disc\"\nsize_m = [0.1]");
+  EXPECT_THAT(Run().output, Not(HasSubstr(sides)));
+  EXPECT_THAT(doctor(), Not(HasSubstr(sides)));
+}
+
 TEST_F(Simulate, WhatTheSessionSaysOverridesTheFile) {
   folder_.Replace("session.toml", "position_m = [2, 1, 1.9]",
                   "position_m = [2, 1, 1.9]\nshape = \"point\"\nflux_lm = 7");

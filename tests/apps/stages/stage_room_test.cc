@@ -76,6 +76,17 @@ TEST_F(StageRoomTest, AMeshInMillimetresReadAsMetresIsRefused) {
   }
 }
 
+// Its area is small, but a triangle is cut as finely across as along: more elements than memory holds.
+TEST_F(StageRoomTest, ACornerFarOffIsRefused) {
+  try {
+    WarningsOf(kRoom + "v 3500 1 1\nf 1 2 9\n");
+    FAIL() << "expected an error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("3500 m x 2 m x 2 m"));
+    EXPECT_THAT(error.what(), HasSubstr("a corner lies far off"));
+  }
+}
+
 // A crowd of triangles in the air: more form factors than a laptop holds.
 TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
   constexpr int kTriangles = 25000;

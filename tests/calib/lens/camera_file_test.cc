@@ -72,6 +72,12 @@ TEST_F(ReadCameraTest, NamesFileKeyAndWhatWasExpected) {
               HasSubstr("camera_matrix: expected an !!opencv-matrix"));
   EXPECT_THAT(MessageOf(Yaml(kSize, "camera_matrix: 3\n", kDistortion)),
               HasSubstr("camera_matrix: expected an !!opencv-matrix"));
+  EXPECT_THAT(
+      MessageOf(
+          Yaml(kSize,
+               "camera_matrix: !!opencv-matrix\n   rows: 2000000000\n   cols: 3\n   dt: d\n   data: [ 1. ]\n",
+               kDistortion)),
+      HasSubstr("camera_matrix: expected 1 to 16 rows, got 2000000000"));
   const std::string two_by_two =
       "camera_matrix: !!opencv-matrix\n   rows: 2\n   cols: 2\n   dt: d\n   data: [ 1., 0., 0., 1. ]\n";
   EXPECT_THAT(MessageOf(Yaml(kSize, two_by_two, kDistortion)), HasSubstr("expected 3 x 3, got 2 x 2"));

@@ -109,6 +109,17 @@ TEST_F(RegistrationFaultsTest, SizesThatAreAllWrongAreRefused) {
   ExpectRefused(millimetres, "tag_sizes_wrong", "0.001 times as large");
 }
 
+// The same numbers taken as those of a fisheye: no view fits, and the reason is in words of photos.
+TEST_F(RegistrationFaultsTest, IntrinsicsOfAnotherLensAreTheReason) {
+  const std::vector<ViewDetections> seen = See(room_.tags);
+  Camera other = room_.camera;
+  other.lens = LensModel::kFisheye;
+  const Registration registration = RegisterViews({other}, room_.tags, seen);
+  EXPECT_FALSE(registration.IsUsable());
+  EXPECT_EQ(Find(registration, "tag_sizes_wrong"), nullptr);
+  EXPECT_THAT(registration.message, HasSubstr("the intrinsics may be of another lens model"));
+}
+
 TEST_F(RegistrationFaultsTest, SizesThatAreSlightlyWrongAreNamed) {
   std::vector<SurveyedTag> wrong = room_.tags;
   for (SurveyedTag& tag : wrong) tag.size_m /= 1.03;

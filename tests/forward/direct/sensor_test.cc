@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forward/direct/internal/sensor_rows.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
 #include "tests/support/closed_forms.h"
@@ -210,6 +211,30 @@ TEST_P(EveryResponse, FormFactorsAreTheIntegralsOverPatches) {
     // Two standard deviations of random rays for every patch: even ones are better.
     EXPECT_NEAR(factor, expected, 2 * std::sqrt(expected / 16384)) << j;
   }
+}
+
+TEST(Sensor, RowsOfManySensorsAreThoseOfEach) {
+  const Scene scene = support::ClosedRoom({3, 2, 2.5});
+  const RayScene rays(scene);
+  const Patches patches = Subdivide(scene, rays, {1, 0.5});
+  SensorResponse half, other_half, round;
+  half.kind = other_half.kind = ResponseKind::kSemicylindrical;
+  other_half.facing = {0, -1, 0};  // sampled alike, but turned
+  round.kind = ResponseKind::kSpherical;
+  std::vector<Sensor> sensors;
+  for (const SensorResponse& response :
+       {SensorResponse(), half, other_half, round, MeterCurve(), SensorResponse()}) {
+    const double shift = 0.1 * static_cast<double>(sensors.size());
+    sensors.push_back({{1.3 + shift, 0.8, 0.9}, {0, 0, 1}, response});
+  }
+  constexpr int kRays = 1000;
+  const SensorRowMatrix rows = SensorRows(rays, patches, sensors, kRays);
+  ASSERT_EQ(rows.rows(), static_cast<Eigen::Index>(sensors.size()));
+  for (size_t i = 0; i < sensors.size(); ++i) {
+    const Eigen::VectorXf row = rows.row(static_cast<Eigen::Index>(i)).transpose();
+    EXPECT_EQ(row, SensorFormFactors(rays, patches, sensors[i], kRays)) << i;
+  }
+  EXPECT_EQ(SensorRows(rays, patches, {}, kRays).rows(), 0);
 }
 
 TEST(TableResponse, OfTheCosineIsTheCosine) {

@@ -136,6 +136,59 @@ TEST(ChooseAccuracy, TheResultIsThatOfItsOptions) {
   EXPECT_EQ(again.light.total, accurate.light.light.total);
 }
 
+// What 400 sensors cost is their own light: a hundred of them choose, as if there were no others.
+TEST(ChooseAccuracy, AHundredOfManySensorsChoose) {
+  constexpr size_t kEvery = 4, kMany = 400;
+  LitScene many = Furnished();
+  many.sensors.clear();
+  for (size_t i = 0; i < kMany; ++i) {
+    const double turns = static_cast<double>(i) / kMany;
+    many.sensors.push_back(
+        {{2 + 1.9 * std::cos(20 * turns) * turns, 1.5 + 1.4 * std::sin(20 * turns) * turns, 1.9},
+         {0, 0, 1},
+         {}});
+  }
+  LitScene few = many;
+  few.sensors.clear();
+  for (size_t i = 0; i < kMany; i += kEvery) few.sensors.push_back(many.sensors[i]);
+  AccuracyOptions asked;
+  asked.error_percent = 5;
+  const AccurateSceneLight of_many = ChooseAccuracy(many, asked), of_few = ChooseAccuracy(few, asked);
+  ASSERT_EQ(of_many.choice.tried.size(), of_few.choice.tried.size());
+  for (size_t i = 0; i < of_many.choice.tried.size(); ++i)
+    EXPECT_EQ(of_many.choice.tried[i].change_percent, of_few.choice.tried[i].change_percent) << i;
+  ASSERT_EQ(of_many.light.light.total.rows(), static_cast<Eigen::Index>(kMany));
+  EXPECT_EQ(of_many.light.light.total, ComputeSceneLight(many, of_many.choice.options).light.total);
+  for (size_t i = 0; i < few.sensors.size(); ++i)
+    EXPECT_EQ(of_many.light.light.total.row(static_cast<Eigen::Index>(kEvery * i)),
+              of_few.light.light.total.row(static_cast<Eigen::Index>(i)))
+        << i;
+}
+
+// Triangles are cut alike in both directions, so that long ones have many narrow pieces: larger patches come first.
+TEST(ChooseAccuracy, LongTrianglesStartWithLargerPatches) {
+  LitScene lit = Furnished();
+  Scene scene;
+  for (const Facet& facet : support::ClosedRoom({4, 3, 2.7}).facets) {
+    constexpr int kStrips = 12;
+    const Eigen::Vector3d strip = facet.edge_u / kStrips, far = facet.origin + facet.edge_v;
+    for (int i = 0; i < kStrips; ++i) {
+      support::AddTriangle(scene, facet.origin + i * strip, strip, facet.edge_v, "wall");
+      support::AddTriangle(scene, far + (i + 1) * strip, -strip, -facet.edge_v, "wall");
+    }
+  }
+  lit.scene = scene;
+  lit.albedo_rgb = Eigen::Matrix3Xd::Constant(3, 1, 0.5);
+  AccuracyOptions options;
+  options.error_percent = 5;
+  options.max_matrix_bytes = 1e8;
+  const AccuracyChoice choice = ChooseAccuracy(lit, options).choice;
+  EXPECT_GT(choice.tried.front().patch_size_m, options.coarsest_patch_m);
+  EXPECT_LE(8.0 * choice.tried.front().patches * choice.tried.front().elements * sizeof(float),
+            options.max_matrix_bytes);
+  EXPECT_TRUE(choice.reached);
+}
+
 TEST(ChooseAccuracy, DarkRoomsNeedFewBounces) {
   LitScene lit = Furnished();
   lit.albedo_rgb.setConstant(0.02);

@@ -71,6 +71,40 @@ TEST(RecordPhotometryFile, WarnsOfAnLdtThatIsNotAsStated) {
   EXPECT_THAT(FluxWarning(with_ratio(1.05 * percent), "a.ldt"), HasSubstr("states"));
 }
 
+// What only tells how the text was read is no warning; what changes the light is, once for a file.
+TEST(RecordPhotometryFile, WarnsOfNotesThatChangeTheLight) {
+  const auto of_notes = [](const Findings& findings) {
+    std::vector<Warning> warnings;
+    for (const Warning& w : findings.warnings) {
+      if (w.code == "photometry_changed") warnings.push_back(w);  // the file contradicts its flux, too
+    }
+    return warnings;
+  };
+  EXPECT_THAT(of_notes(FindingsOn(Replaced(kLdt, "\n220\n", "\n220,5\n"), "a.ldt")), testing::IsEmpty());
+  const PhotometryFile file = ParsePhotometry(std::string(kLdt) + "1\n2\n", "from/maker.ldt");
+  Findings findings;
+  for (const char* id : {"A", "B"}) RecordPhotometryFile(id, file, findings);
+  const std::vector<Warning> warnings = of_notes(findings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0].message,
+              testing::StartsWith("maker.ldt: 2 numbers after the last intensity not read"));
+  EXPECT_FALSE(warnings[0].is_of_outcome);
+}
+
+TEST(RecordPhotometryFile, WarnsOfAMissingBallastLineAndOfAnOpeningThatWasRounded) {
+  const std::string whole = Ies(800, "1 1000", "1");
+  EXPECT_THAT(FindingsOn(whole, "a.ies").warnings, testing::IsEmpty());
+  const std::vector<Warning> of_ballast = FindingsOn(Replaced(whole, "1 1 10\n", ""), "a.ies").warnings;
+  ASSERT_EQ(of_ballast.size(), 1u);
+  EXPECT_THAT(of_ballast[0].message, HasSubstr("ballast factor and watts is missing"));
+  EXPECT_THAT(of_ballast[0].remedy, HasSubstr("flux_lm"));
+  const std::vector<Warning> of_sides =
+      FindingsOn(Replaced(whole, "2 0 0 0\n", "2 0.6 0.6 0.1\n"), "a.ies").warnings;
+  ASSERT_EQ(of_sides.size(), 1u);
+  EXPECT_THAT(of_sides[0].message, HasSubstr("luminous sides of the opening were left out"));
+  EXPECT_THAT(of_sides[0].remedy, HasSubstr("size_m"));
+}
+
 TEST(RecordPhotometryFile, NotesOfTheReaderStandInTheChoice) {
   const Findings findings = FindingsOn(Replaced(kLdt, "\n220\n", "\n220,5\n"), "a.ldt");
   ASSERT_EQ(findings.choices.size(), 1u);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
+#include <string>
 
 #include "calib/luminance/median.h"
 #include "calib/register/internal/bundle/bundle_problem.h"
@@ -97,6 +99,25 @@ void RescaleCorners(const BundleContext& context, BundleAdjustment& adjustment, 
     count += 1;
   }
   adjustment.reduced_chi2 = std::max(1.0, sum / std::max(1.0, 2 * count - unknowns));
+}
+
+// Says why the poses did not settle, in what the user can look at: a solver's own words tell nothing of photos.
+std::string UnsettledText(const BundleContext& context, const BundleAdjustment& adjustment) {
+  double squares = 0, count = 0;
+  for (const BundleView& view : adjustment.views) {
+    if (!view.active) continue;
+    for (const BundleCornerError& error : BundleViewErrors(context, adjustment, view)) {
+      if (!error.error_px.allFinite()) continue;
+      squares += error.error_px.squaredNorm();
+      count += 1;
+    }
+  }
+  char rms_px[32];
+  std::snprintf(rms_px, sizeof rms_px, "%.3g", std::sqrt(squares / std::max(1.0, count)));
+  return std::string("the poses did not settle: ") +
+         (count > 0 ? std::string("the corners of tags stay ") + rms_px + " px (RMS) off their places; "
+                    : "no corner of a tag has a place in the photos; ") +
+         kWhyNothingFits;
 }
 
 }  // namespace
@@ -220,7 +241,7 @@ void SolveBundle(const BundleContext& context, BundleAdjustment& adjustment) {
   ceres::Solver::Summary summary;
   ceres::Solve(options, built.problem.get(), &summary);
   adjustment.converged = summary.termination_type == ceres::CONVERGENCE && summary.IsSolutionUsable();
-  adjustment.message = summary.message;
+  adjustment.message = adjustment.converged ? "" : UnsettledText(context, adjustment);
   adjustment.cost = summary.final_cost;
   RescaleBundle(context, adjustment);
 }
