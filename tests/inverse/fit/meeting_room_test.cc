@@ -226,16 +226,28 @@ RoomObservations Observe(const Room& room) {
 }
 
 // Returns which luminaire of a fit stands for the true one: those of one switch are interchangeable.
-const Luminaire& NearestOf(const std::vector<Luminaire>& found, int first, int count,
-                           const Luminaire& truth) {
-  return *std::min_element(
+int NearestOf(const std::vector<Luminaire>& found, int first, int count, const Luminaire& truth) {
+  const auto nearest = std::min_element(
       found.begin() + first, found.begin() + first + count, [&](const Luminaire& a, const Luminaire& b) {
         return (a.position - truth.position).norm() < (b.position - truth.position).norm();
       });
+  return static_cast<int>(nearest - found.begin());
 }
 
-// Measured: pendant and panels 0.6 mm at worst (their outlines are exact), fluxes +2.5 to +6.4 %, washers 100 mm. The
-// mesh lacks the chairs, so that all fluxes are too large. Only their own light tells where the washers are.
+// Returns how many of its sigmas the luminaire is off, along the worst axis.
+double WorstZ(const RoomFit& fit, int luminaire, const Eigen::Vector3d& truth) {
+  double worst = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double sigma =
+        SigmaOf(fit, ParameterKind::kLuminaire, luminaire, static_cast<LuminaireQuantity>(axis));
+    const double off = fit.fit.state.luminaires[static_cast<size_t>(luminaire)].position[axis] - truth[axis];
+    worst = std::max(worst, std::abs(off) / sigma);
+  }
+  return worst;
+}
+
+// Measured: pendant and panels 0.5 mm at worst (their outlines are exact), fluxes -0.1 to +3.5 %, washers 56 mm. The mesh
+// lacks the chairs: what they absorb makes fluxes too large. Only their own light tells where the washers are.
 TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   RoomOptions options;
   options.patches.patch_size_m = 0.4;
@@ -247,17 +259,19 @@ TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   const int first_of_switch[] = {0, 1, 1, 3, 3, 5, 5};
   for (size_t k = 0; k < truth.size(); ++k) {
     const bool is_shown = k < 5;
-    const Luminaire& found =
+    const int nearest =
         NearestOf(fit.fit.state.luminaires, first_of_switch[k], k == 0 ? 1 : 2, truth[k]);
+    const Luminaire& found = fit.fit.state.luminaires[static_cast<size_t>(nearest)];
     const double off_mm = 1000 * (found.position - truth[k].position).norm();
     const double off_percent = 100 * (found.flux_lm / truth[k].flux_lm - 1);
-    std::printf("  %s off by %6.1f mm, flux %+6.2f %%\n", truth[k].id.c_str(), off_mm, off_percent);
-    EXPECT_LT(off_mm, is_shown ? 0.9 : 150) << truth[k].id;
-    EXPECT_LT(std::abs(off_percent), 9.5) << truth[k].id;
+    const double z = WorstZ(fit, nearest, truth[k].position);
+    std::printf("  %s off by %6.1f mm (%.1f sigma), flux %+6.2f %%\n", truth[k].id.c_str(), off_mm, z, off_percent);
+    EXPECT_LT(off_mm, is_shown ? 0.9 : 85) << truth[k].id;
+    EXPECT_LT(std::abs(off_percent), 5.3) << truth[k].id;
   }
-  const auto disagree = std::count_if(fit.findings.warnings.begin(), fit.findings.warnings.end(),
-                                      [](const Warning& w) { return w.code == "starts_disagree"; });
-  EXPECT_EQ(disagree, 2) << "both washers may hang elsewhere, and the fit says so";
+  EXPECT_TRUE(std::any_of(fit.findings.warnings.begin(), fit.findings.warnings.end(),
+                          [](const Warning& w) { return w.code == "unmodelled_surface"; }))
+      << "the chairs";
 }
 
 }  // namespace
