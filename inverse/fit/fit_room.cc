@@ -372,7 +372,8 @@ class RoomFitter {
     SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
     RecordNeedless(given_, simplified.needless, result_.findings);
     if (!simplified.needless.empty())
-      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(), OfPart(&fit));
+      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
+                          OfPart(&fit));
     fit.state = WithoutVanishedSizes(fit.state);
     return fit;
   }

@@ -82,9 +82,8 @@ class Labeller {
         for (int b = a + 1; b < end; ++b) pairs.push_back({a, b, {}});
       }
     }
-    tbb::parallel_for(size_t{0}, pairs.size(), [&](size_t i) {
-      pairs[i].difference = DifferenceOf(table, pairs[i].a, pairs[i].b);
-    });
+    tbb::parallel_for(size_t{0}, pairs.size(),
+                      [&](size_t i) { pairs[i].difference = DifferenceOf(table, pairs[i].a, pairs[i].b); });
     return pairs;
   }
 
@@ -173,7 +172,8 @@ class Labeller {
       common += w * (d.common * d.common - d.common_noise - 2 * common_variance_);
       if (d.states < 2) continue;
       state_weight += w;
-      state += w * ((d.value - d.common).square().sum() / (d.states - 1) - d.noise.mean() - 2 * state_variance_);
+      state +=
+          w * ((d.value - d.common).square().sum() / (d.states - 1) - d.noise.mean() - 2 * state_variance_);
     }
     if (weight < kLeastPairs) return;
     // At least the scatter of one surface: else the two kinds are one.
@@ -187,9 +187,9 @@ class Labeller {
   std::vector<Eigen::Index> first_pair_;  // of each element
   double common_variance_ = 0, state_variance_ = 0;
   OtherSurface other_;
-  Eigen::VectorXd own_;                   // by column
-  Eigen::VectorXd log_own_, log_other_;   // by pair
-  Eigen::VectorXd other_of_pair_;         // probability that just one of both shows the element
+  Eigen::VectorXd own_;                  // by column
+  Eigen::VectorXd log_own_, log_other_;  // by pair
+  Eigen::VectorXd other_of_pair_;        // probability that just one of both shows the element
 };
 
 // Returns the table without the photos' own errors: what is wrong with a whole photo says nothing of its elements.
@@ -204,6 +204,7 @@ ViewTable WithoutOffsets(ViewTable table) {
 
 SurfaceLabels LabelSurfaces(const Room& room, const std::vector<Observation>& observations) {
   const ViewTable table = WithoutOffsets(TableOfViews(observations));
+  if (table.columns() == 0) return {};
   Labeller labeller(room, table);
   if (labeller.HasEnough()) labeller.Run();
   return labeller.Labels();

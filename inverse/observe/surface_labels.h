@@ -34,10 +34,10 @@ struct ElementView {
 
 struct SurfaceLabels {
   std::vector<ElementView> views;  // by element, then view
-  bool is_estimated = false;       // false: too few elements are shared by views, and all are taken as their own
-  double common_sigma = 0;         // c, of ln Y
-  double state_sigma = 0;          // r, of ln Y
-  double other_share = 0;          // of all views of elements that show something else
+  bool is_estimated = false;  // false: too few elements are shared by views, and all are taken as their own
+  double common_sigma = 0;    // c, of ln Y
+  double state_sigma = 0;     // r, of ln Y
+  double other_share = 0;     // of all views of elements that show something else
 };
 
 SurfaceLabels LabelSurfaces(const Room& room, const std::vector<Observation>& observations);

@@ -46,9 +46,9 @@ Office PrepareOffice(const std::string& folder) {
   context.out = folder;
   context.is_quiet = true;
   Office office{PrepareSession(ReadSession(kOffice + "session.toml"), context), {}, {}};
-  const LightData data = LightOf(RoomObservationsOf(office.prepared.session, office.prepared.linearized,
-                                                    office.prepared.room, office.prepared.observed))
-                             .data;
+  const RoomObservations observed = RoomObservationsOf(office.prepared.session, office.prepared.linearized,
+                                                       office.prepared.room, office.prepared.observed);
+  const LightData data = LightOf(office.prepared.room, observed).data;
   office.data = WithMeasuredIndirect(office.prepared.room, data);
   for (const EstimatedLuminaire& lamp : ReadTruth(kOffice + "truth.json"))
     office.truth.push_back(lamp.position);

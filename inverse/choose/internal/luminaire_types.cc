@@ -204,7 +204,8 @@ LightState WithSidesAlike(LightState state, const std::vector<OpenChoice>& open)
   for (const std::vector<int>& type : TypesOf(state)) {
     const int k = type.front();
     Luminaire& first = state.luminaires[static_cast<size_t>(k)];
-    if (!IsTurnableByQuarter(first, open[static_cast<size_t>(k)]) || state.free[static_cast<size_t>(k)].heading)
+    if (!IsTurnableByQuarter(first, open[static_cast<size_t>(k)]) ||
+        state.free[static_cast<size_t>(k)].heading)
       continue;
     const bool is_other_way = std::any_of(earlier.begin(), earlier.end(), [&](int j) {
       const Eigen::Vector2d& sides = state.luminaires[static_cast<size_t>(j)].size_m;

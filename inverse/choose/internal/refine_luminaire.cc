@@ -25,8 +25,8 @@ struct RefinedCandidate {
 constexpr double kGoodEnough = 0.01;  // model error below which table and emission are not tried
 constexpr double kNodeStepDeg = 7.5;
 
-// Returns nodes up to 90 degrees; to 180 where light goes up or something above the luminaire was measured.
-std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const Luminaire& luminaire) {
+// Returns whether something above the luminaire was measured.
+bool SeesAbove(const Room& room, const SubProblem& problem, const Luminaire& luminaire) {
   double lowest = 1;  // cosine of gamma
   const auto see = [&](const Eigen::Vector3d& p) {
     lowest = std::min(lowest, luminaire.aim.dot((p - luminaire.position).normalized()));
@@ -35,7 +35,10 @@ std::vector<double> NodesFor(const Room& room, const SubProblem& problem, const 
     see(room.patches.elements[static_cast<size_t>(o.element)].center);
   for (const Reading& reading : problem.data.readings) see(reading.sensor.position);
   constexpr double kBarelyAbove = -0.1;
-  const double last_deg = lowest < kBarelyAbove ? 180 : OpsOf(luminaire.distribution).last_gamma_deg;
+  return lowest < kBarelyAbove;
+}
+
+std::vector<double> NodesTo(double last_deg) {
   std::vector<double> gamma_rad;
   const int steps = static_cast<int>(std::lround(last_deg / kNodeStepDeg));
   gamma_rad.reserve(static_cast<size_t>(steps) + 1);
@@ -135,16 +138,14 @@ class Refiner {
 
   // Returns what a step must gain, as a share of the best score. Errors of the mesh that repeat from surface to surface
   // look like uneven emission. A table is one for all directions, and views of what the mesh lacks are left out.
-  static double WorthHaving(RefinementKind kind) {
-    return kind == RefinementKind::kTable ? 0 : kWorthHaving;
-  }
+  static double WorthHaving(RefinementKind kind) { return kind == RefinementKind::kTable ? 0 : kWorthHaving; }
 
   // Returns whether a few steps towards the refinement gain half of what it must gain to be taken: shares of light are
   // nearly linear, so these steps bring most of it.
   bool MayGain(RefinementKind kind, const FittedModel& screened) const {
     const std::vector<GroupScores> scores = ScoreTogether(problem_, {&held_.left_out, &screened.left_out});
-    const double needed = std::max(Difference(scores[0], scores[1]).standard_error,
-                                   WorthHaving(kind) * Mean(scores[1]));
+    const double needed =
+        std::max(Difference(scores[0], scores[1]).standard_error, WorthHaving(kind) * Mean(scores[1]));
     return Mean(scores[0]) - Mean(scores[1]) > needed / 2;
   }
 
@@ -154,14 +155,19 @@ class Refiner {
 
   Step TableStep() const {
     Step step{RefinementKind::kTable, {{ToString(held_.luminaire.distribution), held_}}};
-    const std::vector<double> nodes = NodesFor(room_, problem_, held_.luminaire);
+    const bool sees_above = SeesAbove(room_, problem_, held_.luminaire);
+    const bool is_lobe = held_.luminaire.distribution != Distribution::kMeasured;
+    const double lobe_deg = OpsOf(held_.luminaire.distribution).last_gamma_deg;
+    const double last_deg = sees_above ? 180 : lobe_deg;
+    const double own_deg = is_lobe ? lobe_deg : last_deg;
+    const std::vector<double> nodes = NodesTo(own_deg);
     if (!open_.table_asked_for) {
       FreeQuantities free = held_.free;
       free.exponent = free.sides = false;
       bool may_gain = false;
       for (const double sigma : {0.03, 0.3}) {
         free.table_sigma = sigma;
-        FittedModel screened = Screened(WithTable(held_.luminaire, nodes), free);
+        FittedModel screened = Screened(WithTable(held_.luminaire, NodesTo(last_deg)), free);
         may_gain = may_gain || MayGain(RefinementKind::kTable, screened);
         step.candidates.push_back(
             {fmt::format("table, smoothness {:g}, a few steps", sigma), std::move(screened)});
@@ -172,6 +178,7 @@ class Refiner {
     AddTables(held_.luminaire.shape, nodes, step.candidates);
     const bool may_be_point = held_.free.size && held_.luminaire.emission.size() == 0;
     if (may_be_point && !open_.table_asked_for) AddTables(LuminaireShape::kPoint, nodes, step.candidates);
+    if (last_deg > own_deg) AddTableAllRound(step.candidates);
     return Judged(std::move(step));
   }
 
@@ -189,7 +196,8 @@ class Refiner {
       free.table_sigma = sigma;
       FittedModel fitted = Fit(start, free);
       start = fitted.luminaire;  // the next, freer candidate starts from here
-      candidates.push_back({fmt::format("table {}, smoothness {:g}", ToString(shape), sigma), std::move(fitted)});
+      candidates.push_back(
+          {fmt::format("table {}, smoothness {:g}", ToString(shape), sigma), std::move(fitted)});
       const std::vector<GroupScores> scores = Scores(candidates);
       const bool is_first = candidates.size() == first + 1;
       if (is_first && open_.table_asked_for) continue;
@@ -197,6 +205,17 @@ class Refiner {
       const PairedDifference worse = Difference(scores.back(), before);
       if (worse.mean > (is_first ? worse.standard_error : 0)) break;
     }
+  }
+
+  // Adds the best of the tables with nodes up to 180 degrees.
+  void AddTableAllRound(std::vector<RefinedCandidate>& candidates) const {
+    const std::vector<GroupScores> scores = Scores(candidates);
+    size_t best = 1;
+    for (size_t c = 2; c < candidates.size(); ++c)
+      if (Mean(scores[c]) < Mean(scores[best])) best = c;
+    const FittedModel& half = candidates[best].fitted;
+    FittedModel whole = Fit(WithTable(half.luminaire, NodesTo(180)), half.free);
+    candidates.push_back({candidates[best].name + ", all round", std::move(whole)});
   }
 
   Step EmissionStep() const {

@@ -5,7 +5,8 @@
 //   table     a rotationally symmetric table of intensities over gamma, every 7.5 degrees
 //             (forward/luminaire/luminaire_parts.h), smooth by second differences
 //             (inverse/model/internal/part_smoothness.h) of a strength that is tried in factors of 3; with
-//             the shape as it is, or as a point
+//             the shape as it is, or as a point; to 90 degrees where the lobe ends there, and once to 180
+//             where something above the luminaire was measured
 //   emission  a rectangle of cells that emit unevenly, 2 x 2 to 8 x 8, until two in a row bring nothing
 //
 // Each candidate is fitted to the data that concern the luminaire and scored by cross-validation

@@ -67,9 +67,8 @@ std::vector<UnmodelledPlace> FindUnmodelled(const Room& room, const SurfaceLabel
   for (const auto& [root, region] : regions) {
     if (region.size() >= kFewestElements) places.push_back(PlaceOf(room, region, views));
   }
-  std::stable_sort(places.begin(), places.end(), [](const UnmodelledPlace& a, const UnmodelledPlace& b) {
-    return a.area_m2 > b.area_m2;
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const UnmodelledPlace& a, const UnmodelledPlace& b) { return a.area_m2 > b.area_m2; });
   return places;
 }
 
@@ -89,14 +88,15 @@ void RecordLabels(const Room& room, const SurfaceLabels& labels, Findings& findi
     const UnmodelledPlace& place = places[i];
     area_m2 += place.area_m2;
     if (i >= kMostNamed) continue;
-    words += fmt::format("{}{:.2g} m2 of \"{}\" near ({:.2f}, {:.2f}, {:.2f}) m in {} views", i > 0 ? "; " : "",
-                         place.area_m2, room.scene.materials[static_cast<size_t>(place.material)],
-                         place.center.x(), place.center.y(), place.center.z(), place.views);
+    words +=
+        fmt::format("{}{:.2g} m2 of \"{}\" near ({:.2f}, {:.2f}, {:.2f}) m in {} views", i > 0 ? "; " : "",
+                    place.area_m2, room.scene.materials[static_cast<size_t>(place.material)],
+                    place.center.x(), place.center.y(), place.center.z(), place.views);
   }
   findings.warnings.push_back(
       {"unmodelled_surface",
-       fmt::format("views see something else than the mesh before {:.2g} m2 of it, at {} place{}: {}", area_m2,
-                   places.size(), places.size() == 1 ? "" : "s", words),
+       fmt::format("views see something else than the mesh before {:.2g} m2 of it, at {} place{}: {}",
+                   area_m2, places.size(), places.size() == 1 ? "" : "s", words),
        "add what stands there to the mesh, or take it out of the room; nothing need be done where it is a "
        "reflection in a shiny surface: these views take no part in the fit"});
 }

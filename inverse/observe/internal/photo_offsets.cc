@@ -28,7 +28,8 @@ std::vector<std::vector<double>> Deviations(const ViewTable& table, int state, c
     const double median = Median(values);
     for (int c = first; c < end; ++c) {
       const double y = table.log_luminance(state, c);
-      if (std::isfinite(y)) deviations[static_cast<size_t>(table.view[static_cast<size_t>(c)])].push_back(y - median);
+      if (std::isfinite(y))
+        deviations[static_cast<size_t>(table.view[static_cast<size_t>(c)])].push_back(y - median);
     }
   }
   return deviations;

@@ -14,10 +14,10 @@
 namespace luxfit {
 
 struct ViewDifference {
-  int states = 0;                 // that both views show; 0: nothing can be said
-  Eigen::ArrayXd value, noise;    // of these states
-  double common = 0;              // mean over states
-  double common_noise = 0;        // its variance
+  int states = 0;               // that both views show; 0: nothing can be said
+  Eigen::ArrayXd value, noise;  // of these states
+  double common = 0;            // mean over states
+  double common_noise = 0;      // its variance
 };
 
 ViewDifference DifferenceOf(const ViewTable& table, int a, int b);

@@ -24,8 +24,8 @@ ViewTable TableOfViews(const std::vector<Observation>& observations) {
     table.view.push_back(key.second);
   }
   table.first.push_back(table.columns());
-  table.log_luminance = Eigen::ArrayXXd::Constant(states, table.columns(),
-                                                  std::numeric_limits<double>::quiet_NaN());
+  table.log_luminance =
+      Eigen::ArrayXXd::Constant(states, table.columns(), std::numeric_limits<double>::quiet_NaN());
   table.variance = table.log_luminance;
   for (const Observation& o : observations) {
     if (!(o.relative_luminance > 0)) continue;

@@ -133,7 +133,8 @@ TEST_F(LuminaireTypes, AStripIsTheSameWhicheverSideItsHeadingFollows) {
 TEST_F(LuminaireTypes, SquaresKeepTheirHeading) {
   for (size_t k = 0; k < 3; ++k) {
     fit_.state.luminaires[k].shape = LuminaireShape::kRectangle;
-    fit_.state.luminaires[k].size_m = {0.6 + 0.01 * static_cast<double>(k), 0.61 - 0.01 * static_cast<double>(k)};
+    fit_.state.luminaires[k].size_m = {0.6 + 0.01 * static_cast<double>(k),
+                                       0.61 - 0.01 * static_cast<double>(k)};
     open_[k].heading = true;
   }
   const LightState named = WithSidesAlike(fit_.state, open_);

@@ -259,19 +259,19 @@ TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   const int first_of_switch[] = {0, 1, 1, 3, 3, 5, 5};
   for (size_t k = 0; k < truth.size(); ++k) {
     const bool is_shown = k < 5;
-    const int nearest =
-        NearestOf(fit.fit.state.luminaires, first_of_switch[k], k == 0 ? 1 : 2, truth[k]);
+    const int nearest = NearestOf(fit.fit.state.luminaires, first_of_switch[k], k == 0 ? 1 : 2, truth[k]);
     const Luminaire& found = fit.fit.state.luminaires[static_cast<size_t>(nearest)];
     const double off_mm = 1000 * (found.position - truth[k].position).norm();
     const double off_percent = 100 * (found.flux_lm / truth[k].flux_lm - 1);
     const double z = WorstZ(fit, nearest, truth[k].position);
-    std::printf("  %s off by %6.1f mm (%.1f sigma), flux %+6.2f %%\n", truth[k].id.c_str(), off_mm, z, off_percent);
+    std::printf("  %s off by %6.1f mm (%.1f sigma), flux %+6.2f %%\n", truth[k].id.c_str(), off_mm, z,
+                off_percent);
     EXPECT_LT(off_mm, is_shown ? 0.9 : 85) << truth[k].id;
     EXPECT_LT(std::abs(off_percent), 5.3) << truth[k].id;
   }
-  EXPECT_TRUE(std::any_of(fit.findings.warnings.begin(), fit.findings.warnings.end(),
-                          [](const Warning& w) { return w.code == "unmodelled_surface"; }))
-      << "the chairs";
+  EXPECT_TRUE(std::any_of(fit.findings.warnings.begin(), fit.findings.warnings.end(), [](const Warning& w) {
+    return w.code == "unmodelled_surface";
+  })) << "the chairs";
 }
 
 }  // namespace

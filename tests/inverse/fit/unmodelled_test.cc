@@ -14,9 +14,9 @@ namespace {
 class UnmodelledTest : public testing::Test {
  protected:
   UnmodelledTest()
-      : room_(MakeRoom(
-            support::ClosedRoom({4, 3.2, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"}),
-            {{0.4, 0.1}, {}})) {
+      : room_(
+            MakeRoom(support::ClosedRoom({4, 3.2, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"}),
+                     {{0.4, 0.1}, {}})) {
     labels_.is_estimated = true;
     labels_.common_sigma = 0.01;
     bool is_wall_marked = false;

@@ -48,7 +48,8 @@ double LightAt(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, int 
   for (int k = 0; k < 2; ++k) {
     if (state == 1 - k) continue;
     const Eigen::Vector3d to = lamps[k] - point;
-    light += 0.15 + std::max(0.0, normal.dot(to.normalized())) * std::max(0.0, to.normalized().z()) / to.squaredNorm();
+    light += 0.15 + std::max(0.0, normal.dot(to.normalized())) * std::max(0.0, to.normalized().z()) /
+                        to.squaredNorm();
   }
   return light;
 }
@@ -81,7 +82,8 @@ Case See(const Room& room, const Scene& truth, const CaseOptions& options, std::
       for (int s = 0; s < 3; ++s) {
         Observation o;
         o.element = key.first, o.view = key.second, o.state = s, o.pixels = 50;
-        const double y = options.albedo.at(material) * LightAt(facet.PointAt(hit.u, hit.v), facet.Normal(), s);
+        const double y =
+            options.albedo.at(material) * LightAt(facet.PointAt(hit.u, hit.v), facet.Normal(), s);
         o.relative_luminance = y * std::exp(common + options.noise * normal(rng));
         o.variance = std::pow(options.noise * y, 2);
         seen.observations.push_back(o);
@@ -92,8 +94,8 @@ Case See(const Room& room, const Scene& truth, const CaseOptions& options, std::
 }
 
 struct Rates {
-  double found = 0;   // share of the views of chairs that are labelled so
-  double wrong = 0;   // share of the views of the mesh that are labelled as something else
+  double found = 0;  // share of the views of chairs that are labelled so
+  double wrong = 0;  // share of the views of the mesh that are labelled as something else
 };
 
 Rates RatesOf(const Case& seen, const SurfaceLabels& labels) {
@@ -106,8 +108,8 @@ Rates RatesOf(const Case& seen, const SurfaceLabels& labels) {
   rates.found /= std::max(1.0, others);
   rates.wrong /= static_cast<double>(seen.views.size()) - others;
   std::printf("  %zu of %zu views see chairs; found %.1f %%, false %.2f %%; c %.4f r %.4f share %.3f\n",
-              seen.others.size(), seen.views.size(), 100 * rates.found, 100 * rates.wrong, labels.common_sigma,
-              labels.state_sigma, labels.other_share);
+              seen.others.size(), seen.views.size(), 100 * rates.found, 100 * rates.wrong,
+              labels.common_sigma, labels.state_sigma, labels.other_share);
   return rates;
 }
 
@@ -137,6 +139,10 @@ TEST_F(SurfaceLabelsTest, APhotoThatIsTooBrightLosesNothing) {
   Case seen = See(room_, MeshOfRoom(), {}, rng_);
   for (Observation& o : seen.observations) o.relative_luminance *= o.view == 3 && o.state == 1 ? 1.05 : 1;
   EXPECT_LT(RatesOf(seen, LabelSurfaces(room_, seen.observations)).wrong, 1e-3);
+}
+
+TEST_F(SurfaceLabelsTest, WithoutPhotosThereIsNothingToLabel) {
+  EXPECT_TRUE(LabelSurfaces(room_, {}).views.empty());
 }
 
 // Nothing is taken away where views share too little.
