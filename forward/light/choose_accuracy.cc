@@ -14,7 +14,7 @@ namespace luxfit {
 namespace {
 
 // Shares of the error. Patches may use what rays and sensors leave of kTogether, as a root of squares.
-constexpr double kTogether = 0.95, kRaysShare = 0.3, kSensorsShare = 0.4, kBouncesShare = 0.05;
+constexpr double kTogether = 0.85, kRaysShare = 0.3, kSensorsShare = 0.4, kBouncesShare = 0.05;
 constexpr double kPatchesShare = 0.8;  // at least, also where those two missed theirs
 constexpr size_t kMostTried = 100;  // sensors, for a root mean square that is within a tenth of that of all
 constexpr int kFewestRays = 16, kMostSampled = 256, kHybridRays = 64, kFewestSensorRays = 1024;
