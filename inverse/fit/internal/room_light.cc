@@ -5,11 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <string>
 #include <utility>
-#include "inverse/observe/internal/adjacent_elements.h"
 
 namespace luxfit {
 namespace {
@@ -48,37 +45,6 @@ RoomLight LightOf(const Room& room, const RoomObservations& given) {
   MergedObservations merged =
       MergeViews(OfOwnSurface(given.observations, light.labels), {{}, kOutlierSigmas, kLeastBetweenViews});
   light.data.observations = std::move(merged.observations);
-  if (const char* t = std::getenv("SUSPECT")) {
-    std::map<int, std::pair<double, double>> sum;
-    for (const ElementView& v : light.labels.views) {
-      sum[v.element].first += v.own_probability <= 0.5;
-      sum[v.element].second += 1;
-    }
-    std::vector<int> elements;
-    for (auto& [e, x] : sum) elements.push_back(e);
-    const auto adjacent = AdjacentElements(room, elements);
-    std::vector<std::pair<double, double>> total(elements.size());
-    for (size_t i = 0; i < elements.size(); ++i) total[i] = sum[elements[i]];
-    for (int ring = 0; ring < 2; ++ring) {
-      auto next = total;
-      for (auto [i, j] : adjacent) {
-        next[i].first += total[j].first;
-        next[i].second += total[j].second;
-        next[j].first += total[i].first;
-        next[j].second += total[i].second;
-      }
-      total = next;
-    }
-    std::set<int> bad;
-    for (size_t i = 0; i < elements.size(); ++i)
-      if (total[i].first > atof(t) * total[i].second) bad.insert(elements[i]);
-    std::vector<Observation> kept;
-    for (auto& o : light.data.observations)
-      if (!bad.count(o.element)) kept.push_back(o);
-    fprintf(stderr, "SUSPECT %zu of %zu elements; rows %zu -> %zu\n", bad.size(), elements.size(),
-            light.data.observations.size(), kept.size());
-    light.data.observations = kept;
-  }
   light.between_views = merged.between_views;
   light.data.pose_root = RootOf(given.pose_covariance);
   const Meter& meter = given.meter;

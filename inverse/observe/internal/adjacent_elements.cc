@@ -63,6 +63,7 @@ std::vector<std::pair<int, int>> AdjacentElements(const Room& room, const std::v
 
 std::vector<std::vector<int>> AdjacentColumns(const Room& room, const ViewTable& table) {
   std::vector<int> elements;
+  elements.reserve(static_cast<size_t>(table.elements()));
   for (int e = 0; e < table.elements(); ++e)
     elements.push_back(table.element[static_cast<size_t>(table.first[static_cast<size_t>(e)])]);
   std::vector<std::vector<int>> neighbours(static_cast<size_t>(table.columns()));

@@ -108,7 +108,7 @@ TEST_F(TagMapTest, AnErrorShowsWholeCharacters) {
   std::string many;
   for (int i = 0; i < 40; ++i) many += "\u20ac";
   folder_.Write("tags.json", "[" + many + "]");
-  EXPECT_THAT(Error(), HasSubstr("got \"[" + many.substr(0, 19 * 3) + "\""));
+  EXPECT_THAT(Error(), HasSubstr("got \"[" + many.substr(0, size_t{19} * 3) + "\""));
 }
 
 TEST_F(TagMapTest, ANumberBeyondAllIsReported) {

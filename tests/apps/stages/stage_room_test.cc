@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/stages/stages.h"
@@ -90,16 +92,17 @@ TEST_F(StageRoomTest, ACornerFarOffIsRefused) {
 // A crowd of triangles in the air: more form factors than a laptop holds.
 TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
   constexpr int kTriangles = 25000;
-  std::string crowd = kRoom;
+  std::ostringstream crowd;
+  crowd << kRoom;
   for (int i = 0; i < kTriangles; ++i) {
-    const std::string x = std::to_string(0.1 + 0.01 * (i % 170)), y = std::to_string(0.1 + 0.01 * (i / 170)),
-                      near_x = std::to_string(0.105 + 0.01 * (i % 170)),
-                      near_y = std::to_string(0.105 + 0.01 * (i / 170));
-    crowd += "v " + x + " " + y + " 1\nv " + near_x + " " + y + " 1\nv " + x + " " + near_y +
-             " 1\nf -3 -2 -1\nf -3 -1 -2\n";
+    const int column = i % 170, row = i / 170;
+    const double x = 0.1 + 0.01 * column, y = 0.1 + 0.01 * row;
+    for (const auto& [at_x, at_y] : {std::pair{x, y}, {x + 0.005, y}, {x, y + 0.005}})
+      crowd << "v " << at_x << " " << at_y << " 1\n";
+    crowd << "f -3 -2 -1\nf -3 -1 -2\n";
   }
   try {
-    WarningsOf(crowd);
+    WarningsOf(crowd.str());
     FAIL() << "expected an error";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.mesh: expected patches whose form factors fit"));
