@@ -18,7 +18,7 @@ namespace luxfit {
 namespace {
 
 constexpr size_t kLeastPairs = 30;        // fewer tell no scatter
-constexpr int kRounds = 4, kSweeps = 10;  // labels change in fewer than 0.1 % of the views after them
+constexpr int kRounds = 4, kSweeps = 10;  // bound the work; surface_labels_test shows that they suffice there
 constexpr double kAgreement = 1;          // b
 
 struct ViewPair {
@@ -26,7 +26,7 @@ struct ViewPair {
   ViewDifference difference;
 };
 
-// What differs where a view shows something else; start: another paint, lit a little differently.
+// Holds by how much a view of something else differs. It starts as another paint, lit a little differently.
 struct OtherSurface {
   double common_variance = 0.25, state_variance = 0.04;
   double share = 0.05;

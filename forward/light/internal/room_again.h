@@ -1,7 +1,6 @@
 // Returns a room whose patches stay and whose form factors are computed anew, as MakeRoom would with these options.
 //
-// What depends on the patches alone, such as visibility and the form factors of sensors, then stays as well. Throws as
-// MakeRoom does.
+// Visibility and the form factors of sensors depend on the patches alone, and stay valid. Throws as MakeRoom does.
 #ifndef LUXFIT_FORWARD_LIGHT_INTERNAL_ROOM_AGAIN_H_
 #define LUXFIT_FORWARD_LIGHT_INTERNAL_ROOM_AGAIN_H_
 

@@ -141,7 +141,7 @@ TEST_F(LuminaireTypes, SquaresKeepTheirHeading) {
   for (size_t k = 0; k < 3; ++k) EXPECT_EQ(named.luminaires[k].heading, fit_.state.luminaires[k].heading);
 }
 
-// What is given is kept as it is given.
+// A heading that the user gives stays as it is.
 TEST_F(LuminaireTypes, AGivenHeadingIsKept) {
   for (size_t k = 0; k < 3; ++k) {
     fit_.state.luminaires[k].shape = LuminaireShape::kRectangle;

@@ -71,7 +71,7 @@ TEST(RecordPhotometryFile, WarnsOfAnLdtThatIsNotAsStated) {
   EXPECT_THAT(FluxWarning(with_ratio(1.05 * percent), "a.ldt"), HasSubstr("states"));
 }
 
-// What only tells how the text was read is no warning; what changes the light is, once for a file.
+// Notes that change the light are warnings, once for a file. Notes on how the text was read are none.
 TEST(RecordPhotometryFile, WarnsOfNotesThatChangeTheLight) {
   const auto of_notes = [](const Findings& findings) {
     std::vector<Warning> warnings;

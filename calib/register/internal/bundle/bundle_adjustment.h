@@ -56,7 +56,7 @@ struct BundlePoint {
   std::optional<SurfacePlane> surface;  // surface that it lies on
 };
 
-// What a user can look at where photos and tags do not go together.
+// Tells a user what to look at where photos and tags do not go together.
 inline constexpr char kWhyNothingFits[] =
     "the intrinsics may be of another lens model, camera or picture size, or the tags hang elsewhere than "
     "the map "
