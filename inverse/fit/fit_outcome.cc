@@ -14,6 +14,7 @@ namespace {
 constexpr double kNotDetermined = std::numeric_limits<double>::quiet_NaN();
 // In m, rad or a logarithm: of a parameter that a luminaire without light leaves free, whatever direction is named.
 constexpr double kSigmaOfNoMeaning = 1e6;
+constexpr double kLeastKnownFlux = 1;  // sigma of its logarithm: a factor of e says nothing
 
 // Returns whether every luminaire that is on in the state was found.
 bool IsLit(const RoomFit& fit, int state) {
@@ -79,7 +80,8 @@ double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuant
 }
 
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
-  return fit.absolute && (fit.TellsDirectLight() || !fit.fit.state.free[luminaire].flux);
+  if (!fit.absolute || (!fit.TellsDirectLight() && fit.fit.state.free[luminaire].flux)) return false;
+  return !(SigmaOf(fit, ParameterKind::kLogFlux, static_cast<int>(luminaire)) >= kLeastKnownFlux);
 }
 
 std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit) {
@@ -120,6 +122,8 @@ std::vector<PredictedReading> PredictedReadings(const RoomFit& fit) {
     reading.illuminance_lx = fit.fit.predicted[first + row];
     reading.direct_lx = fit.fit.reading_direct_lx[row];
     reading.parameter_sigma_lx = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
+    // A value that may be nothing says nothing.
+    reading.is_known = reading.is_known && !(reading.parameter_sigma_lx >= reading.illuminance_lx);
     reading.sigma_lx =
         std::hypot(reading.parameter_sigma_lx, fit.fit.shared_relative_sigma * reading.illuminance_lx);
     readings.push_back(reading);

@@ -27,6 +27,7 @@
 #include "inverse/fit/internal/expect_whole.h"
 #include "inverse/fit/internal/indirect_albedo.h"
 #include "inverse/fit/internal/match_scale.h"
+#include "inverse/fit/internal/misfit.h"
 #include "inverse/fit/internal/name_in_order.h"
 #include "inverse/fit/internal/odd_luminaires.h"
 #include "inverse/fit/internal/outlines.h"
@@ -247,8 +248,7 @@ class RoomFitter {
                        found && !known.aim.has_value(),
                        found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
-    LightState typed = state;
-    typed.first_of_type = TypesBySwitching(data, state, open_);
+    const LightState typed = TypedBySwitching(data, state, open_);
     const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, Priors(),
                                                      SeenPlacesOfTypes(given_.seen, data, typed));
     for (const PlacesChoice& c : choice.places) {
@@ -330,7 +330,7 @@ class RoomFitter {
   LuminaireFit WithOneOfLikeTypes(const LightData& part, LuminaireFit fit) {
     TypedState typed = WithMergedTypes(fit, open_);
     RecordTypes(typed, result_.findings);
-    if (typed.merged.empty()) return fit;
+    if (typed.merged.empty() && typed.turned_alike.empty()) return fit;
     return FitLuminaires(room_, part, typed.state, Priors(), OfPart(&fit));
   }
 

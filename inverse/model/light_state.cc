@@ -185,15 +185,16 @@ void AddLuminaire(const Eigen::AlignedBox3d& box, const LightState& state, int i
   if (free.sides) AddParts(box, luminaire, index, LuminaireQuantity::kSide, parameters);
   if (free.emission_sigma > 0) AddParts(box, luminaire, index, LuminaireQuantity::kCell, parameters);
   const auto own = parameters.begin() + static_cast<std::ptrdiff_t>(before);
+  const auto is_tied = [&](const Parameter& p) {
+    return !IsPosition(p.quantity) && !(free.own_direction && IsTurn(p));
+  };
   if (IsFirstOfType(state, index)) {
     const std::vector<int> others = OthersOfType(state, index);
     std::for_each(own, parameters.end(), [&](Parameter& p) {
-      if (!IsPosition(p.quantity)) p.tied = others;
+      if (is_tied(p)) p.tied = others;
     });
   } else {
-    parameters.erase(
-        std::remove_if(own, parameters.end(), [](const Parameter& p) { return !IsPosition(p.quantity); }),
-        parameters.end());
+    parameters.erase(std::remove_if(own, parameters.end(), is_tied), parameters.end());
   }
   if (free.flux) parameters.push_back({ParameterKind::kLogFlux, index, {}, -50, 50, luminaire.id});
 }
@@ -229,11 +230,12 @@ std::vector<std::vector<int>> TypesOf(const LightState& state) {
   return types;
 }
 
-Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire) {
+Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire, bool has_own_direction) {
   Luminaire alike = first;
   alike.id = luminaire.id;
   alike.position = luminaire.position;
   alike.flux_lm = luminaire.flux_lm;
+  if (has_own_direction) alike.aim = luminaire.aim, alike.heading = luminaire.heading;
   return alike;
 }
 
@@ -241,11 +243,12 @@ LightState WithLikeTypes(LightState state) {
   for (size_t k = 0; k < state.first_of_type.size(); ++k) {
     const auto first = static_cast<size_t>(state.first_of_type[k]);
     if (first == k) continue;
-    state.luminaires[k] = OfTypeOf(state.luminaires[first], state.luminaires[k]);
     const FreeQuantities own = state.free[k];
     state.free[k] = state.free[first];
     state.free[k].position = own.position;
     state.free[k].flux = own.flux;
+    if (own.own_direction) state.free[k].tilt = own.tilt, state.free[k].heading = own.heading;
+    state.luminaires[k] = OfTypeOf(state.luminaires[first], state.luminaires[k], own.own_direction);
   }
   return state;
 }
@@ -356,7 +359,9 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
   for (const auto& [index, turn] : turns) Apply(turn, state.luminaires[static_cast<size_t>(index)]);
   for (size_t k = 0; k < state.first_of_type.size(); ++k) {
     const auto first = static_cast<size_t>(state.first_of_type[k]);
-    if (first != k) state.luminaires[k] = OfTypeOf(state.luminaires[first], state.luminaires[k]);
+    if (first != k)
+      state.luminaires[k] =
+          OfTypeOf(state.luminaires[first], state.luminaires[k], state.free[k].own_direction);
   }
   return state;
 }

@@ -68,6 +68,8 @@ struct FreeQuantities {
   // smoothness (inverse/model/internal/part_smoothness.h).
   double table_sigma = 0;
   double emission_sigma = 0;
+  // true: of luminaires of one type, each has its own aim and heading, as spots have.
+  bool own_direction = false;
 };
 
 // Says when the luminaires' bodies hide the surfaces behind them (forward/light/covered_surfaces.h).
@@ -91,7 +93,8 @@ struct LightState {
   std::vector<Luminaire> luminaires;
   std::vector<FreeQuantities> free;  // one for each luminaire
   // Names, by luminaire, the first of its type. Luminaires of a type are alike but for place and flux: the first
-  // one's parameters of distribution, size, emission and direction are those of all. Empty: each its own type.
+  // one's parameters of distribution, size, emission and, without own_direction, of direction are those of all.
+  // Empty: each its own type.
   std::vector<int> first_of_type = {};
   Eigen::VectorXd albedo;  // by material
   std::vector<bool> albedo_free;
@@ -115,8 +118,8 @@ bool IsFirstOfType(const LightState& state, int luminaire);
 // Returns the luminaires of each type, in order; each for itself where there are no types.
 std::vector<std::vector<int>> TypesOf(const LightState& state);
 
-// Returns the luminaire as its type's first one is, with its own id, place and flux.
-Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire);
+// Returns the luminaire as its type's first one is, with its own id, place and flux, and direction where it has one.
+Luminaire OfTypeOf(const Luminaire& first, const Luminaire& luminaire, bool has_own_direction);
 
 // Returns the state with every luminaire, and what is free of it, like the first of its type.
 LightState WithLikeTypes(LightState state);

@@ -200,7 +200,8 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
   LightState state = problem.state;
   for (const int k : problem.members) {
     const auto member = static_cast<size_t>(k);
-    state.luminaires[member] = k == problem.luminaire ? start : OfTypeOf(start, state.luminaires[member]);
+    state.luminaires[member] =
+        k == problem.luminaire ? start : OfTypeOf(start, state.luminaires[member], free.own_direction);
     state.free[member] = free;
   }
   return FitState(room, problem, state, effort);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -14,7 +15,8 @@
 namespace luxfit {
 namespace {
 
-constexpr double kSameAim = 0.9998;  // cosine of a degree
+constexpr double kSameAim = 0.9998;    // cosine of a degree
+constexpr double kNearlyAlike = 0.98;  // cosine of 11 degrees: within that, a tilt or heading is a number
 
 bool IsOpen(const OpenChoice& open) { return open.distribution && open.shape; }
 
@@ -25,6 +27,17 @@ bool AreOnTogether(const LightData& data, int a, int b) {
   });
 }
 
+// Returns whether the search for places told the aims of all these luminaires, and two of them differ.
+bool MayHaveOwnAims(const LightState& state, const std::vector<int>& type) {
+  const auto aim = [&](int k) { return state.luminaires[static_cast<size_t>(k)].aim; };
+  return std::all_of(type.begin(), type.end(),
+                     [&](int k) { return state.free[static_cast<size_t>(k)].tilt; }) &&
+         std::any_of(type.begin(), type.end(), [&](int k) {
+           return std::any_of(type.begin(), type.end(),
+                              [&](int j) { return aim(k).dot(aim(j)) < kNearlyAlike; });
+         });
+}
+
 bool HaveOneTable(const Luminaire& a, const Luminaire& b) {
   if (!a.table || !b.table) return !a.table && !b.table;
   return a.table->gamma_rad == b.table->gamma_rad && a.table->c_rad == b.table->c_rad;
@@ -32,10 +45,13 @@ bool HaveOneTable(const Luminaire& a, const Luminaire& b) {
 
 // Returns whether two luminaires differ in numbers only.
 bool HaveOneForm(const Luminaire& a, const Luminaire& b) {
-  constexpr double kNearlyAlike = 0.98;  // cosine of 11 degrees: within that, a tilt or heading is a number
-  const bool is_turnable = a.shape == LuminaireShape::kRectangle;
   return a.distribution == b.distribution && a.shape == b.shape && HaveOneTable(a, b) &&
-         a.emission.size() == 0 && b.emission.size() == 0 && a.aim.dot(b.aim) > kNearlyAlike &&
+         a.emission.size() == 0 && b.emission.size() == 0;
+}
+
+bool HaveOneDirection(const Luminaire& a, const Luminaire& b) {
+  const bool is_turnable = a.shape == LuminaireShape::kRectangle;
+  return a.aim.dot(b.aim) > kNearlyAlike &&
          (!is_turnable || std::abs(AxesOf(a).along.dot(AxesOf(b).along)) > kNearlyAlike);
 }
 
@@ -53,13 +69,21 @@ bool IsPlace(LuminaireQuantity quantity) {
          quantity == LuminaireQuantity::kPositionZ;
 }
 
+bool IsDirection(LuminaireQuantity quantity) {
+  return quantity == LuminaireQuantity::kTiltAlong || quantity == LuminaireQuantity::kTiltAcross ||
+         quantity == LuminaireQuantity::kHeading;
+}
+
 // Holds where a fit has the parameter of one number of the form; -1: it is held there.
 using Number = std::tuple<LuminaireQuantity, int, int>;  // quantity, part, reference
 std::map<Number, Eigen::Index> FormOf(const LuminaireFit& fit, int luminaire) {
   std::map<Number, Eigen::Index> form;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const Parameter& p = fit.parameters[i];
-    if (p.kind == ParameterKind::kLuminaire && p.index == luminaire && !IsPlace(p.quantity))
+    const bool is_own =
+        IsPlace(p.quantity) ||
+        (fit.state.free[static_cast<size_t>(luminaire)].own_direction && IsDirection(p.quantity));
+    if (p.kind == ParameterKind::kLuminaire && p.index == luminaire && !is_own)
       form[{p.quantity, p.part, p.reference}] = static_cast<Eigen::Index>(i);
   }
   return form;
@@ -68,8 +92,9 @@ std::map<Number, Eigen::Index> FormOf(const LuminaireFit& fit, int luminaire) {
 // Returns x_a - x_b for the numbers that either has free.
 Eigen::VectorXd DifferenceOf(const LuminaireFit& fit, int a, int b, const std::set<Number>& numbers) {
   LightState as_b = fit.state;
-  as_b.luminaires[static_cast<size_t>(a)] =
-      OfTypeOf(fit.state.luminaires[static_cast<size_t>(b)], fit.state.luminaires[static_cast<size_t>(a)]);
+  const auto at_a = static_cast<size_t>(a);
+  as_b.luminaires[at_a] = OfTypeOf(fit.state.luminaires[static_cast<size_t>(b)], fit.state.luminaires[at_a],
+                                   fit.state.free[at_a].own_direction);
   std::vector<Parameter> of_a;
   of_a.reserve(numbers.size());
   for (const auto& [quantity, part, reference] : numbers) {
@@ -89,9 +114,11 @@ double Chi2Of95(double freedom) {
 
 // Returns the comparison of two types by their first luminaires; none where they cannot be one.
 std::optional<MergedTypes> Compared(const LuminaireFit& fit, int a, int b) {
-  if (!HaveOneForm(fit.state.luminaires[static_cast<size_t>(a)],
-                   fit.state.luminaires[static_cast<size_t>(b)]))
-    return {};
+  const auto at_a = static_cast<size_t>(a), at_b = static_cast<size_t>(b);
+  const Luminaire &of_a = fit.state.luminaires[at_a], &of_b = fit.state.luminaires[at_b];
+  const bool has_own_direction = fit.state.free[at_a].own_direction;
+  if (has_own_direction != fit.state.free[at_b].own_direction || !HaveOneForm(of_a, of_b)) return {};
+  if (!has_own_direction && !HaveOneDirection(of_a, of_b)) return {};
   const std::map<Number, Eigen::Index> form_a = FormOf(fit, a), form_b = FormOf(fit, b);
   std::set<Number> numbers;
   for (const auto& [number, column] : form_a) numbers.insert(number);
@@ -102,9 +129,9 @@ std::optional<MergedTypes> Compared(const LuminaireFit& fit, int a, int b) {
   Eigen::MatrixXd contrast = Eigen::MatrixXd::Zero(n, fit.covariance.cols());
   Eigen::Index row = 0;
   for (const Number& number : numbers) {
-    const auto of_a = form_a.find(number), of_b = form_b.find(number);
-    if (of_a != form_a.end()) contrast(row, of_a->second) = 1;
-    if (of_b != form_b.end()) contrast(row, of_b->second) = -1;
+    const auto in_a = form_a.find(number), in_b = form_b.find(number);
+    if (in_a != form_a.end()) contrast(row, in_a->second) = 1;
+    if (in_b != form_b.end()) contrast(row, in_b->second) = -1;
     ++row;
   }
   const Eigen::VectorXd difference = DifferenceOf(fit, a, b, numbers);
@@ -113,6 +140,52 @@ std::optional<MergedTypes> Compared(const LuminaireFit& fit, int a, int b) {
   merged.chi2 = difference.dot(factor.solve(difference));
   if (!(merged.chi2 <= Chi2Of95(static_cast<double>(n)))) return {};
   return merged;
+}
+
+// Holds where a fit turns a luminaire; none where its aim is held.
+struct FittedTurn {
+  AimFrame frame;
+  std::array<Eigen::Index, 2> columns{-1, -1};  // of the tilts along and across
+};
+
+std::optional<FittedTurn> TurnOf(const LuminaireFit& fit, int luminaire) {
+  FittedTurn turn;
+  for (size_t i = 0; i < fit.parameters.size(); ++i) {
+    const Parameter& p = fit.parameters[i];
+    const bool is_along = p.Is(ParameterKind::kLuminaire, luminaire, LuminaireQuantity::kTiltAlong);
+    if (!is_along && !p.Is(ParameterKind::kLuminaire, luminaire, LuminaireQuantity::kTiltAcross)) continue;
+    turn.frame = p.frame;
+    turn.columns[is_along ? 0 : 1] = static_cast<Eigen::Index>(i);
+  }
+  if (turn.columns[0] < 0 || turn.columns[1] < 0) return {};
+  return turn;
+}
+
+// Returns whether the fit tells the aims of luminaires, each free, from one common aim. Aims and their sigmas are
+// compared as tilts in the first one's frame.
+bool TellsAimsApart(const LuminaireFit& fit, const std::vector<int>& type) {
+  const std::optional<FittedTurn> first = TurnOf(fit, type.front());
+  if (!first) return true;
+  const auto n = static_cast<Eigen::Index>(2 * (type.size() - 1));
+  Eigen::MatrixXd contrast = Eigen::MatrixXd::Zero(n, fit.covariance.cols());
+  Eigen::VectorXd difference(n);
+  const Eigen::Vector3d& aim = fit.state.luminaires[static_cast<size_t>(type.front())].aim;
+  for (size_t m = 1; m < type.size(); ++m) {
+    const std::optional<FittedTurn> turn = TurnOf(fit, type[m]);
+    const Eigen::Vector3d& other = fit.state.luminaires[static_cast<size_t>(type[m])].aim;
+    if (!turn || other.dot(aim) < kNearlyAlike) return true;
+    const auto row = static_cast<Eigen::Index>(2 * (m - 1));
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      const Eigen::Vector3d& axis = i == 0 ? first->frame.along : first->frame.across;
+      difference[row + i] = (other - aim).dot(axis);
+      contrast(row + i, first->columns[static_cast<size_t>(i)]) = -1;
+      contrast(row + i, turn->columns[0]) = turn->frame.along.dot(axis);
+      contrast(row + i, turn->columns[1]) = turn->frame.across.dot(axis);
+    }
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> factor(contrast * fit.covariance * contrast.transpose());
+  return !factor.isPositive() ||
+         !(difference.dot(factor.solve(difference)) <= Chi2Of95(static_cast<double>(n)));
 }
 
 // Returns whether the place is bright in states where the luminaire is on, and in no other.
@@ -142,8 +215,7 @@ bool AreReached(const std::vector<Eigen::Vector3d>& places, const LightState& st
 
 }  // namespace
 
-std::vector<int> TypesBySwitching(const LightData& data, const LightState& start,
-                                  const std::vector<OpenChoice>& open) {
+LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open) {
   std::vector<int> first;
   for (int k = 0; k < static_cast<int>(open.size()); ++k) {
     const auto of = static_cast<size_t>(k);
@@ -156,7 +228,12 @@ std::vector<int> TypesBySwitching(const LightData& data, const LightState& start
         first.back() = first[other];
     }
   }
-  return first;
+  start.first_of_type = std::move(first);
+  for (const std::vector<int>& type : TypesOf(start)) {
+    if (!MayHaveOwnAims(start, type)) continue;
+    for (const int k : type) start.free[static_cast<size_t>(k)].own_direction = true;
+  }
+  return start;
 }
 
 LightState WithTypes(LightState state, const std::vector<int>& first_of_type) {
@@ -171,7 +248,8 @@ LightState WithTypes(LightState state, const std::vector<int>& first_of_type) {
     const int model = *std::max_element(type.begin(), type.end(),
                                         [&](int a, int b) { return likeness(a) < likeness(b) - 1e-9; });
     Luminaire& first = state.luminaires[static_cast<size_t>(type.front())];
-    first = OfTypeOf(state.luminaires[static_cast<size_t>(model)], first);
+    first = OfTypeOf(state.luminaires[static_cast<size_t>(model)], first,
+                     state.free[static_cast<size_t>(type.front())].own_direction);
     state.free[static_cast<size_t>(type.front())] = state.free[static_cast<size_t>(model)];
   }
   return WithLikeTypes(std::move(state));
@@ -222,13 +300,19 @@ LightState WithSidesAlike(LightState state, const std::vector<OpenChoice>& open)
 }
 
 TypedState WithMergedTypes(const LuminaireFit& fit, const std::vector<OpenChoice>& open) {
-  TypedState typed{fit.state, {}};
+  TypedState typed{fit.state, {}, {}};
   if (fit.covariance.size() == 0) return typed;
   std::vector<int>& first = typed.state.first_of_type;
   if (first.empty()) {
     for (int k = 0; k < static_cast<int>(open.size()); ++k) first.push_back(k);
   }
   const std::vector<std::vector<int>> types = TypesOf(typed.state);
+  for (const std::vector<int>& type : types) {
+    if (!fit.state.free[static_cast<size_t>(type.front())].own_direction || TellsAimsApart(fit, type))
+      continue;
+    typed.turned_alike.push_back(type.front());
+    for (const int k : type) typed.state.free[static_cast<size_t>(k)].own_direction = false;
+  }
   for (size_t t = 0; t < types.size(); ++t) {
     const int own = types[t].front();
     if (!IsOpen(open[static_cast<size_t>(own)])) continue;

@@ -4,7 +4,7 @@
 // row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen.
 //
 // Types whose models have the same form are merged where a fit of all luminaires does not tell their numbers
-// apart: exponents, sizes, tables, tilts, headings.
+// apart: exponents, sizes, tables, tilts, headings. Directions of a type's own luminaires become one by the same test.
 //   (x_a - x_b)^T C_ab^-1 (x_a - x_b) <= chi2_95     C_ab: covariance of the difference
 //
 // Source: Wald (1943), "Tests of statistical hypotheses concerning several parameters".
@@ -17,10 +17,10 @@
 
 namespace luxfit {
 
-// Returns LightState::first_of_type where the luminaires of `open` distribution and shape that are always on
-// together at the same level are of one type. Given aims must be alike.
-std::vector<int> TypesBySwitching(const LightData& data, const LightState& start,
-                                  const std::vector<OpenChoice>& open);
+// Returns the state with its types: luminaires of `open` distribution and shape that are always on together at the
+// same level are of one type. Given aims must be alike. Where the search for places told aims that differ by 11
+// degrees and more, as those of spots do, each luminaire of the type has its own direction.
+LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open);
 
 // Returns the state with these types. Luminaires of a type get the model of the one whose aim is nearest to the
 // others': a first guess sees some of them wrong.
@@ -47,6 +47,8 @@ struct MergedTypes {
 struct TypedState {
   LightState state;
   std::vector<MergedTypes> merged;
+  std::vector<int>
+      turned_alike;  // the first of each type whose luminaires had a direction each and now have one
 };
 
 // Merges types of a fit with a covariance. Luminaires whose distribution or shape is not open keep theirs.

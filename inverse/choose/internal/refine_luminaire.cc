@@ -12,6 +12,7 @@
 
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
+#include "inverse/choose/internal/two_sides.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
@@ -24,19 +25,6 @@ struct RefinedCandidate {
 
 constexpr double kGoodEnough = 0.01;  // model error below which table and emission are not tried
 constexpr double kNodeStepDeg = 7.5;
-
-// Returns whether something above the luminaire was measured.
-bool SeesAbove(const Room& room, const SubProblem& problem, const Luminaire& luminaire) {
-  double lowest = 1;  // cosine of gamma
-  const auto see = [&](const Eigen::Vector3d& p) {
-    lowest = std::min(lowest, luminaire.aim.dot((p - luminaire.position).normalized()));
-  };
-  for (const Observation& o : problem.data.observations)
-    see(room.patches.elements[static_cast<size_t>(o.element)].center);
-  for (const Reading& reading : problem.data.readings) see(reading.sensor.position);
-  constexpr double kBarelyAbove = -0.1;
-  return lowest < kBarelyAbove;
-}
 
 std::vector<double> NodesTo(double last_deg) {
   std::vector<double> gamma_rad;
@@ -155,7 +143,7 @@ class Refiner {
 
   Step TableStep() const {
     Step step{RefinementKind::kTable, {{ToString(held_.luminaire.distribution), held_}}};
-    const bool sees_above = SeesAbove(room_, problem_, held_.luminaire);
+    const bool sees_above = SeesBothSides(room_, problem_, held_.luminaire);
     const bool is_lobe = held_.luminaire.distribution != Distribution::kMeasured;
     const double lobe_deg = OpsOf(held_.luminaire.distribution).last_gamma_deg;
     const double last_deg = sees_above ? 180 : lobe_deg;

@@ -34,9 +34,10 @@ std::optional<FittedModel> FitTwoSides(const Room& room, const SubProblem& probl
 
 }  // namespace
 
-bool SeesBothSides(const Room& room, const SubProblem& problem) {
+bool SeesBothSides(const Room& room, const SubProblem& problem, const Luminaire& luminaire) {
   constexpr double kBarely = 0.1;  // cosine
-  const Luminaire& luminaire = problem.state.luminaires[static_cast<size_t>(problem.luminaire)];
+  constexpr double kBehindM = 0.1;
+  if (room.rays.Occluded(luminaire.position, luminaire.position - kBehindM * luminaire.aim)) return false;
   double lowest = 0, highest = 0;
   const auto see = [&](const Eigen::Vector3d& p) {
     const double cosine = luminaire.aim.dot((p - luminaire.position).normalized());
@@ -63,9 +64,9 @@ std::optional<LightState> WithTwoSides(const Room& room, const LightData& data, 
   for (size_t k = 0; k < is_open.size(); ++k) {
     if (!is_open[k] || state.luminaires[k].shape != LuminaireShape::kPoint) continue;
     const SubProblem problem = MakeSubProblem(room, data, state, {static_cast<int>(k)}, priors, kMaxElements);
-    if (!problem.CanJudge() || !SeesBothSides(room, problem)) continue;
+    if (!problem.CanJudge() || !SeesBothSides(room, problem, state.luminaires[k])) continue;
     const std::optional<FittedModel> two = FitTwoSides(room, problem);
-    if (!two) continue;
+    if (!two || !SeesBothSides(room, problem, two->luminaire)) continue;
     if (!result) result = state;
     result->luminaires[k] = two->luminaire;
     result->free[k] = two->free;

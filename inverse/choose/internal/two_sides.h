@@ -6,7 +6,7 @@
 // other luminaire would be wrong where models are compared. So a point that lights both sides is compared with the
 // luminaire as it is on the light that photos measured, which no model of a luminaire enters. Both have one
 // parameter beside place and flux. Where the luminaire as it is leaves no more than 1 %, nothing is tried. Nor is it
-// where the data lie on one side of the luminaire: light that nothing sees could be as much as one likes.
+// where no data show light from its back: light that nothing sees could be as much as one likes.
 //
 // Source: house; rule: inverse/select/one_standard_error.h.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_TWO_SIDES_H_
@@ -20,8 +20,10 @@
 
 namespace luxfit {
 
-// Returns whether data lie on both sides of the problem's luminaire, more than 6 degrees from its plane.
-bool SeesBothSides(const Room& room, const SubProblem& problem);
+// Returns whether data show light from both sides of a luminaire: they lie more than 6 degrees from its plane on
+// either, and no surface is nearer than 0.1 m behind it. Half of what a Lambertian back emits falls within the
+// distance of such a surface, on an element or two that the luminaire itself hides from the cameras.
+bool SeesBothSides(const Room& room, const SubProblem& problem, const Luminaire& luminaire);
 
 // Returns the luminaire with both sides lit alike, its aim downwards.
 Luminaire LitOnBothSides(Luminaire luminaire);

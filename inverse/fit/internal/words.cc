@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -238,42 +238,6 @@ void RecordDirectShare(const DirectShare& share, Findings& findings) {
        "reflectances in [scene.albedo] or the luminaires' photometry"});
 }
 
-void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
-  const LuminaireFit& fit = result.fit;
-  constexpr double kUnexplained = 0.25;                     // robust weight at five sigmas
-  constexpr double kLargeError = 0.02, kLargeShare = 0.15;  // a good mesh: 0.5 %, 5 %
-  std::map<std::string, std::pair<int, int>> of_material;   // counts: unexplained, all
-  std::pair<int, int> all;
-  for (size_t i = 0; i < result.data.observations.size() && fit.weight.size() > 0; ++i) {
-    const double weight = fit.weight[static_cast<Eigen::Index>(i)];
-    if (weight == 0) continue;
-    const auto material =
-        static_cast<size_t>(room.patches.PatchOf(result.data.observations[i].element).material);
-    for (std::pair<int, int>* count : {&all, &of_material[room.scene.materials[material]]}) {
-      count->first += weight < kUnexplained ? 1 : 0;
-      ++count->second;
-    }
-  }
-  const double share = all.second > 0 ? static_cast<double>(all.first) / all.second : 0;
-  if (all.second == 0 || (share < kLargeShare && fit.relative_sigma < kLargeError)) return;
-  std::string worst;
-  for (const auto& [material, count] : of_material) {
-    if (count.first > share * count.second)
-      worst += fmt::format("{}{} ({:.0f} %)", worst.empty() ? "" : ", ", material,
-                           100.0 * count.first / count.second);
-  }
-  findings.warnings.push_back(
-      {"model_misfit",
-       fmt::format(
-           "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no "
-           "better than {:.1f} %: most on {}; luminaires may lie far from where they are given, "
-           "beyond their sigmas",
-           100 * share, 100 * fit.relative_sigma, worst.empty() ? "all surfaces alike" : worst),
-       "compare the mesh with the photos: furniture that is missing or was moved, mirrors, windows, a "
-       "luminaire that "
-       "[states] does not name"});
-}
-
 void RecordOutcome(const RoomObservations& given, const RoomFit& result, Findings& findings) {
   const LuminaireFit& fit = result.fit;
   if (given.luminaires_are_named)
@@ -291,6 +255,19 @@ void RecordOutcome(const RoomObservations& given, const RoomFit& result, Finding
                                 "of them"});
     for (const NullDirection& direction : fit.null_directions)
       findings.AddUndetermined({"parameters_undetermined", direction.meaning, direction.remedy});
+  }
+  for (size_t k = 0; k < given.luminaires.size() && fit.IsUsable(); ++k) {
+    if (!result.luminaire_found[k] || !result.absolute || IsFluxKnown(result, k) ||
+        !result.TellsDirectLight())
+      continue;
+    findings.AddUndetermined(
+        {"flux_undetermined",
+         fmt::format(
+             "the flux of {} is known no better than to a factor of {:.3g}: most of its light falls where "
+             "nothing was observed",
+             given.luminaires[k].luminaire.id,
+             std::exp(SigmaOf(result, ParameterKind::kLogFlux, static_cast<int>(k)))),
+         "photograph what it lights, or give its photometry"});
   }
   for (const ParameterId& id : fit.at_bound) {
     findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
@@ -333,11 +310,16 @@ void RecordTypes(const TypedState& typed, Findings& findings) {
         why += fmt::format("; the fit does not tell {} from {} (chi2 {:.1f} of {})", id(merged.merged),
                            id(merged.into), merged.chi2, merged.parameters);
     }
+    const bool is_turned_alike =
+        std::count(typed.turned_alike.begin(), typed.turned_alike.end(), type.front()) > 0;
+    if (is_turned_alike) why += "; the fit does not tell their aims from one common aim";
+    const bool has_own_aims = typed.state.free[static_cast<size_t>(type.front())].own_direction;
     findings.choices.push_back(
         {"type of " + ids.front(),
          fmt::format("shared by {}", fmt::join(ids, ", ")),
          {"each its own", "shared"},
-         "luminaires that are always on together are taken as alike, but for place and flux" + why});
+         fmt::format("luminaires that are always on together are taken as alike, but for {}{}",
+                     has_own_aims ? "place, aim and flux" : "place and flux", why)});
   }
 }
 

@@ -59,8 +59,6 @@ void RecordColours(const RoomObservations& given, const Room& room, const Colour
 // them apart. Luminaires that nobody named need no such warning.
 void WarnOfInterchangeable(const RoomObservations& given, const std::vector<int>& group, Findings& findings);
 void WarnOfContradiction(const RoomObservations& given, const Contradiction& found, Findings& findings);
-// Warns of observations that the best fit does not explain: they leave the luminaires' places in doubt.
-void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings);
 
 }  // namespace luxfit
 

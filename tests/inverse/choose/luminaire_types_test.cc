@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,34 +41,85 @@ class LuminaireTypes : public testing::Test {
     return data;
   }
 
+  std::vector<int> TypesFrom(const std::vector<Eigen::Vector3d>& dimming, const LightState& start) const {
+    return TypedBySwitching(States(dimming), start, open_).first_of_type;
+  }
+
+  // Spots whose aims the search told: two turned by 40 degrees to either side, one between them.
+  LightState Spots() const {
+    LightState spots = fit_.state;
+    for (size_t k = 0; k < 3; ++k) {
+      const double angle = (static_cast<double>(k) - 1) * 40 * M_PI / 180;
+      spots.luminaires[k].aim = Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
+      spots.free[k].tilt = true;
+    }
+    return spots;
+  }
+
   LuminaireFit fit_;
   std::vector<OpenChoice> open_;
 };
 
 TEST_F(LuminaireTypes, WhatIsAlwaysOnTogetherIsOfOneType) {
   const LightState& start = fit_.state;
-  EXPECT_EQ(TypesBySwitching(States({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 0.5}}), start, open_),
-            (std::vector<int>{0, 1, 0}));
-  EXPECT_EQ(TypesBySwitching(States({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 1}}), start, open_),
-            (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(TypesFrom({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 0.5}}, start), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(TypesFrom({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 1}}, start), (std::vector<int>{0, 1, 2}));
 }
 
 TEST_F(LuminaireTypes, AGivenModelOrAnotherAimStaysApart) {
   LightState start = fit_.state;
-  const LightData together = States({{1, 1, 1}});
   open_[1].distribution = false;
-  EXPECT_EQ(TypesBySwitching(together, start, open_), (std::vector<int>{0, 1, 0}));
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 0}));
   start.luminaires[2].aim = Eigen::Vector3d(1, 0, -1).normalized();
   open_[2].aim = false;
-  EXPECT_EQ(TypesBySwitching(together, start, open_), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 2}));
 }
 
 TEST_F(LuminaireTypes, AnAimThatTheFirstGuessSeesWrongIsThatOfTheOthers) {
   LightState start = fit_.state;
   start.luminaires[0].aim = Eigen::Vector3d(1, 0, -1).normalized();
-  const LightState typed = WithTypes(start, TypesBySwitching(States({{1, 1, 1}}), start, open_));
+  const LightState typed = WithTypes(start, TypesFrom({{1, 1, 1}}, start));
   for (const Luminaire& luminaire : typed.luminaires) EXPECT_EQ(luminaire.aim, Eigen::Vector3d(0, 0, -1));
   EXPECT_EQ(typed.luminaires[0].position, start.luminaires[0].position);
+}
+
+TEST_F(LuminaireTypes, SpotsOfOneTypeHaveAimsOfTheirOwn) {
+  const LightState spots = Spots();
+  LightState typed = TypedBySwitching(States({{1, 1, 1}}), spots, open_);
+  EXPECT_EQ(typed.first_of_type, (std::vector<int>{0, 0, 0}));
+  typed.luminaires[1].cosine_exponent = 20;
+  typed = WithTypes(typed, typed.first_of_type);
+  for (size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(typed.luminaires[k].aim, spots.luminaires[k].aim);
+    EXPECT_EQ(typed.luminaires[k].cosine_exponent, 20) << "the lobe of the one between the others";
+  }
+  const std::vector<Parameter> parameters = FreeParameters(MakeRoom(Scene{}), typed);
+  const auto count = [&](LuminaireQuantity quantity) {
+    return std::count_if(parameters.begin(), parameters.end(), [&](const Parameter& p) {
+      return p.kind == ParameterKind::kLuminaire && p.quantity == quantity;
+    });
+  };
+  EXPECT_EQ(count(LuminaireQuantity::kTiltAlong), 3);
+  EXPECT_EQ(count(LuminaireQuantity::kExponent), 1);
+}
+
+// Sigma of a tilt: 0.6 degrees.
+TEST_F(LuminaireTypes, AimsThatTheFitDoesNotTellApartBecomeOne) {
+  fit_.state = TypedBySwitching(States({{1, 1, 1}}), Spots(), open_);
+  Merged();
+  EXPECT_TRUE(WithMergedTypes(fit_, open_).turned_alike.empty());
+  for (size_t k = 0; k < 3; ++k) {
+    const double angle = static_cast<double>(k) * 0.8 * M_PI / 180;
+    fit_.state.luminaires[k].aim = Eigen::Vector3d(std::sin(angle), 0, -std::cos(angle));
+  }
+  Merged();
+  const TypedState typed = WithMergedTypes(fit_, open_);
+  EXPECT_EQ(typed.turned_alike, std::vector<int>{0});
+  for (const Luminaire& luminaire : typed.state.luminaires)
+    EXPECT_EQ(luminaire.aim, fit_.state.luminaires[0].aim);
+  fit_.state.luminaires[2].aim = Eigen::Vector3d(std::sin(0.05), 0, -std::cos(0.05));  // 2.9 degrees
+  Merged();
+  EXPECT_TRUE(WithMergedTypes(fit_, open_).turned_alike.empty());
 }
 
 TEST_F(LuminaireTypes, PlacesThatPhotosShowAreASecondStart) {

@@ -120,6 +120,22 @@ TEST_F(SmallRoom, JacobianOfATypeIsThatOfAllItsLuminaires) {
   ExpectCentralDifferences(room_, data_, state_, parameters);
 }
 
+TEST_F(SmallRoom, JacobianOfATypeWithDirectionsOfTheirOwn) {
+  state_.free[0].heading = true;
+  state_.first_of_type = {0, 0};
+  const Eigen::Vector3d aim = Eigen::Vector3d(0.3, -0.2, -1).normalized();
+  state_.luminaires[1].aim = aim;
+  for (FreeQuantities& free : state_.free) free.own_direction = free.tilt = true;
+  state_ = WithLikeTypes(state_);
+  EXPECT_EQ(state_.luminaires[1].aim, aim);
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  EXPECT_EQ(std::count_if(parameters.begin(), parameters.end(),
+                          [](const Parameter& p) { return p.tied == std::vector<int>{1}; }),
+            3)
+      << "exponent and sizes";
+  ExpectCentralDifferences(room_, data_, state_, parameters);
+}
+
 TEST_F(SmallRoom, LuminairesOfATypeAreAlikeButForPlaceAndFlux) {
   state_.first_of_type = {0, 0};
   const std::vector<Parameter> parameters = FreeParameters(room_, state_);
