@@ -130,13 +130,13 @@ class RoomFitter {
   LightState StartByParts() {
     const bool photos = !result_.data.observations.empty();
     LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
+    result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason, rounds_);
     {
       const auto step = Begin("guess", "where the luminaires may be");
       start_ = StartFit(room_, given_, light_, data, result_.findings);
       result_.luminaire_found = start_.luminaire_found;
     }
     best_ = start_.state;
-    result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason, rounds_);
     LightState state = start_.state;
     // Without readings, the camera's scale is given or follows from a known flux.
     if (photos) state.camera_scale_free = state.camera_scale_free && start_.flux_known;

@@ -64,8 +64,8 @@ struct FitRoomOptions {
   std::function<std::shared_ptr<void>(const std::string& step, const std::string& words)> on_step;
   // Called after each round of a fit of all luminaires. Empty: no calls.
   std::function<void(const FitRound&)> on_round;
-  // Asked before each round, from any thread, once there is a first guess: a text ends the fit with the best state
-  // so far and says why ("its budget of 120 s is spent"). Empty: the fit runs to its end.
+  // Asked before each round, from any thread, and before each search of the first guess: a text ends the fit with the
+  // best state so far and says why ("its budget of 120 s is spent"). Empty: the fit runs to its end.
   std::function<std::string()> stop_reason;
 };
 

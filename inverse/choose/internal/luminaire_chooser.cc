@@ -285,7 +285,8 @@ bool HasVanished(const Luminaire& luminaire) {
   return luminaire.shape == LuminaireShape::kDisc && luminaire.size_m[0] < kVanishedM;
 }
 
-ChosenModel ChooseLuminaire(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open) {
+ChosenModel ChooseLuminaire(const Room& room, const SubProblem& problem, int luminaire,
+                            const OpenChoice& open) {
   return LuminaireChooser(room, problem, luminaire, open).Run();
 }
 

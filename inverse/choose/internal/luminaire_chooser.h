@@ -93,7 +93,8 @@ struct ChosenModel {
 };
 
 // `luminaire`: its index in the caller's room, for the record; that in the problem is SubProblem::luminaire.
-ChosenModel ChooseLuminaire(const Room& room, const SubProblem& problem, int luminaire, const OpenChoice& open);
+ChosenModel ChooseLuminaire(const Room& room, const SubProblem& problem, int luminaire,
+                            const OpenChoice& open);
 
 // Puts a fitted model, with what it frees, into a state. `luminaires`: the indices of the model's members there.
 void TakeOver(const FittedCandidate& fitted, LightState& state, const std::vector<int>& luminaires);

@@ -72,16 +72,18 @@ void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
   const bool is_of_state = worst->second.Share() >= kLargeShare;
   if (!is_of_state && result.fit.relative_sigma < kLargeError) return;
   std::string message = fmt::format(
-      "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no better than "
+      "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no better "
+      "than "
       "{:.1f} %: most on {}; luminaires may lie far from where they are given, beyond their sigmas",
       100 * misfit.all.Share(), 100 * result.fit.relative_sigma, WorstMaterials(misfit));
   if (is_of_state)
     message += fmt::format("; most where {} shine: {:.0f} %", LuminairesOn(result, worst->first),
                            100 * worst->second.Share());
-  findings.warnings.push_back({"model_misfit", std::move(message),
-                               "compare the mesh with the photos: furniture that is missing or was moved, mirrors, "
-                               "windows, a luminaire that [states] does not name",
-                               is_of_state});
+  findings.warnings.push_back(
+      {"model_misfit", std::move(message),
+       "compare the mesh with the photos: furniture that is missing or was moved, mirrors, "
+       "windows, a luminaire that [states] does not name",
+       is_of_state});
 }
 
 }  // namespace luxfit

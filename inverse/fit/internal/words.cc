@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/model/internal/light_model.h"
@@ -44,6 +45,22 @@ std::vector<std::string> NamesOf(const DetailChoice& choice) {
   names.reserve(choice.among.size());
   for (const DetailCandidate& c : choice.among) names.push_back(c.name);
   return names;
+}
+
+void WarnOfUnknownFluxes(const RoomFit& result, Findings& findings) {
+  if (!result.fit.IsUsable() || !result.absolute || !result.TellsDirectLight() || result.stopped) return;
+  std::vector<std::string> ids;
+  for (size_t k = 0; k < result.luminaire_found.size(); ++k)
+    if (result.luminaire_found[k] && !IsFluxKnown(result, k))
+      ids.push_back(result.fit.state.luminaires[k].id);
+  if (ids.empty()) return;
+  findings.AddUndetermined(
+      {"flux_undetermined",
+       fmt::format(
+           "the flux of {} is known no better than to a factor of e: most of the light may fall where "
+           "nothing was observed",
+           fmt::join(ids, ", ")),
+       "photograph what it lights, or give its photometry"});
 }
 
 }  // namespace
@@ -256,19 +273,7 @@ void RecordOutcome(const RoomObservations& given, const RoomFit& result, Finding
     for (const NullDirection& direction : fit.null_directions)
       findings.AddUndetermined({"parameters_undetermined", direction.meaning, direction.remedy});
   }
-  for (size_t k = 0; k < given.luminaires.size() && fit.IsUsable(); ++k) {
-    if (!result.luminaire_found[k] || !result.absolute || IsFluxKnown(result, k) ||
-        !result.TellsDirectLight())
-      continue;
-    findings.AddUndetermined(
-        {"flux_undetermined",
-         fmt::format(
-             "the flux of {} is known no better than to a factor of {:.3g}: most of its light falls where "
-             "nothing was observed",
-             given.luminaires[k].luminaire.id,
-             std::exp(SigmaOf(result, ParameterKind::kLogFlux, static_cast<int>(k)))),
-         "photograph what it lights, or give its photometry"});
-  }
+  WarnOfUnknownFluxes(result, findings);
   for (const ParameterId& id : fit.at_bound) {
     findings.warnings.push_back({"parameter_at_bound", NameOf(id) + " stopped at a bound of what is possible",
                                  "check the mesh around it, or give what is known of it"});

@@ -77,5 +77,17 @@ TEST(SigmaOfAParameter, IsUnknownWhereItHasNoMeaning) {
   EXPECT_DOUBLE_EQ(SigmaOf(fit, ParameterKind::kLuminaire, 0, LuminaireQuantity::kPositionY), 0.01);
 }
 
+TEST(FluxOfALuminaire, IsUnknownWhereItMayBeThreeTimesAsLarge) {
+  RoomFit fit;
+  fit.absolute = true;
+  fit.fit.state.luminaires.resize(1);
+  fit.fit.state.free.resize(1);
+  fit.fit.parameters.push_back({ParameterKind::kLogFlux, 0, {}, -50, 50, "A"});
+  fit.fit.covariance = Eigen::MatrixXd::Constant(1, 1, 0.81);
+  EXPECT_TRUE(IsFluxKnown(fit, 0));
+  fit.fit.covariance(0, 0) = 1.21;
+  EXPECT_FALSE(IsFluxKnown(fit, 0));
+}
+
 }  // namespace
 }  // namespace luxfit

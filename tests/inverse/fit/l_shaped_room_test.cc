@@ -40,8 +40,10 @@ Scene LShape() {
     const std::string material = z == 0 ? "floor" : "ceiling";
     const Vector3d x(1, 0, 0), y(0, 1, 0);
     const auto add = [&](const Vector3d& origin, double width, double depth) {
-      if (z == 0) support::AddParallelogram(scene, origin, width * x, depth * y, material);
-      else support::AddParallelogram(scene, origin, depth * y, width * x, material);
+      if (z == 0)
+        support::AddParallelogram(scene, origin, width * x, depth * y, material);
+      else
+        support::AddParallelogram(scene, origin, depth * y, width * x, material);
     };
     add({0, 0, z}, 5.5, 2);
     add({0, 2, z}, 3, 2);
@@ -95,9 +97,16 @@ support::TracedRoom TrueRoom() {
   for (int k = 0; k < 3; ++k) room.dimming[static_cast<size_t>(k)][k] = 1;
   room.dimming[3].tail(2).setOnes();
   room.dimming[4].setOnes();
-  room.eyes = {{0.3, 0.3, 1.6}, {5.2, 0.3, 1.6}, {5.2, 1.7, 1.5}, {0.3, 3.7, 1.6}, {2.7, 3.7, 1.7}, {2.7, 0.3, 1.5}};
-  for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.8, 0.8), {2.2, 0.8}, {3.6, 0.8}, {4.8, 0.9}, {0.8, 2.2},
-                                   {2.2, 2.2}, {0.8, 3.4}, {2.2, 3.4}})
+  room.eyes = {{0.3, 0.3, 1.6}, {5.2, 0.3, 1.6}, {5.2, 1.7, 1.5},
+               {0.3, 3.7, 1.6}, {2.7, 3.7, 1.7}, {2.7, 0.3, 1.5}};
+  for (const Eigen::Vector2d& p : {Eigen::Vector2d(0.8, 0.8),
+                                   {2.2, 0.8},
+                                   {3.6, 0.8},
+                                   {4.8, 0.9},
+                                   {0.8, 2.2},
+                                   {2.2, 2.2},
+                                   {0.8, 3.4},
+                                   {2.2, 3.4}})
     room.places.push_back({{p.x(), p.y(), 0.75}, {0, 0, 1}, {}});
   return room;
 }

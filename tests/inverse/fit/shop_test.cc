@@ -71,7 +71,9 @@ support::TracedRoom TrueRoom() {
   for (int row = 0; row < kRows; ++row)
     room.dimming[static_cast<size_t>(row)].segment(row * kPanelsInRow, kPanelsInRow).setOnes();
   for (int track = 0; track < kTracks; ++track)
-    room.dimming[static_cast<size_t>(kRows + track)].segment(kPanels + track * kSpotsOnTrack, kSpotsOnTrack).setOnes();
+    room.dimming[static_cast<size_t>(kRows + track)]
+        .segment(kPanels + track * kSpotsOnTrack, kSpotsOnTrack)
+        .setOnes();
   room.dimming.back().setOnes();
   room.eyes = {{0.4, 0.4, 1.7}, {11.6, 0.4, 1.6}, {11.6, 7.6, 1.7}, {0.4, 7.6, 1.6}, {6, 0.4, 1.6},
                {6, 7.6, 1.7},   {0.4, 4, 1.7},    {11.6, 4, 1.6},   {4.4, 4, 1.7},   {7.4, 4, 1.6}};
@@ -87,7 +89,9 @@ TEST(Shop, EveryLuminaireIsFound) {
   options.patches.element_size_m = 0.2;
   const Room model = MakeRoom(room.truth, options);
   std::mt19937_64 rng(3);
-  const RoomObservations given = support::ObserveTraced(room, model, rng);
+  support::TracedRoomOptions traced;
+  traced.paths_per_point = 128;
+  const RoomObservations given = support::ObserveTraced(room, model, rng, traced);
   const RoomFit fit = support::FitTimed(model, given);
   ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
   for (const support::LuminaireError& error : support::PrintErrors(room, fit)) {

@@ -132,6 +132,26 @@ TEST(GuessLuminaires, LampsThatAreAlwaysOnTogetherAreFoundTogether) {
   EXPECT_LT((guess.luminaires[1].position - kLamp).norm(), 2 * kGridDiagonalM);
 }
 
+TEST(GuessLuminaires, ASpentBudgetLeavesThePlacesThatPhotosShow) {
+  const Room room = MakeRoom(Scene{});
+  LightData data = TwoLamps({Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)});
+  int searched = 0;
+  data.checkpoint = [&] {
+    if (++searched > 1) throw FitStopped("its budget is spent");
+  };
+  const FirstGuess guess = GuessLuminaires(room, data);
+  EXPECT_TRUE(guess.separable);
+  EXPECT_TRUE(guess.luminaires.at(0).found);
+  EXPECT_FALSE(guess.luminaires.at(1).found) << "no photo shows it";
+  SeenPlace seen;
+  seen.position = Eigen::Vector3d(-0.62, 0.57, 1.41);
+  seen.states = {1};
+  const FirstGuess with_photos = GuessLuminaires(room, data, {}, {seen});
+  EXPECT_FALSE(with_photos.luminaires.at(0).found);
+  ASSERT_TRUE(with_photos.luminaires.at(1).found);
+  EXPECT_EQ(with_photos.luminaires[1].position, seen.position);
+}
+
 // The first of two that are always on together is known: the other is found beside it.
 TEST(GuessLuminaires, AKnownPlaceIsKept) {
   const Room room = MakeRoom(Scene{});

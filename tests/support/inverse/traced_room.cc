@@ -37,8 +37,8 @@ std::vector<Eigen::Vector3d> PointsOf(const Element& element) {
 }
 
 // The index of the traced point that the eye sees at p, or -1. `own`: the index of p itself, -1: not yet traced.
-int SeenFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& p, const TracedRoom& room, const RayScene& rays,
-             int& own, Sights& sights) {
+int SeenFrom(const Eigen::Vector3d& eye, const Eigen::Vector3d& p, const TracedRoom& room,
+             const RayScene& rays, int& own, Sights& sights) {
   const RayHit hit = rays.Trace(eye, p - eye);
   if (hit.facet < 0 || !hit.front) return -1;
   const Facet& facet = room.truth.facets[static_cast<size_t>(hit.facet)];
@@ -88,8 +88,8 @@ Eigen::MatrixXd TracerVariance(const TracedIlluminance& lx) {
   return variance;
 }
 
-void AddPhotos(const TracedRoom& room, const RayScene& rays, const Sights& sights, const TracedRoomOptions& options,
-               std::mt19937_64& rng, RoomObservations& given) {
+void AddPhotos(const TracedRoom& room, const RayScene& rays, const Sights& sights,
+               const TracedRoomOptions& options, std::mt19937_64& rng, RoomObservations& given) {
   LightTracerOptions tracer;
   tracer.paths_per_sensor = options.paths_per_point;
   tracer.replicates = 8;
@@ -121,7 +121,8 @@ void AddReadings(const TracedRoom& room, const RayScene& rays, const TracedRoomO
                  std::mt19937_64& rng, RoomObservations& given) {
   LightTracerOptions tracer;
   tracer.paths_per_sensor = options.paths_per_reading;
-  const TracedIlluminance lx = TraceIlluminance(room.truth, rays, room.luminaires, room.albedo, room.places, tracer);
+  const TracedIlluminance lx =
+      TraceIlluminance(room.truth, rays, room.luminaires, room.albedo, room.places, tracer);
   const Eigen::VectorXd read_lx = (lx.direct + lx.indirect) * room.dimming.back();
   std::normal_distribution<double> normal;
   for (size_t i = 0; i < room.places.size(); ++i) {
@@ -162,13 +163,14 @@ int QuietestOf(const TracedRoom& room, const std::vector<int>& states) {
   });
 }
 
-void AddSeen(const TracedRoom& room, const RayScene& rays, const TracedRoomOptions& options, std::mt19937_64& rng,
-             RoomObservations& given) {
+void AddSeen(const TracedRoom& room, const RayScene& rays, const TracedRoomOptions& options,
+             std::mt19937_64& rng, RoomObservations& given) {
   std::normal_distribution<double> normal;
   for (size_t k = 0; k < room.luminaires.size(); ++k) {
     if (!room.is_hidden.empty() && room.is_hidden[k]) continue;
     const Luminaire& luminaire = room.luminaires[k];
-    const bool is_flat = luminaire.shape == LuminaireShape::kRectangle || luminaire.shape == LuminaireShape::kDisc;
+    const bool is_flat =
+        luminaire.shape == LuminaireShape::kRectangle || luminaire.shape == LuminaireShape::kDisc;
     SeenPlace place;
     place.states = StatesOf(room, k);
     for (size_t v = 0; v < room.eyes.size(); ++v) {
@@ -247,9 +249,12 @@ std::vector<LuminaireError> PrintErrors(const TracedRoom& room, const RoomFit& f
     const Luminaire& truth = room.luminaires[k];
     size_t nearest = room.luminaires.size();
     for (size_t j = 0; j < room.luminaires.size(); ++j) {
-      if (is_taken[j] || !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
+      if (is_taken[j] ||
+          !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
         continue;
-      const auto off = [&](size_t i) { return (fit.fit.state.luminaires[i].position - truth.position).norm(); };
+      const auto off = [&](size_t i) {
+        return (fit.fit.state.luminaires[i].position - truth.position).norm();
+      };
       if (nearest == room.luminaires.size() || off(j) < off(nearest)) nearest = j;
     }
     is_taken[nearest] = true;
@@ -261,10 +266,11 @@ std::vector<LuminaireError> PrintErrors(const TracedRoom& room, const RoomFit& f
     error.flux_percent = 100 * (found.flux_lm / truth.flux_lm - 1);
     error.flux_z = std::log(found.flux_lm / truth.flux_lm) / SigmaOf(fit, ParameterKind::kLogFlux, index);
     error.turned_deg = 180 / kPi * std::atan2(found.aim.cross(truth.aim).norm(), found.aim.dot(truth.aim));
-    std::printf("  %-4s off by %7.1f mm (z %5.1f), flux %+7.2f %% (z %+5.1f), aim %5.1f deg, %s %s %.2f x %.2f m\n",
-                truth.id.c_str(), error.off_mm, error.z, error.flux_percent, error.flux_z, error.turned_deg,
-                ToString(found.distribution).c_str(), ToString(found.shape).c_str(), found.size_m[0],
-                found.size_m[1]);
+    std::printf(
+        "  %-4s off by %7.1f mm (z %5.1f), flux %+7.2f %% (z %+5.1f), aim %5.1f deg, %s %s %.2f x %.2f m\n",
+        truth.id.c_str(), error.off_mm, error.z, error.flux_percent, error.flux_z, error.turned_deg,
+        ToString(found.distribution).c_str(), ToString(found.shape).c_str(), found.size_m[0],
+        found.size_m[1]);
     errors.push_back(error);
   }
   return errors;
@@ -282,17 +288,24 @@ double PrintCheck(const RoomObservations& given, const RoomFit& fit) {
   }
   const double mean = count > 0 ? sum / count : 0;
   PrintStates(fit);
-  std::printf("  readings off by %.2f %% in the mean, %.2f %% at worst; %d rounds; %s\n", mean, worst, fit.rounds,
-              fit.findings.IsUndetermined() ? "undetermined" : "done");
+  std::printf("  readings off by %.2f %% in the mean, %.2f %% at worst; %d rounds; %s\n", mean, worst,
+              fit.rounds, fit.findings.IsUndetermined() ? "undetermined" : "done");
   for (const Warning& warning : fit.findings.warnings)
     std::printf("  %s: %s\n", warning.code.c_str(), warning.message.c_str());
   return mean;
 }
 
 RoomFit FitTimed(const Room& model, const RoomObservations& given, const FitRoomOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  RoomFit fit = FitRoom(model, given, options);
-  std::printf("  %.1f s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  FitRoomOptions timed = options;
+  timed.on_step = [&](const std::string& step, const std::string&) {
+    std::printf("  %5.1f s %s\n", seconds(), step.c_str());
+    return std::shared_ptr<void>();
+  };
+  RoomFit fit = FitRoom(model, given, timed);
+  std::printf("  %5.1f s done\n", seconds());
   return fit;
 }
 

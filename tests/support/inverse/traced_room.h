@@ -53,7 +53,7 @@ std::vector<LuminaireError> PrintErrors(const TracedRoom& room, const RoomFit& f
 // Prints status, rounds and warnings. Returns the mean error of the readings that only check, in percent.
 double PrintCheck(const RoomObservations& given, const RoomFit& fit);
 
-// Returns a fit, and prints the seconds it took.
+// Returns a fit, and prints when its steps began and when it was done.
 RoomFit FitTimed(const Room& model, const RoomObservations& given, const FitRoomOptions& options = {});
 
 }  // namespace luxfit::support

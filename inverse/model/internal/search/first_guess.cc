@@ -90,6 +90,15 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
   }
 }
 
+bool GoesOn(const LightData& data) {
+  try {
+    if (data.checkpoint) data.checkpoint();
+  } catch (const FitStopped&) {
+    return false;
+  }
+  return true;
+}
+
 // Averages albedo geometrically over the groups. Groups that explain their light better weigh more.
 class AlbedoMean {
  public:
@@ -135,8 +144,9 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
       const SeenPlace& place = seen[static_cast<size_t>(i)];
       own.places.push_back({Inside(room.scene.Bounds(), place.position), IsSure(place)});
     }
-    const SparseLuminaires found = search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
-                                               HeldSources(group, known_positions), own.places);
+    const SparseLuminaires found =
+        search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
+                    HeldSources(group, known_positions), own.places, [&] { return GoesOn(data); });
     Assign(group, found, known_positions, own, data.observations.empty() ? 1 : M_PI, guess);
     if (!found.sources.empty()) albedo.Add(found);
   }

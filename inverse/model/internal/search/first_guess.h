@@ -12,6 +12,8 @@
 //    (inverse/observe/seen_luminaires.h). They are tried first; where they suffice, nothing is searched. Where
 //    they do not, those that three views or more show stay, and a search anywhere gives their rivals.
 //
+// LightData::checkpoint ends the search: from then on only places seen in photos are tried.
+//
 // Fluxes are those for a camera scale of 1. Distances are in m. Luminaires of one group are interchangeable.
 // They come in the order of x, then y, then z; those of a known position are apart.
 //

@@ -302,7 +302,7 @@ class GroupFinder {
   // `grid`: traces the room's grid when it is first needed.
   GroupFinder(const Room& room, const std::vector<Sensor>& sensors, const Eigen::AlignedBox3d& box,
               const GroupEquations& equations, int count, double step_m, int refinements,
-              std::function<const LitPlaces&()> grid)
+              std::function<const LitPlaces&()> grid, std::function<bool()> searches_on)
       : room_(room),
         sensors_(sensors),
         box_(box),
@@ -310,16 +310,18 @@ class GroupFinder {
         count_(count),
         step_m_(step_m),
         refinements_(refinements),
-        grid_(std::move(grid)) {}
+        grid_(std::move(grid)),
+        searches_on_(std::move(searches_on)) {}
 
   SparseLuminaires Run(const std::vector<SparseSource>& start, const std::vector<SeenPosition>& seen) {
-    if (seen.empty()) return WithRivals(BestLobes(start, grid_(), refinements_));
+    if (seen.empty())
+      return SearchesOn() ? WithRivals(BestLobes(start, grid_(), refinements_)) : SparseLuminaires();
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(seen.size());
     for (const SeenPosition& place : seen) positions.push_back(place.position);
     at_seen_ = Lit(room_, sensors_, positions);
     SparseRun alone = BestLobes(start, {}, 0);
-    if (IsComplete(alone) && alone.found.mean_square < kExplained) {
+    if ((IsComplete(alone) && alone.found.mean_square < kExplained) || !SearchesOn()) {
       alone.found.was_searched = false;
       return std::move(alone.found);
     }
@@ -335,6 +337,7 @@ class GroupFinder {
   }
 
  private:
+  bool SearchesOn() const { return !searches_on_ || searches_on_(); }
   bool IsComplete(const SparseRun& of) const { return static_cast<int>(of.found.sources.size()) == count_; }
 
   std::unique_ptr<GroupSearch> Searched(const GroupEquations& in, LobeSet lobes,
@@ -407,18 +410,21 @@ class GroupFinder {
   double step_m_;
   int refinements_;
   std::function<const LitPlaces&()> grid_;
+  std::function<bool()> searches_on_;
   LitPlaces at_seen_;
 };
 
 }  // namespace
 
 SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<SparseSource>& start,
-                                    const std::vector<SeenPosition>& seen) const {
+                                    const std::vector<SeenPosition>& seen,
+                                    const std::function<bool()>& searches_on) const {
   const GroupEquations equations(light_, group);
   constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
   if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
-  return GroupFinder(room_, light_.places, box_, equations, count, step_m_, refinements_,
-                     [this]() -> const LitPlaces& { return Grid(); })
+  return GroupFinder(
+             room_, light_.places, box_, equations, count, step_m_, refinements_,
+             [this]() -> const LitPlaces& { return Grid(); }, searches_on)
       .Run(start, seen);
 }
 

@@ -24,6 +24,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -74,9 +75,11 @@ class SparseSearch {
   // the light unexplained, nothing else is searched. Else the sources at sure places stay, and the search adds
   // what is missing: where the mesh is wrong about something, places in mid-air explain the light a little better
   // than the true ones. Sources of a search anywhere are their rivals; they are kept where they leave less than two
-  // thirds of the squares.
+  // thirds of the squares. `searches_on` is asked before anything but the seen places is tried: false leaves it at
+  // them.
   SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
-                        const std::vector<SeenPosition>& seen = {}) const;
+                        const std::vector<SeenPosition>& seen = {},
+                        const std::function<bool()>& searches_on = {}) const;
 
  private:
   const LitPlaces& Grid() const;
