@@ -111,16 +111,35 @@ void PrepareGather(const Room& room, Receivers& receivers) {
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
                                       const std::vector<Luminaire>& luminaires, int order) {
   ExpectValid(luminaires);
-  const auto lamps = static_cast<Eigen::Index>(luminaires.size());
   std::vector<int> all(room.patches.elements.size());
   std::iota(all.begin(), all.end(), 0);
-  LuminaireVisibility visibility{ElementVisibility(room.rays, room.patches, all, luminaires, order),
-                                 {receivers.count(), lamps}};
-  for (size_t i = 0; i < receivers.elements.size(); ++i) {
-    visibility.receivers.row(static_cast<Eigen::Index>(i)) = visibility.elements.row(receivers.elements[i]);
-  }
-  FillSensorRows(room, receivers, luminaires, visibility.receivers);
+  LuminaireVisibility visibility;
+  visibility.elements = ElementVisibility(room.rays, room.patches, all, luminaires, order);
+  FillReceivers(room, receivers, luminaires, visibility);
   return visibility;
+}
+
+void UpdateVisibility(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                      int order, const std::vector<int>& which, LuminaireVisibility& visibility) {
+  std::vector<Luminaire> moved;
+  moved.reserve(which.size());
+  for (const int k : which) moved.push_back(luminaires[static_cast<size_t>(k)]);
+  const bool has_elements = visibility.elements.size() > 0;
+  const LuminaireVisibility anew =
+      (has_elements ? ComputeVisibility : ComputeReceiverVisibility)(room, receivers, moved, order);
+  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(which.size()); ++i) {
+    const int k = which[static_cast<size_t>(i)];
+    if (has_elements) visibility.elements.col(k) = anew.elements.col(i);
+    visibility.receivers.col(k) = anew.receivers.col(i);
+  }
+}
+
+void FillReceivers(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                   LuminaireVisibility& visibility) {
+  visibility.receivers.resize(receivers.count(), static_cast<Eigen::Index>(luminaires.size()));
+  for (size_t i = 0; i < receivers.elements.size(); ++i)
+    visibility.receivers.row(static_cast<Eigen::Index>(i)) = visibility.elements.row(receivers.elements[i]);
+  FillSensorRows(room, receivers, luminaires, visibility.receivers);
 }
 
 LuminaireVisibility ComputeReceiverVisibility(const Room& room, const Receivers& receivers,

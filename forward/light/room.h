@@ -77,6 +77,12 @@ struct LuminaireVisibility {
 };
 LuminaireVisibility ComputeVisibility(const Room& room, const Receivers& receivers,
                                       const std::vector<Luminaire>& luminaires, int order = 3);
+// Computes the columns of `which` luminaires anew, for the others have not moved.
+void UpdateVisibility(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                      int order, const std::vector<int>& which, LuminaireVisibility& visibility);
+// Gives the receivers the rows of `visibility.elements`, and computes those of sensors.
+void FillReceivers(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
+                   LuminaireVisibility& visibility);
 // Computes the receivers' part alone.
 LuminaireVisibility ComputeReceiverVisibility(const Room& room, const Receivers& receivers,
                                               const std::vector<Luminaire>& luminaires, int order = 3);

@@ -302,7 +302,9 @@ class RoomFitter {
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
-    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), OfPart());
+    FitLuminairesOptions from_models = OfPart();
+    from_models.start_is_near = true;  // each model was fitted with the others held
+    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), from_models);
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
@@ -319,6 +321,7 @@ class RoomFitter {
     options.has_texture = is_textured_;
     options.initial_relative_sigma = bodies.relative_sigma;
     options.photo_design_effect = colour.fit.photo_design_effect;
+    options.visibility = colour.fit.visibility;
     EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, Priors(),
                                         options_.max_elements_to_choose, options);
     result_.data.observations = std::move(enough.observations);
@@ -365,6 +368,7 @@ class RoomFitter {
     options.start_is_near = true;
     options.initial_relative_sigma = near->relative_sigma;
     options.photo_design_effect = near->photo_design_effect;
+    options.visibility = near->visibility;
     return options;
   }
 

@@ -39,6 +39,7 @@ class OuterLoop {
     fit_.parameters = FreeParameters(room, start);
     priors_ = PriorsOf(fit_.parameters, priors);
     smoothness_ = SmoothnessRows(start, fit_.parameters);
+    if (options.visibility) model_.TakeVisibility(*options.visibility);
   }
 
   LuminaireFit Run() {
@@ -148,10 +149,7 @@ class OuterLoop {
   void Refresh(bool with_jacobian) {
     // Shadow edges move about as far as the luminaires; rows at an edge are left out anyway.
     constexpr double kStillM = 2e-3;
-    if (frozen_.empty() || LargestMove(frozen_, fit_.state.luminaires) > kStillM) {
-      model_.FreezeVisibility(fit_.state, options_.visibility_order);
-      frozen_ = fit_.state.luminaires;
-    }
+    model_.RefreezeVisibility(fit_.state, options_.visibility_order, kStillM);
     const std::vector<bool> penumbra = model_.InPenumbra();
     at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
     const bool is_first = weights_.root_weight.size() == 0;
@@ -186,11 +184,7 @@ class OuterLoop {
   // Returns the largest move of any point of any luminaire, in m.
   static double LargestMove(const std::vector<Luminaire>& a, const std::vector<Luminaire>& b) {
     double move = 0;
-    for (size_t k = 0; k < a.size(); ++k) {
-      const double turn = (a[k].aim - b[k].aim).norm() * 0.5 * a[k].size_m.maxCoeff();
-      const double growth = 0.5 * (a[k].size_m - b[k].size_m).cwiseAbs().maxCoeff();
-      move = std::max(move, (a[k].position - b[k].position).norm() + turn + growth);
-    }
+    for (size_t k = 0; k < a.size(); ++k) move = std::max(move, MoveOf(a[k], b[k]));
     return move;
   }
 
@@ -214,6 +208,7 @@ class OuterLoop {
   // Computes the covariance, the undetermined directions and the predictions of the readings.
   void Conclude() {
     fit_.predicted = at_state_.value;
+    fit_.visibility = std::make_shared<FrozenVisibility>(model_.frozen());
     fit_.weight = weights_.weight;
     fit_.target = weights_.target;
     fit_.root_weight = weights_.root_weight;
@@ -359,7 +354,6 @@ class OuterLoop {
   RowWeights weights_;
   LuminaireFit fit_;
   IndexedPriors priors_;
-  std::vector<Luminaire> frozen_;  // luminaires at which the visibility was computed
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
   Prediction at_state_;

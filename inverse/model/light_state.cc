@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -200,6 +201,13 @@ void AddLuminaire(const Eigen::AlignedBox3d& box, const LightState& state, int i
 }
 
 }  // namespace
+
+double MoveOf(const Luminaire& from, const Luminaire& to) {
+  if (from.shape != to.shape) return std::numeric_limits<double>::infinity();
+  const double turn = (from.aim - to.aim).norm() * 0.5 * from.size_m.maxCoeff();
+  const double growth = 0.5 * (from.size_m - to.size_m).cwiseAbs().maxCoeff();
+  return (from.position - to.position).norm() + turn + growth;
+}
 
 bool IsFirstOfType(const LightState& state, int luminaire) {
   return state.first_of_type.empty() || state.first_of_type[static_cast<size_t>(luminaire)] == luminaire;

@@ -110,6 +110,17 @@ struct LightState {
   Eigen::Matrix3Xd tint;
 };
 
+// Returns how far any point of a luminaire moved, in m; infinity where its shape changed.
+double MoveOf(const Luminaire& from, const Luminaire& to);
+
+// Holds the share of each luminaire that each element of a room sees: elements x luminaires, and for which luminaires
+// and `order` (forward/light/room.h). A fit that starts where another ended need not trace it again.
+struct FrozenVisibility {
+  std::vector<Luminaire> luminaires;
+  int order = 0;
+  Eigen::MatrixXf elements;
+};
+
 // Returns the luminaires' fluxes by state: luminaires x states, lm.
 Eigen::MatrixXf LumensByState(const LightData& data, const std::vector<Luminaire>& luminaires);
 

@@ -22,6 +22,7 @@ LuminaireFit FitWith(BodyPresence presence, const Room& room, const LightData& d
   options.covariance = false;
   options.start_is_near = true;
   options.initial_relative_sigma = fit.relative_sigma;
+  options.visibility = fit.visibility;
   options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`
   return FitLuminaires(room, data, state, priors, options);
 }

@@ -52,9 +52,11 @@ class Levels {
     return part;
   }
 
-  LuminaireFit FitTo(const LightData& part, const LightState& start, double relative_sigma) const {
+  LuminaireFit FitTo(const LightData& part, const LightState& start, double relative_sigma,
+                     const std::shared_ptr<const FrozenVisibility>& visibility) const {
     FitLuminairesOptions options = OptionsFor(part);
     options.initial_relative_sigma = relative_sigma;
+    options.visibility = visibility;
     return FitLuminaires(room_, part, start, priors_, options);
   }
 
@@ -65,6 +67,7 @@ class Levels {
     weighing.max_outer_iterations = 0;
     weighing.covariance = false;
     weighing.initial_relative_sigma = fit.relative_sigma;
+    weighing.visibility = fit.visibility;
     const LuminaireFit weighed = FitLuminaires(room_, more, fit.state, priors_, weighing);
     std::vector<bool> is_fitted;
     is_fitted.reserve(more.observations.size());
@@ -117,7 +120,7 @@ EnoughRows FitToEnoughRows(const Room& room, const LightData& data, const LightS
   enough.taken.observed_elements = static_cast<int>(NumberElements(data.observations).size());
   int level = enough.taken.observed_elements > kFewTimes * first_elements ? 0 : levels.last();
   LightData part = levels.UpTo(level);
-  enough.fit = levels.FitTo(part, start, options.initial_relative_sigma);
+  enough.fit = levels.FitTo(part, start, options.initial_relative_sigma, options.visibility);
   while (level < levels.last()) {
     const bool is_known = enough.fit.IsUsable() && enough.fit.covariance.size() > 0;
     int more = levels.last();
@@ -131,7 +134,8 @@ EnoughRows FitToEnoughRows(const Room& room, const LightData& data, const LightS
     level = std::min(levels.last(), level + more);
     part = levels.UpTo(level);
     enough.fit = levels.FitTo(part, is_known ? enough.fit.state : start,
-                              is_known ? enough.fit.relative_sigma : options.initial_relative_sigma);
+                              is_known ? enough.fit.relative_sigma : options.initial_relative_sigma,
+                              enough.fit.visibility);
   }
   enough.taken.elements = static_cast<int>(NumberElements(part.observations).size());
   enough.observations = std::move(part.observations);

@@ -108,11 +108,36 @@ LightModel::LightModel(const Room& room, const LightData& data)
 void LightModel::FreezeVisibility(const LightState& state, int order) {
   visibility_ = (data_.indirect_is_held ? ComputeReceiverVisibility : ComputeVisibility)(
       room_, receivers_, state.luminaires, order);
+  frozen_ = state.luminaires;
+  frozen_order_ = order;
   FreezeReflected(state);
+}
+
+void LightModel::RefreezeVisibility(const LightState& state, int order, double still_m) {
+  if (frozen_.size() != state.luminaires.size() || frozen_order_ != order)
+    return FreezeVisibility(state, order);
+  std::vector<int> moved;
+  for (size_t k = 0; k < frozen_.size(); ++k) {
+    if (!(MoveOf(frozen_[k], state.luminaires[k]) > still_m)) continue;
+    moved.push_back(static_cast<int>(k));
+    frozen_[k] = state.luminaires[k];
+  }
+  if (!moved.empty()) UpdateVisibility(room_, receivers_, state.luminaires, order, moved, visibility_);
+  if (!moved.empty() || !reflected_is_frozen_) FreezeReflected(state);
+}
+
+void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
+  if (data_.indirect_is_held || frozen.elements.size() == 0) return;
+  frozen_ = frozen.luminaires;
+  frozen_order_ = frozen.order;
+  visibility_.elements = frozen.elements;
+  FillReceivers(room_, receivers_, frozen_, visibility_);
+  reflected_is_frozen_ = false;
 }
 
 void LightModel::FreezeReflected(const LightState& state) {
   hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
+  reflected_is_frozen_ = true;
   if (data_.indirect_is_held || room_.sparse) return;
   const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0;
   if (!departs && state.bodies == BodyPresence::kNone) return;

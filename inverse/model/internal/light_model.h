@@ -54,6 +54,12 @@ class LightModel {
   // Computes the visible shares that Predict uses, and what bodies hide, for the luminaires where `state` has
   // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
+  // Does the same for those luminaires of which a point has moved by more than `still_m` since. Where none has, nothing
+  // changes.
+  void RefreezeVisibility(const LightState& state, int order, double still_m);
+  // Takes visible shares over from a model of the same room: RefreezeVisibility then counts from there.
+  void TakeVisibility(const FrozenVisibility& frozen);
+  FrozenVisibility frozen() const { return {frozen_, frozen_order_, visibility_.elements}; }
   // Freezes anew what bodies and colours do to reflected light, with the visibility as it is.
   void FreezeReflected(const LightState& state);
   // Sets what the next of these two counts with: the reflectance of each patch over that of its material.
@@ -105,6 +111,9 @@ class LightModel {
   DimmingGroups groups_;
   Receivers receivers_;
   LuminaireVisibility visibility_;
+  std::vector<Luminaire> frozen_;  // those of `visibility_`
+  int frozen_order_ = 0;
+  bool reflected_is_frozen_ = false;
   Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
   Eigen::VectorXd colour_;              // k; empty: the surfaces are grey
   bool reflects_derivatives_ = true;

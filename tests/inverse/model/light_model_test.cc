@@ -154,6 +154,30 @@ TEST_F(SmallRoom, LuminairesOfATypeAreAlikeButForPlaceAndFlux) {
   EXPECT_LT((PackParameters(moved, parameters) - x).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST_F(SmallRoom, RefreezingTracesThoseThatMoved) {
+  LightModel model(room_, data_), anew(room_, data_);
+  model.FreezeVisibility(state_);
+  const Eigen::VectorXd before = model.Predict(state_, {}, false).value;
+  const Eigen::MatrixXf at_start = model.frozen().elements;
+  LightState moved = state_;
+  moved.luminaires[1].position.x() += 0.4;
+  anew.FreezeVisibility(moved);
+  model.RefreezeVisibility(moved, 3, 1.0);
+  EXPECT_EQ(model.frozen().elements.col(1), at_start.col(1)) << "within the tolerance";
+  model.RefreezeVisibility(moved, 3, 0.1);
+  EXPECT_EQ(model.frozen().elements, anew.frozen().elements);
+  EXPECT_EQ(model.Predict(moved, {}, false).value, anew.Predict(moved, {}, false).value);
+  EXPECT_NE(model.Predict(moved, {}, false).value, before);
+}
+
+TEST_F(SmallRoom, AnotherModelTakesVisibilityOver) {
+  LightModel model(room_, data_), other(room_, data_);
+  model.FreezeVisibility(state_);
+  other.TakeVisibility(model.frozen());
+  other.RefreezeVisibility(state_, 3, 1e-3);
+  EXPECT_EQ(other.Predict(state_, {}, false).value, model.Predict(state_, {}, false).value);
+}
+
 TEST_F(SmallRoom, StatesAreSumsOfTheirLuminaires) {
   LightData one_place;
   one_place.dimming = data_.dimming;
