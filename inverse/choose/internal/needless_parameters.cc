@@ -97,6 +97,22 @@ std::optional<NeedlessParameter> HoldHeading(const LuminaireFit& fit, int lumina
   return NeedlessParameter{luminaire, NeedlessKind::kHeading, std::abs(angle - turn), distance.sigma};
 }
 
+// Turns a disc or rectangle into a point where the fit does not tell its sides from nothing.
+std::optional<NeedlessParameter> HoldSize(const LuminaireFit& fit, int luminaire, LightState& state) {
+  const size_t k = static_cast<size_t>(luminaire);
+  const Luminaire& fitted = fit.state.luminaires[k];
+  if (!fit.state.free[k].size || fitted.emission.size() > 0) return std::nullopt;
+  LightState simpler = fit.state;
+  simpler.luminaires[k].size_m.setZero();
+  const Distance distance =
+      DistanceTo(simpler, fit, luminaire, {LuminaireQuantity::kSizeAlong, LuminaireQuantity::kSizeAcross});
+  if (!distance.is_needless) return std::nullopt;
+  state.luminaires[k].shape = LuminaireShape::kPoint;
+  state.luminaires[k].size_m.setZero();
+  state.free[k].size = state.free[k].heading = false;
+  return NeedlessParameter{luminaire, NeedlessKind::kSize, fitted.size_m.maxCoeff(), distance.sigma};
+}
+
 }  // namespace
 
 SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::vector<OpenChoice>& open,
@@ -107,6 +123,12 @@ SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::ve
     const auto luminaire = static_cast<int>(k);
     if (open[k].distribution) {
       if (const auto found = HoldExponent(fit, luminaire, result.state)) result.needless.push_back(*found);
+    }
+    if (open[k].shape) {
+      if (const auto found = HoldSize(fit, luminaire, result.state)) {
+        result.needless.push_back(*found);
+        continue;  // the rest was estimated with the size
+      }
     }
     if (open[k].aim) {
       if (const auto found = HoldAim(fit, luminaire, held[k].aim, result.state))

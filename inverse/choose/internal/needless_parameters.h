@@ -4,7 +4,7 @@
 //
 // x: the parameters of one refinement as fitted, C: their covariance, x0: the simplest value: an exponent of 1
 // (a Lambertian luminaire), the aim that was held before, the heading of a rectangle that was held before or a
-// quarter turn from it. Models are chosen luminaire by luminaire on data left
+// quarter turn from it, no size (a point). Models are chosen luminaire by luminaire on data left
 // out, which shows what is repeatable. Errors that all data share (mesh, poses, reflectances) are repeatable
 // too; the whole fit knows them, so it has the last word.
 //
@@ -19,13 +19,13 @@
 
 namespace luxfit {
 
-enum class NeedlessKind { kExponent, kTilt, kHeading };
+enum class NeedlessKind { kExponent, kTilt, kHeading, kSize };
 
 struct NeedlessParameter {
   int luminaire = 0;
   NeedlessKind kind = NeedlessKind::kExponent;
-  double fitted = 0;  // exponent, or angle to the simplest aim or heading, rad
-  double sigma = 0;   // of the exponent or the angle; of a tilt, the larger of its two axes
+  double fitted = 0;  // exponent, or angle to the simplest aim or heading, rad, or the longer side, m
+  double sigma = 0;   // of the same; of a tilt or a size, the larger of its two axes
 };
 
 // Holds where a luminaire pointed before its aim and heading were chosen.

@@ -47,6 +47,26 @@ std::vector<std::string> NamesOf(const DetailChoice& choice) {
   return names;
 }
 
+struct NeedlessWords {
+  std::string what, simplest, fitted;
+};
+
+NeedlessWords WordsOf(const NeedlessParameter& n) {
+  constexpr double kDegrees = 180 / M_PI;
+  const std::string angle = fmt::format("{:.2f} ± {:.2f} degrees", kDegrees * n.fitted, kDegrees * n.sigma);
+  switch (n.kind) {
+    case NeedlessKind::kExponent:
+      return {"cosine exponent of ", "1 (lambertian)", fmt::format("{:.3f} ± {:.3f}", n.fitted, n.sigma)};
+    case NeedlessKind::kSize:
+      return {"size of ", "none (point)", fmt::format("{:.2f} ± {:.2f} m", n.fitted, n.sigma)};
+    case NeedlessKind::kTilt:
+      return {"tilt of ", "none", angle};
+    case NeedlessKind::kHeading:
+      break;
+  }
+  return {"turn of ", "none", angle};
+}
+
 void WarnOfUnknownFluxes(const RoomFit& result, Findings& findings) {
   if (!result.fit.IsUsable() || !result.absolute || !result.TellsDirectLight() || result.stopped) return;
   std::vector<std::string> ids;
@@ -197,19 +217,12 @@ void RecordAim(const RoomObservations& given, const AimChoice& choice, const Eig
 
 void RecordNeedless(const RoomObservations& given, const std::vector<NeedlessParameter>& needless,
                     Findings& findings) {
-  constexpr double kDegrees = 180 / M_PI;
   for (const NeedlessParameter& n : needless) {
-    const std::string id = given.luminaires[static_cast<size_t>(n.luminaire)].luminaire.id;
-    const bool is_exponent = n.kind == NeedlessKind::kExponent;
-    const std::string simplest = is_exponent ? "1 (lambertian)" : "none";
-    const std::string what = is_exponent                     ? "cosine exponent of "
-                             : n.kind == NeedlessKind::kTilt ? "tilt of "
-                                                             : "turn of ";
-    const std::string fitted =
-        is_exponent ? fmt::format("{:.3f} ± {:.3f}", n.fitted, n.sigma)
-                    : fmt::format("{:.2f} ± {:.2f} degrees", kDegrees * n.fitted, kDegrees * n.sigma);
-    findings.choices.push_back(
-        {what + id, simplest, {simplest, "estimated"}, fitted + " in the fit of all luminaires together"});
+    const NeedlessWords words = WordsOf(n);
+    findings.choices.push_back({words.what + given.luminaires[static_cast<size_t>(n.luminaire)].luminaire.id,
+                                words.simplest,
+                                {words.simplest, "estimated"},
+                                words.fitted + " in the fit of all luminaires together"});
   }
 }
 

@@ -174,6 +174,29 @@ TEST_F(NeedlessParameters, ATurnNearAQuarterIsAQuarter) {
   EXPECT_TRUE(Simplified(false, false, true).needless.empty());
 }
 
+TEST_F(NeedlessParameters, ASizeThatTheFitDoesNotTellFromNothingIsAPoint) {
+  fit_.state.free[0].size = fit_.state.free[1].size = true;
+  fit_.parameters = FreeParameters(MakeRoom(Scene{}), fit_.state);
+  fit_.covariance = 1e-4 * Eigen::MatrixXd::Identity(Count(), Count());
+  const Eigen::Index along = IndexOf(0, LuminaireQuantity::kSizeAlong),
+                     across = IndexOf(0, LuminaireQuantity::kSizeAcross);
+  fit_.covariance(along, along) = fit_.covariance(across, across) = 0.16;
+  std::vector<OpenChoice> open(2);
+  for (OpenChoice& o : open) o.distribution = o.aim = o.heading = false;
+  const SimplifiedState simplified = WithoutNeedlessParameters(fit_, open, std::vector<HeldDirections>(2));
+  ASSERT_EQ(simplified.needless.size(), 1u);
+  EXPECT_EQ(simplified.needless[0].kind, NeedlessKind::kSize);
+  EXPECT_DOUBLE_EQ(simplified.needless[0].fitted, 0.6);
+  EXPECT_NEAR(simplified.needless[0].sigma, 0.4, 1e-12);
+  EXPECT_EQ(simplified.state.luminaires[0].shape, LuminaireShape::kPoint);
+  EXPECT_FALSE(simplified.state.free[0].size);
+  EXPECT_EQ(simplified.state.luminaires[1].shape, LuminaireShape::kRectangle);
+  EXPECT_TRUE(simplified.state.free[1].size);
+  // A strip has a length, if no width.
+  fit_.covariance(along, along) = 0.01;
+  EXPECT_TRUE(WithoutNeedlessParameters(fit_, open, std::vector<HeldDirections>(2)).needless.empty());
+}
+
 TEST_F(NeedlessParameters, WhatIsNotOpenIsNotTouched) {
   SetTilt(0, Eigen::Vector2d(0.07, 0.07) * kDegree, 0.08 * kDegree);
   SetExponent(0, 1.009, 0.02);
