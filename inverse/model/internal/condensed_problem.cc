@@ -67,12 +67,13 @@ class CondensedCost : public ceres::CostFunction {
   mutable Condensate known_;
 };
 
-// Returns the radius to try after a step within `radius` raised the cost. Ceres shrinks it by 2, 4, 8, ...: from an
-// undamped step it would compute seven that hardly differ.
-double NextRadius(double radius) {
-  constexpr double kDamped = 1, kShrink = 1e-2;
-  return std::min(kDamped, kShrink * radius);
-}
+class StopAfterAcceptedStep : public ceres::IterationCallback {
+ public:
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return summary.iteration > 0 && summary.step_is_successful ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                               : ceres::SOLVER_CONTINUE;
+  }
+};
 
 }  // namespace
 
@@ -86,6 +87,7 @@ double SolveCondensed(const CondensedProblem& problem, const InnerSolveOptions& 
     ceres_problem.SetParameterLowerBound(x.data(), i, problem.lower[i]);
     ceres_problem.SetParameterUpperBound(x.data(), i, problem.upper[i]);
   }
+  StopAfterAcceptedStep stop;
   ceres::Solver::Options ceres_options;
   ceres_options.linear_solver_type = ceres::DENSE_QR;
   ceres_options.max_num_iterations = options.max_iterations;
@@ -93,18 +95,16 @@ double SolveCondensed(const CondensedProblem& problem, const InnerSolveOptions& 
   ceres_options.function_tolerance = options.is_near ? 1e-6 : 1e-5;
   ceres_options.parameter_tolerance = 1e-7;
   ceres_options.initial_trust_region_radius = options.is_near ? options.near_radius : 10;
+  if (options.is_near) {
+    ceres_options.update_state_every_iteration = false;
+    ceres_options.callbacks.push_back(&stop);
+  }
   // Bounds are seldom met: a line search along every step to them costs a third of the time and finds
   // nothing.
   ceres_options.max_num_line_search_step_size_iterations = 0;
   ceres_options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  if (options.is_near) ceres_options.max_num_iterations = 1;
-  constexpr int kTries = 4;
-  for (int tries = 0; tries < (options.is_near ? kTries : 1); ++tries) {
-    ceres::Solve(ceres_options, &ceres_problem, &summary);
-    if (summary.iterations.size() < 2 || summary.iterations.back().step_is_successful) break;
-    ceres_options.initial_trust_region_radius = NextRadius(ceres_options.initial_trust_region_radius);
-  }
+  ceres::Solve(ceres_options, &ceres_problem, &summary);
   return summary.iterations.empty() ? options.near_radius : summary.iterations.back().trust_region_radius;
 }
 

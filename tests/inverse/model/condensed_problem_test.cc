@@ -82,26 +82,6 @@ TEST(CondensedProblem, StaysWithinBoundsAndWhereTheModelIsDefined) {
   EXPECT_LE(x[0], 1);
 }
 
-// From there, Gauss-Newton's step on Rosenbrock's function raises the cost. Damping it must take few evaluations.
-TEST(CondensedProblem, ANearStepThatRaisesTheCostIsDampedAtOnce) {
-  CondensedProblem problem = Unbounded(2);
-  int evaluations = 0;
-  problem.equations = [&](const Eigen::VectorXd& x) {
-    ++evaluations;
-    Eigen::Matrix2d jacobian;
-    jacobian << -20 * x[0], 10, -1, 0;
-    return EquationsOf(jacobian, Eigen::Vector2d(10 * (x[1] - x[0] * x[0]), 1 - x[0]));
-  };
-  Eigen::VectorXd x = Eigen::Vector2d(-1.2, 1);
-  const double before = problem.equations(x)->squares;
-  evaluations = 0;
-  InnerSolveOptions options;
-  options.is_near = true;
-  SolveCondensed(problem, options, x);
-  EXPECT_LT(problem.equations(x)->squares, before);
-  EXPECT_LE(evaluations, 8) << "at most four steps, and the start before each";
-}
-
 // The rows say nothing of the difference of two unknowns: it stays as it starts.
 TEST(CondensedProblem, LeavesWhatNothingDetermines) {
   CondensedProblem problem = Unbounded(2);
