@@ -20,9 +20,9 @@
 
 #include "apps/export/fitted_room.h"
 #include "tests/paths.h"
+#include "tests/support/apps/errors_of_run.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/apps/report_data.h"
-#include "tests/support/apps/stated_errors.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 

@@ -17,7 +17,6 @@
 
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire_parts.h"
-#include "inverse/fit/fit_room.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/inverse/traced_room.h"
 #include "tests/support/scenes.h"
@@ -119,14 +118,7 @@ TEST(LShapedRoom, EveryLuminaireIsFound) {
   const Room model = MakeRoom(room.truth, options);
   std::mt19937_64 rng(5);
   const RoomObservations given = support::ObserveTraced(room, model, rng);
-  const RoomFit fit = support::FitTimed(model, given);
-  ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
-  for (const support::LuminaireError& error : support::PrintErrors(room, fit)) {
-    EXPECT_LT(error.off_mm, 40);
-    EXPECT_LT(std::abs(error.flux_percent), 5);
-    EXPECT_LT(error.z, 3);
-  }
-  EXPECT_LT(support::PrintCheck(given, fit), 2);
+  support::ExpectFound(room, model, given);
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire_parts.h"
-#include "inverse/fit/fit_room.h"
 #include "tests/support/inverse/traced_room.h"
 #include "tests/support/scenes.h"
 
@@ -138,15 +137,9 @@ TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   given.seen.push_back(Highlight({3.9, 2.7, 0.735}, 0.03, {0, 4}, 4));
   given.seen.push_back(Highlight({2.4, 4.99, 1.9}, 0.4, {3, 4}, 3));
   given.seen.push_back(Highlight({2.0, 2.0, 0.72}, 0.02, {2, 4}, 3));
-  const RoomFit fit = support::FitTimed(model, given);
-  ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
-  const std::vector<support::LuminaireError> errors = support::PrintErrors(room, fit);
-  support::PrintCheck(given, fit);
-  for (size_t k = 0; k < errors.size(); ++k) {
-    EXPECT_LT(errors[k].off_mm, k < 5 ? 5.3 : 80) << room.luminaires[k].id;
-    EXPECT_LT(errors[k].z, 3) << room.luminaires[k].id << " is not where the fit says, nor within its sigmas";
-    EXPECT_LT(std::abs(errors[k].flux_percent), 3.5) << room.luminaires[k].id;
-  }
+  support::FoundLimits limits;
+  limits.off_mm = 80, limits.flux_percent = 3.5;
+  support::ExpectFound(room, model, given, limits);
 }
 
 }  // namespace

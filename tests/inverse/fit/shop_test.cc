@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "forward/light/room.h"
-#include "inverse/fit/fit_room.h"
 #include "tests/support/inverse/traced_room.h"
 #include "tests/support/scenes.h"
 
@@ -92,14 +91,7 @@ TEST(Shop, EveryLuminaireIsFound) {
   support::TracedRoomOptions traced;
   traced.paths_per_point = 128;
   const RoomObservations given = support::ObserveTraced(room, model, rng, traced);
-  const RoomFit fit = support::FitTimed(model, given);
-  ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
-  for (const support::LuminaireError& error : support::PrintErrors(room, fit)) {
-    EXPECT_LT(error.off_mm, 40);
-    EXPECT_LT(std::abs(error.flux_percent), 5);
-    EXPECT_LT(error.z, 3);
-  }
-  EXPECT_LT(support::PrintCheck(given, fit), 2);
+  support::ExpectFound(room, model, given);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "tests/support/inverse/traced_room.h"
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
@@ -8,7 +10,9 @@
 
 #include "forward/light/light_tracer.h"
 #include "forward/room/visibility.h"
+#include "inverse/model/fit_uncertainty.h"
 #include "tests/support/inverse/luminaire_outlines.h"
+#include "tests/support/inverse/stated_errors.h"
 
 namespace luxfit::support {
 namespace {
@@ -163,20 +167,26 @@ int QuietestOf(const TracedRoom& room, const std::vector<int>& states) {
   });
 }
 
+bool IsHidden(const TracedRoom& room, size_t luminaire) {
+  return !room.is_hidden.empty() && room.is_hidden[luminaire];
+}
+
+bool IsFlat(const Luminaire& luminaire) {
+  return luminaire.shape == LuminaireShape::kRectangle || luminaire.shape == LuminaireShape::kDisc;
+}
+
 void AddSeen(const TracedRoom& room, const RayScene& rays, const TracedRoomOptions& options,
              std::mt19937_64& rng, RoomObservations& given) {
   std::normal_distribution<double> normal;
   for (size_t k = 0; k < room.luminaires.size(); ++k) {
-    if (!room.is_hidden.empty() && room.is_hidden[k]) continue;
+    if (IsHidden(room, k)) continue;
     const Luminaire& luminaire = room.luminaires[k];
-    const bool is_flat =
-        luminaire.shape == LuminaireShape::kRectangle || luminaire.shape == LuminaireShape::kDisc;
     SeenPlace place;
     place.states = StatesOf(room, k);
     for (size_t v = 0; v < room.eyes.size(); ++v) {
       if (!Shows(luminaire, room.eyes[v], rays)) continue;
       ++place.views;
-      if (!is_flat) continue;
+      if (!IsFlat(luminaire)) continue;
       RimView rim;
       rim.view = static_cast<int>(v), rim.state = QuietestOf(room, place.states);
       rim.shift_px = options.outline_sigma_px * Eigen::Vector2d(normal(rng), normal(rng));
@@ -209,6 +219,32 @@ void PrintStates(const RoomFit& fit) {
   std::printf("  model error %.2f %%\n", 100 * fit.fit.relative_sigma);
 }
 
+bool AreSwitchedTogether(const TracedRoom& room, Eigen::Index a, Eigen::Index b) {
+  return std::all_of(room.dimming.begin(), room.dimming.end(),
+                     [&](const Eigen::VectorXd& d) { return d[a] == d[b]; });
+}
+
+// Returns the luminaire of the fit for each true one: the nearest that the same states switch.
+std::vector<size_t> MatchesOf(const TracedRoom& room, const RoomFit& fit) {
+  std::vector<size_t> matches;
+  std::vector<bool> is_taken(room.luminaires.size(), false);
+  for (size_t k = 0; k < room.luminaires.size(); ++k) {
+    size_t nearest = room.luminaires.size();
+    const auto off = [&](size_t i) {
+      return (fit.fit.state.luminaires[i].position - room.luminaires[k].position).norm();
+    };
+    for (size_t j = 0; j < room.luminaires.size(); ++j) {
+      if (is_taken[j] ||
+          !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
+        continue;
+      if (nearest == room.luminaires.size() || off(j) < off(nearest)) nearest = j;
+    }
+    is_taken[nearest] = true;
+    matches.push_back(nearest);
+  }
+  return matches;
+}
+
 double WorstZ(const RoomFit& fit, int luminaire, const Eigen::Vector3d& truth) {
   double worst = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -220,62 +256,64 @@ double WorstZ(const RoomFit& fit, int luminaire, const Eigen::Vector3d& truth) {
   return worst;
 }
 
-bool AreSwitchedTogether(const TracedRoom& room, Eigen::Index a, Eigen::Index b) {
-  return std::all_of(room.dimming.begin(), room.dimming.end(),
-                     [&](const Eigen::VectorXd& d) { return d[a] == d[b]; });
+void ExpectLuminaire(const Luminaire& truth, bool is_outlined, const RoomFit& fit, size_t match,
+                     const FoundLimits& limits) {
+  const Luminaire& found = fit.fit.state.luminaires[match];
+  const int index = static_cast<int>(match);
+  const double off_mm = 1000 * (found.position - truth.position).norm();
+  const double z = WorstZ(fit, index, truth.position);
+  const double flux_percent = 100 * (found.flux_lm / truth.flux_lm - 1);
+  const double flux_z =
+      std::log(found.flux_lm / truth.flux_lm) / SigmaOf(fit, ParameterKind::kLogFlux, index);
+  const double turned_deg =
+      180 / kPi * std::atan2(found.aim.cross(truth.aim).norm(), found.aim.dot(truth.aim));
+  std::printf(
+      "  %-4s off by %7.1f mm (z %5.1f), flux %+7.2f %% (z %+5.1f), aim %5.1f deg, %s %s %.2f x %.2f m\n",
+      truth.id.c_str(), off_mm, z, flux_percent, flux_z, turned_deg, ToString(found.distribution).c_str(),
+      ToString(found.shape).c_str(), found.size_m[0], found.size_m[1]);
+  EXPECT_LT(off_mm, is_outlined ? limits.outlined_off_mm : limits.off_mm) << truth.id;
+  EXPECT_LT(z, limits.sigmas) << truth.id << " is not where the fit says, nor within its sigmas";
+  EXPECT_LT(std::abs(flux_percent), limits.flux_percent) << truth.id;
 }
 
-}  // namespace
-
-RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::mt19937_64& rng,
-                               const TracedRoomOptions& options) {
-  RoomObservations given;
-  given.dimming = room.dimming;
-  for (const Luminaire& luminaire : room.luminaires) {
-    given.luminaires.emplace_back();
-    given.luminaires.back().luminaire.id = luminaire.id;
+StatedErrors ErrorsAlong(int axis, const TracedRoom& room, const RoomFit& fit,
+                         const std::vector<size_t>& matches) {
+  const FitUncertainty known = UncertaintyOf(fit.fit);
+  std::vector<ParameterId> ids;
+  std::vector<double> error;
+  for (size_t k = 0; k < matches.size(); ++k) {
+    const Luminaire& found = fit.fit.state.luminaires[matches[k]];
+    const ParameterId id = {ParameterKind::kLuminaire, found.id, static_cast<LuminaireQuantity>(axis), 0};
+    if (!(known.Covariance(id, id) > 0)) continue;  // held
+    ids.push_back(id);
+    error.push_back(found.position[axis] - room.luminaires[k].position[axis]);
   }
-  const RayScene rays(room.truth);
-  AddPhotos(room, rays, SightsOf(room, model, rays), options, rng, given);
-  AddReadings(room, rays, options, rng, given);
-  AddSeen(room, rays, options, rng, given);
-  return given;
-}
-
-std::vector<LuminaireError> PrintErrors(const TracedRoom& room, const RoomFit& fit) {
-  std::vector<LuminaireError> errors;
-  std::vector<bool> is_taken(room.luminaires.size(), false);
-  for (size_t k = 0; k < room.luminaires.size(); ++k) {
-    const Luminaire& truth = room.luminaires[k];
-    size_t nearest = room.luminaires.size();
-    for (size_t j = 0; j < room.luminaires.size(); ++j) {
-      if (is_taken[j] ||
-          !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
-        continue;
-      const auto off = [&](size_t i) {
-        return (fit.fit.state.luminaires[i].position - truth.position).norm();
-      };
-      if (nearest == room.luminaires.size() || off(j) < off(nearest)) nearest = j;
-    }
-    is_taken[nearest] = true;
-    const Luminaire& found = fit.fit.state.luminaires[nearest];
-    const int index = static_cast<int>(nearest);
-    LuminaireError error;
-    error.off_mm = 1000 * (found.position - truth.position).norm();
-    error.z = WorstZ(fit, index, truth.position);
-    error.flux_percent = 100 * (found.flux_lm / truth.flux_lm - 1);
-    error.flux_z = std::log(found.flux_lm / truth.flux_lm) / SigmaOf(fit, ParameterKind::kLogFlux, index);
-    error.turned_deg = 180 / kPi * std::atan2(found.aim.cross(truth.aim).norm(), found.aim.dot(truth.aim));
-    std::printf(
-        "  %-4s off by %7.1f mm (z %5.1f), flux %+7.2f %% (z %+5.1f), aim %5.1f deg, %s %s %.2f x %.2f m\n",
-        truth.id.c_str(), error.off_mm, error.z, error.flux_percent, error.flux_z, error.turned_deg,
-        ToString(found.distribution).c_str(), ToString(found.shape).c_str(), found.size_m[0],
-        found.size_m[1]);
-    errors.push_back(error);
-  }
+  StatedErrors errors;
+  const auto n = static_cast<Eigen::Index>(ids.size());
+  errors.kind.assign(ids.size(), ToString(ParameterKind::kLuminaire));
+  errors.quantity.assign(ids.size(), ToString(static_cast<LuminaireQuantity>(axis)));
+  errors.error = Eigen::Map<Eigen::VectorXd>(error.data(), n);
+  errors.covariance = Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+    return known.Covariance(ids[static_cast<size_t>(i)], ids[static_cast<size_t>(j)]);
+  });
   return errors;
 }
 
+// One of three means exceeds 2.4 standard errors by chance in 5 of 100 rooms.
+void ExpectNoCommonError(const TracedRoom& room, const RoomFit& fit, const std::vector<size_t>& matches,
+                         const FoundLimits& limits) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const StatedErrors errors = ErrorsAlong(axis, room, fit, matches);
+    ASSERT_GE(errors.error.size(), 2) << "axis " << axis;
+    const MeanError mean = errors.MeanOf(errors.RowsOf(""));
+    std::printf("  mean error along %c: %+.2f mm +- %.2f mm, z %+.2f\n", "xyz"[axis], 1000 * mean.mean,
+                1000 * mean.standard_error, mean.Z());
+    EXPECT_LT(std::abs(mean.Z()), 2.4) << "axis " << axis;
+    EXPECT_LT(1000 * mean.standard_error, limits.common_error_mm) << "axis " << axis;
+  }
+}
+
+// Prints status, rounds and warnings. Returns the mean error of the readings that only check, in percent.
 double PrintCheck(const RoomObservations& given, const RoomFit& fit) {
   const std::vector<PredictedReading> predicted = PredictedReadings(fit);
   double sum = 0, worst = 0;
@@ -295,11 +333,12 @@ double PrintCheck(const RoomObservations& given, const RoomFit& fit) {
   return mean;
 }
 
-RoomFit FitTimed(const Room& model, const RoomObservations& given, const FitRoomOptions& options) {
+// Returns a fit, and prints when its steps began and when it was done.
+RoomFit FitTimed(const Room& model, const RoomObservations& given) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  FitRoomOptions timed = options;
+  FitRoomOptions timed;
   timed.on_step = [&](const std::string& step, const std::string&) {
     std::printf("  %5.1f s %s\n", seconds(), step.c_str());
     return std::shared_ptr<void>();
@@ -307,6 +346,35 @@ RoomFit FitTimed(const Room& model, const RoomObservations& given, const FitRoom
   RoomFit fit = FitRoom(model, given, timed);
   std::printf("  %5.1f s done\n", seconds());
   return fit;
+}
+
+}  // namespace
+
+RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::mt19937_64& rng,
+                               const TracedRoomOptions& options) {
+  RoomObservations given;
+  given.dimming = room.dimming;
+  for (const Luminaire& luminaire : room.luminaires) {
+    given.luminaires.emplace_back();
+    given.luminaires.back().luminaire.id = luminaire.id;
+  }
+  const RayScene rays(room.truth);
+  AddPhotos(room, rays, SightsOf(room, model, rays), options, rng, given);
+  AddReadings(room, rays, options, rng, given);
+  AddSeen(room, rays, options, rng, given);
+  return given;
+}
+
+void ExpectFound(const TracedRoom& room, const Room& model, const RoomObservations& given,
+                 const FoundLimits& limits) {
+  const RoomFit fit = FitTimed(model, given);
+  ASSERT_TRUE(fit.IsUsable()) << fit.fit.message;
+  const std::vector<size_t> matches = MatchesOf(room, fit);
+  for (size_t k = 0; k < matches.size(); ++k)
+    ExpectLuminaire(room.luminaires[k], IsFlat(room.luminaires[k]) && !IsHidden(room, k), fit, matches[k],
+                    limits);
+  ExpectNoCommonError(room, fit, matches, limits);
+  EXPECT_LT(PrintCheck(given, fit), limits.reading_percent);
 }
 
 }  // namespace luxfit::support

@@ -41,20 +41,20 @@ struct TracedRoomOptions {
 RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::mt19937_64& rng,
                                const TracedRoomOptions& options = {});
 
-// Says how far a luminaire of a fit is from the true one.
-struct LuminaireError {
-  double off_mm = 0, z = 0;  // z: of the worst coordinate, in its sigmas
-  double flux_percent = 0, flux_z = 0;
-  double turned_deg = 0;
+struct FoundLimits {
+  double outlined_off_mm = 5.3;  // of luminaires whose outlines photos show
+  double off_mm = 60;            // of others
+  double flux_percent = 5;
+  double sigmas = 3;             // of each coordinate, in its sigma
+  double common_error_mm = 1.5;  // standard error of what all luminaires err alike along an axis
+  double reading_percent = 2;    // mean of the readings that only check
 };
-// Prints and returns one for each true luminaire. Luminaires that the same states switch are interchangeable.
-std::vector<LuminaireError> PrintErrors(const TracedRoom& room, const RoomFit& fit);
 
-// Prints status, rounds and warnings. Returns the mean error of the readings that only check, in percent.
-double PrintCheck(const RoomObservations& given, const RoomFit& fit);
-
-// Returns a fit, and prints when its steps began and when it was done.
-RoomFit FitTimed(const Room& model, const RoomObservations& given, const FitRoomOptions& options = {});
+// Fits, prints how far each luminaire is from the true one, and expects it within the limits, no error of position that
+// they share (z of the mean along each axis), and right readings. Luminaires that the same states switch are
+// interchangeable.
+void ExpectFound(const TracedRoom& room, const Room& model, const RoomObservations& given,
+                 const FoundLimits& limits = {});
 
 }  // namespace luxfit::support
 
