@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -24,9 +25,26 @@ struct Plan {
   double Y(double y) const { return kPlanMarginPx + scale * (box.max().y() - y); }
 };
 
+// Returns facets to draw: a facet that a surface covers only in part as the surface's triangles.
+std::vector<Facet> Drawn(const Scene& scene) {
+  constexpr double kNearlyAll = 0.85;
+  if (scene.surface.empty()) return scene.facets;
+  const std::vector<Facet> triangles = SurfaceFacets(scene);
+  std::vector<Facet> drawn;
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    if (scene.facets[static_cast<size_t>(scene.surface[t].facet)].covered_share < kNearlyAll)
+      drawn.push_back(triangles[t]);
+  }
+  std::copy_if(scene.facets.begin(), scene.facets.end(), std::back_inserter(drawn),
+               [](const Facet& facet) { return facet.covered_share >= kNearlyAll; });
+  std::stable_sort(drawn.begin(), drawn.end(),
+                   [](const Facet& a, const Facet& b) { return a.origin.z() < b.origin.z(); });
+  return drawn;
+}
+
 std::string Outlines(const Plan& plan, const Scene& scene) {
   std::string text;
-  for (const Facet& facet : scene.facets) {
+  for (const Facet& facet : Drawn(scene)) {
     // Only surfaces that face up are drawn: furniture and floor. Walls appear as the floor's edge.
     if (facet.Normal().z() < 0.5) continue;
     std::string points;

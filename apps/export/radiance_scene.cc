@@ -208,8 +208,9 @@ std::string RadianceMaterials(const std::vector<std::string>& names, const Eigen
 std::string RadianceSurfaces(const Scene& scene, const std::vector<std::string>& names) {
   ExpectNames(names, static_cast<Eigen::Index>(scene.materials.size()));
   std::ostringstream text = Writer();
-  for (size_t f = 0; f < scene.facets.size(); ++f) {
-    const Facet& facet = scene.facets[f];
+  const std::vector<Facet> facets = SurfaceFacets(scene);
+  for (size_t f = 0; f < facets.size(); ++f) {
+    const Facet& facet = facets[f];
     std::vector<Eigen::Vector3d> corners{facet.PointAt(0, 0), facet.PointAt(1, 0)};
     if (facet.kind == FacetKind::kParallelogram) corners.push_back(facet.PointAt(1, 1));
     corners.push_back(facet.PointAt(0, 1));

@@ -43,6 +43,8 @@ std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::str
   const auto known = FormFactorMethodFrom(method);
   if (!known) throw std::runtime_error("Room: method: " + ExpectedOneOf(MethodNames(), method));
   options.form_factors = {rays, *known};
+  options.planes.emplace();
+  options.planes->name_materials = true;
   const py::gil_scoped_release release;
   auto room = std::make_unique<Room>(MakeRoom(ReadScene(mesh.string(), metres->second), options));
   if (room->sparse)

@@ -95,8 +95,9 @@ SessionObservations ObserveKept(const Session& session, const LinearizedPhotos& 
   return observed;
 }
 
-PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context) {
-  Room room = LoadRoom(session, context);
+PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs, RunContext& context) {
+  Room room = LoadRoom(given, context);
+  const Session session = OnSurfaceOf(room, given);
   LinearizedSession linearized = LinearizeKept(session, inputs, context);
   const SessionCheck check = CheckSession(session, room.rays);
   context.warnings.insert(context.warnings.end(), check.warnings.begin(), check.warnings.end());

@@ -121,6 +121,23 @@ void WarnOfNamesUsedOnce(const Session& session, std::vector<Warning>& warnings)
 
 }  // namespace
 
+Session OnSurfaceOf(const Room& room, Session session) {
+  constexpr double kSigmas = 3;
+  if (!room.on_planes) return session;
+  const double reach_m = kSigmas * room.on_planes->rms_m;
+  const auto move = [&](const Eigen::Vector3d& towards, Eigen::Vector3d& p) {
+    const RayHit hit = room.rays.Trace(LiftedOff(p, towards), towards);
+    if (hit.facet >= 0 && !hit.front && hit.distance < reach_m) p += (hit.distance + 1e-4) * towards;
+  };
+  for (SessionReading& reading : session.luxmeter.readings)
+    move(reading.normal.normalized(), reading.position_m);
+  for (SessionLuminaire& luminaire : session.luminaires) {
+    if (luminaire.position_m)
+      move(luminaire.aim.value_or(-Eigen::Vector3d::UnitZ()).normalized(), *luminaire.position_m);
+  }
+  return session;
+}
+
 ReadingsOutside FindReadingsOutside(const Session& session, const RayScene& rays) {
   ReadingsOutside places;
   if (!session.scene) return places;

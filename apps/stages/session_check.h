@@ -15,10 +15,14 @@
 #include <vector>
 
 #include "apps/session/session.h"
-#include "forward/room/visibility.h"
+#include "forward/light/room.h"
 #include "inverse/fit/fit_room.h"
 
 namespace luxfit {
+
+// Returns the session with places that lie up to three sigmas of a scan's surface behind it moved onto it: readings along
+// their normal, given luminaires along their aim. Another room's session stays as it is.
+Session OnSurfaceOf(const Room& room, Session session);
 
 // `rays` are those of the session's mesh. Without a mesh, nothing is outside.
 

@@ -82,7 +82,7 @@ struct LoadedMesh {
   std::vector<MeshFinding> findings;
 };
 LoadedMesh LoadMesh(const Session& session);
-void WarnOfMesh(const std::vector<MeshFinding>& findings, const Room& room, RunContext& context);
+void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context);
 
 // Returns that mesh with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);

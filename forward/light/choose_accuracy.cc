@@ -33,27 +33,6 @@ std::string Number(double number) {
   return text;
 }
 
-// Counts the patches of Subdivide, but for those that solids split, without making them.
-struct PatchCounts {
-  double patches = 0, elements = 0;
-};
-PatchCounts CountPatches(const Scene& scene, const PatchesOptions& sizes) {
-  const auto count = [](double length_m, double size_m) {
-    return std::max(1.0, std::ceil(length_m / size_m));
-  };
-  PatchCounts counts;
-  for (const Facet& facet : scene.facets) {
-    double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
-    if (facet.kind == FacetKind::kTriangle)
-      u_m = v_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
-    const double along_u = count(u_m, sizes.patch_size_m), along_v = count(v_m, sizes.patch_size_m);
-    counts.patches += along_u * along_v;
-    counts.elements += along_u * count(u_m / along_u, sizes.element_size_m) * along_v *
-                       count(v_m / along_v, sizes.element_size_m);
-  }
-  return counts;
-}
-
 // Returns the size of the first patches: those asked for, or larger ones that can be halved once. Where facets are long
 // and narrow, or many, their number says more than the area.
 double CoarsestPatchM(const Scene& scene, const AccuracyOptions& options) {
@@ -75,14 +54,15 @@ double CoarsestPatchM(const Scene& scene, const AccuracyOptions& options) {
 class Chooser {
  public:
   Chooser(const LitScene& lit, const AccuracyOptions& options)
-      : all_(lit), lit_(WithFewSensors(lit)), options_(options) {
-    coarsest_m_ = CoarsestPatchM(lit.scene, options);
+      : all_(OnItsPlanes(lit)), lit_(WithFewSensors(all_)), options_(options) {
+    coarsest_m_ = CoarsestPatchM(lit_.scene, options);
     choice_.options.solver.tolerance_percent = kBouncesShare * options.error_percent;
   }
 
   AccurateSceneLight Run() {
     choice_.options.rays_per_sensor = kFewestSensorRays;
-    choice_.options.room = {PatchesOfSize(coarsest_m_), {kHybridRays, FormFactorMethod::kHybrid}};
+    choice_.options.room.patches = PatchesOfSize(coarsest_m_);
+    choice_.options.room.form_factors = {kHybridRays, FormFactorMethod::kHybrid};
     SceneLight last = Try(nullptr);
     if (last.room.patches.patches.empty()) {
       choice_.patches_because = choice_.rays_because = choice_.sensors_because = choice_.bounces_because =
@@ -105,6 +85,22 @@ class Chooser {
   }
 
  private:
+  // Returns the scene with its triangles merged where that changes no surface: many share a plane, and long ones are cut
+  // more finely than need be.
+  static LitScene OnItsPlanes(const LitScene& lit) {
+    constexpr double kSamePlaneM = 5e-4, kMuchFewer = 3;
+    if (!IsFinerThanPatches(lit.scene, {})) return lit;
+    PlanesOptions exact;
+    exact.off_plane_m = kSamePlaneM;
+    exact.largest_hole_m = 0;
+    exact.most_planes = static_cast<int>(lit.scene.facets.size());
+    OnPlanes laid = LayOnPlanes(lit.scene, exact);
+    if (kMuchFewer * CountPatches(laid.scene, {}).patches > CountPatches(lit.scene, {}).patches) return lit;
+    LitScene merged = lit;
+    merged.scene = std::move(laid.scene);
+    return merged;
+  }
+
   // Returns the scene with sensors evenly taken from the list. What all of them cost is then paid once.
   static LitScene WithFewSensors(const LitScene& lit) {
     LitScene few = lit;
@@ -296,7 +292,7 @@ class Chooser {
     return change * (ratio > 1 ? std::clamp(1 / (ratio - 1), 1.0, kSlowest) : kSlowest);
   }
 
-  const LitScene& all_;
+  const LitScene all_;
   const LitScene lit_;  // with the sensors that choose
   const AccuracyOptions& options_;
   double coarsest_m_ = 0;

@@ -45,32 +45,44 @@ Room SparseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOpt
   form_factors.back_fraction = sparse->back_fraction();
   form_factors.rays = sparse->rays();
   TransportGeometry transport{PatchAreas(patches), PatchMaterials(patches), {}};
-  return {std::move(scene),        std::move(rays),      std::move(patches),
-          std::move(form_factors), std::move(transport), std::move(sparse)};
+  return {std::move(scene),     std::move(rays),   std::move(patches), std::move(form_factors),
+          std::move(transport), std::move(sparse), std::nullopt};
 }
 
 Room DenseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOptions& options) {
   FormFactors form_factors = ComputeFormFactors(rays, patches, options);
   TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
-  return {std::move(scene),        std::move(rays),      std::move(patches),
-          std::move(form_factors), std::move(transport), nullptr};
+  return {std::move(scene),     std::move(rays), std::move(patches), std::move(form_factors),
+          std::move(transport), nullptr,         std::nullopt};
 }
 
 }  // namespace
 
 Room MakeRoom(const Scene& given, const RoomOptions& options) {
   ExpectValid(given);
-  Scene scene = WithoutOverlaps(given);
+  std::optional<LaidOnPlanes> on_planes;
+  Scene scene;
+  if (options.planes && given.surface.empty() && IsFinerThanPatches(given, options.patches)) {
+    OnPlanes laid = LayOnPlanes(given, *options.planes);
+    scene = std::move(laid.scene);
+    on_planes = laid.how;
+  } else {
+    scene = given.surface.empty() ? WithoutOverlaps(given) : given;
+  }
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);
-  if (MatrixBytes(patches) > options.max_matrix_bytes)
-    return SparseRoom(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
-  return DenseRoom(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
+  const auto make = MatrixBytes(patches) > options.max_matrix_bytes ? SparseRoom : DenseRoom;
+  Room room = make(std::move(scene), std::move(rays), std::move(patches), options.form_factors);
+  room.on_planes = on_planes;
+  return room;
 }
 
 Room WithFormFactors(Room room, const FormFactorOptions& options) {
   const auto make = room.sparse ? SparseRoom : DenseRoom;
-  return make(std::move(room.scene), std::move(room.rays), std::move(room.patches), options);
+  const std::optional<LaidOnPlanes> on_planes = room.on_planes;
+  Room again = make(std::move(room.scene), std::move(room.rays), std::move(room.patches), options);
+  again.on_planes = on_planes;
+  return again;
 }
 
 Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "forward/direct/sensor.h"
@@ -21,6 +22,7 @@
 #include "forward/luminaire/luminaire.h"
 #include "forward/radiosity/transport.h"
 #include "forward/room/patches.h"
+#include "forward/room/planes.h"
 #include "forward/room/scene.h"
 #include "forward/room/visibility.h"
 
@@ -30,6 +32,7 @@ class SparseTransport;
 
 struct RoomOptions {
   PatchesOptions patches;
+  std::optional<PlanesOptions> planes;  // lays a mesh that is finer than patches onto planes; nothing: never
   FormFactorOptions form_factors;
   double max_matrix_bytes =
       4e9;  // bytes of form factors and coupling; beyond it, only pairs that rays find are kept
@@ -44,9 +47,10 @@ struct Room {
   // Set in rooms of many patches. There form_factors and transport have no matrices, rays_per_element are
   // those of kMalley, and indirect light is the same all over a patch.
   std::shared_ptr<const SparseTransport> sparse;
+  std::optional<LaidOnPlanes> on_planes;  // how the given mesh became `scene`
 };
-// Makes a room. Facets drawn on one another are cut first (WithoutOverlaps), so `scene` may differ from the
-// given one.
+// Makes a room. A mesh finer than patches is laid onto planes first where the options ask for it (LayOnPlanes); of any
+// other, facets drawn on one another are cut (WithoutOverlaps). So `scene` may differ from the given one.
 Room MakeRoom(const Scene& given, const RoomOptions& options = {});
 
 struct Receivers {

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "forward/room/internal/coverage.h"
 #include "forward/room/internal/expect_valid.h"
 #include "forward/room/internal/inside_solid.h"
 
 namespace luxfit {
 namespace {
 
-int CountFor(double length, double size) {
-  return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
+// `slack`: share of a part by which the parts may be too long together.
+int CountFor(double length, double size, double slack = 1e-9) {
+  return std::max(1, static_cast<int>(std::ceil(length / size - slack)));
 }
 
 // Names a cell of a grid over a facet: the parallelogram (i, j), or its lower or upper triangle.
@@ -78,17 +81,33 @@ std::vector<Cell> CellsOfTrianglePatch(const Cell& patch, int m) {
   return cells;
 }
 
-// Pairs a cell of a facet with the share of it that is not inside a solid.
+// Pairs a cell of a facet with the shares of its element that are surface and that are not inside a solid.
 struct FreeCell {
   Element element;
-  double share = 0;
+  double covered = 1, free = 0;
+  double Share() const { return covered * free; }
 };
+
+// An element that covers this much of the box round it counts as a rectangle of its area, and so does a patch, which is
+// larger. What covers less than the least of a cell is part of the next one.
+constexpr double kFillsElement = 0.4, kFillsPatch = 0.6, kLeastCovered = 0.1;
+
+// Returns the rectangle of a share of a place, about its middle.
+Place Shrunk(const Place& place, double share) {
+  const double side = std::sqrt(share);
+  return {place.origin + 0.5 * (1 - side) * (place.edge_u + place.edge_v), side * place.edge_u,
+          side * place.edge_v};
+}
 
 class Subdivision {
  public:
   Subdivision(const Scene& scene, const RayScene& rays, const PatchesOptions& options)
       : scene_(scene), rays_(rays), options_(options) {
-    for (size_t f = 0; f < scene.facets.size(); ++f) AddFacet(static_cast<int>(f));
+    std::vector<std::vector<SurfaceTriangle>> surface(scene.surface.empty() ? 0 : scene.facets.size());
+    for (const SurfaceTriangle& triangle : scene.surface)
+      surface[static_cast<size_t>(triangle.facet)].push_back(triangle);
+    for (size_t f = 0; f < scene.facets.size(); ++f)
+      AddFacet(static_cast<int>(f), surface.empty() ? nullptr : &surface[f]);
   }
   Patches result;
 
@@ -98,15 +117,17 @@ class Subdivision {
     int i, i_end, j, j_end;
   };
 
-  void AddFacet(int index) {
+  // `surface`: what covers the facet; nullptr: all of it is covered.
+  void AddFacet(int index, const std::vector<SurfaceTriangle>* surface) {
     const Facet& facet = scene_.facets[static_cast<size_t>(index)];
     const bool triangle = facet.kind == FacetKind::kTriangle;
     double length_u = facet.edge_u.norm(), length_v = facet.edge_v.norm();
     if (triangle) length_u = length_v = std::max({length_u, length_v, (facet.edge_u - facet.edge_v).norm()});
-    const int patches_u = CountFor(length_u, options_.patch_size_m);
-    const int patches_v = CountFor(length_v, options_.patch_size_m);
-    const int elements_u = CountFor(length_u / patches_u, options_.element_size_m);
-    const int elements_v = CountFor(length_v / patches_v, options_.element_size_m);
+    const double slack = surface ? 0.1 : 1e-9;  // planes of a scan are known to centimetres
+    const int patches_u = CountFor(length_u, options_.patch_size_m, slack);
+    const int patches_v = CountFor(length_v, options_.patch_size_m, slack);
+    const int elements_u = CountFor(length_u / patches_u, options_.element_size_m, slack);
+    const int elements_v = CountFor(length_v / patches_v, options_.element_size_m, slack);
     FacetGrid grid;
     grid.cells_u = patches_u * elements_u;
     grid.cells_v = patches_v * elements_v;
@@ -115,6 +136,8 @@ class Subdivision {
     result.grids.push_back(grid);
     result.facets.push_back(facet);
     free_cells_.assign(grid.element_of_cell.size(), {});
+    coverage_.clear();
+    if (surface) coverage_ = CoverageOf(*surface, grid.cells_u, grid.cells_v);
     for (int j = 0; j < patches_v; ++j) {
       for (int i = 0; i < patches_u; ++i) {
         const int left = i * elements_u, low = j * elements_v;
@@ -176,58 +199,149 @@ class Subdivision {
     for (const Cell& cell : cells) {
       FreeCell& free = At(cell);
       if (free.element.area_m2 > 0) continue;  // found on an earlier level
-      free.element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v));
-      free.share = FreeShare(scene_, rays_, free.element, facet.kind == FacetKind::kTriangle);
-      free.element.is_whole = free.share == 1;
+      if (coverage_.empty()) {
+        free.element = MakeElement(facet, PlaceOf(facet, cell, grid.cells_u, grid.cells_v));
+      } else {
+        Cover(facet, cell, free);
+      }
+      if (free.covered > 0)
+        free.free = FreeShare(scene_, rays_, free.element, facet.kind == FacetKind::kTriangle);
+      free.element.is_whole = free.element.is_whole && free.free == 1;
     }
+  }
+
+  // Makes the element of a cell that a surface covers in part.
+  void Cover(const Facet& facet, const Cell& cell, FreeCell& free) {
+    const FacetGrid& grid = result.grids.back();
+    const CellCoverage& coverage = coverage_[grid.Index(cell.i, cell.j, false)];
+    Place place = PlaceOf(facet, cell, grid.cells_u, grid.cells_v);
+    const double filled = coverage.Filled();
+    if (filled == 0) {
+      free.element = MakeElement(facet, place);
+      free.covered = 0;
+      return;
+    }
+    const Eigen::Vector2d low = coverage.box.min() - Eigen::Vector2d(cell.i, cell.j),
+                          size = coverage.box.sizes();
+    place = {place.origin + low.x() * place.edge_u + low.y() * place.edge_v, size.x() * place.edge_u,
+             size.y() * place.edge_v};
+    const Eigen::Vector3d center =
+        facet.PointAt(coverage.center.x() / grid.cells_u, coverage.center.y() / grid.cells_v);
+    const bool is_whole = filled > kFillsElement;
+    if (is_whole) {
+      place = Shrunk(place, filled);
+      place.origin = center - 0.5 * (place.edge_u + place.edge_v);
+    }
+    free.element = MakeElement(facet, place);
+    free.element.center = center;
+    free.element.is_whole = is_whole;
+    free.covered = is_whole ? 1 : filled;
+  }
+
+  // Tells whether a cell's part is so small that the next cell's element takes it in.
+  bool IsCrumb(const Cell& cell) const {
+    return !coverage_.empty() &&
+           coverage_[result.grids.back().Index(cell.i, cell.j, false)].area < kLeastCovered;
   }
 
   // A patch that a solid stands on would carry light from one of its sides to the other.
   bool MustSplit(const std::vector<Cell>& cells) {
     std::vector<Element> free;
+    bool stands_free = true;
     for (const Cell& cell : cells) {
-      if (At(cell).share > 0) free.push_back(At(cell).element);
+      if (At(cell).covered == 0) continue;
+      stands_free = stands_free && At(cell).free == 1;
+      if (At(cell).free > 0) free.push_back(At(cell).element);
     }
     if (free.empty()) return false;
-    const bool whole = free.size() == cells.size() &&
-                       std::all_of(free.begin(), free.end(), [](const Element& e) { return e.is_whole; });
     const int facet = static_cast<int>(result.facets.size()) - 1;
-    return !whole || (options_.must_split && options_.must_split(facet, free));
+    return !stands_free || (options_.must_split && options_.must_split(facet, free));
   }
 
   void AddPatch(const Place& place, const std::vector<Cell>& cells) {
-    const int facet = static_cast<int>(result.facets.size()) - 1;
-    FacetGrid& grid = result.grids.back();
     Patch patch;
-    patch.facet = facet;
+    patch.facet = static_cast<int>(result.facets.size()) - 1;
     patch.material = result.facets.back().material;
     patch.origin = place.origin;
     patch.edge_u = place.edge_u;
     patch.edge_v = place.edge_v;
     patch.first_element = static_cast<int>(result.elements.size());
-    patch.center.setZero();
-    for (const Cell& cell : cells) {
-      Element element = At(cell).element;
-      const double share = At(cell).share;
-      patch.is_whole = patch.is_whole && element.is_whole;
-      if (share == 0) continue;
-      element.patch = static_cast<int>(result.patches.size());
-      element.area_m2 *= share;
-      grid.element_of_cell[grid.Index(cell.i, cell.j, cell.upper)] = static_cast<int>(result.elements.size());
-      patch.area_m2 += element.area_m2;
-      patch.center += element.area_m2 * element.center;
-      ++patch.element_count;
-      result.elements.push_back(element);
+    for (const bool crumbs : {false, true}) {
+      for (const Cell& cell : cells) {
+        const FreeCell& free = At(cell);
+        patch.is_whole = patch.is_whole && (free.covered == 0 || free.free == 1);
+        if (free.Share() > 0 && IsCrumb(cell) == crumbs) AddElement(cell, patch);
+      }
     }
     if (patch.element_count == 0) return;
+    patch.center.setZero();
+    const auto first = result.elements.begin() + patch.first_element;
+    for (auto element = first; element != result.elements.end(); ++element) {
+      patch.area_m2 += element->area_m2;
+      patch.center += element->area_m2 * element->center;
+    }
     patch.center /= patch.area_m2;
+    if (!coverage_.empty()) Fit(patch);
     result.patches.push_back(patch);
+  }
+
+  void AddElement(const Cell& cell, Patch& patch) {
+    FacetGrid& grid = result.grids.back();
+    int& own = grid.element_of_cell[grid.Index(cell.i, cell.j, cell.upper)];
+    Element element = At(cell).element;
+    element.patch = static_cast<int>(result.patches.size());
+    element.area_m2 *= At(cell).Share();
+    const int next = IsCrumb(cell) ? NextTo(cell, patch) : -1;
+    if (next >= 0) {
+      own = next;
+      result.elements[static_cast<size_t>(next)].area_m2 += element.area_m2;
+      return;
+    }
+    own = static_cast<int>(result.elements.size());
+    ++patch.element_count;
+    result.elements.push_back(element);
+  }
+
+  // Returns an element of the patch beside or at a corner of the cell; -1: there is none.
+  int NextTo(const Cell& cell, const Patch& patch) const {
+    const FacetGrid& grid = result.grids.back();
+    for (const auto& [di, dj] :
+         {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}) {
+      const int i = cell.i + di, j = cell.j + dj;
+      if (i < 0 || j < 0 || i >= grid.cells_u || j >= grid.cells_v) continue;
+      const int element = grid.element_of_cell[grid.Index(i, j, false)];
+      if (element >= patch.first_element) return element;
+    }
+    return -1;
+  }
+
+  // Fits the patch's rectangle to what the surface covers of it.
+  void Fit(Patch& patch) const {
+    const Facet& facet = result.facets.back();
+    const Eigen::Vector3d along = facet.edge_u.normalized(), across = facet.edge_v.normalized();
+    Eigen::AlignedBox2d box;
+    for (auto element = result.elements.begin() + patch.first_element; element != result.elements.end();
+         ++element) {
+      for (const Eigen::Vector3d& corner :
+           {element->origin, Eigen::Vector3d(element->origin + element->edge_u + element->edge_v)})
+        box.extend(Eigen::Vector2d(along.dot(corner - facet.origin), across.dot(corner - facet.origin)));
+    }
+    const double filled = std::min(1.0, patch.area_m2 / box.volume());
+    const Place place{facet.origin + box.min().x() * along + box.min().y() * across, box.sizes().x() * along,
+                      box.sizes().y() * across};
+    const bool is_rectangle = filled > kFillsPatch;
+    patch.is_whole = patch.is_whole && is_rectangle;
+    const Place fitted = is_rectangle ? Shrunk(place, filled) : place;
+    patch.origin = fitted.origin;
+    patch.edge_u = fitted.edge_u;
+    patch.edge_v = fitted.edge_v;
   }
 
   const Scene& scene_;
   const RayScene& rays_;
   const PatchesOptions& options_;
-  std::vector<FreeCell> free_cells_;  // those of the facet at hand
+  std::vector<FreeCell> free_cells_;    // those of the facet at hand
+  std::vector<CellCoverage> coverage_;  // likewise; empty: all of it is covered
 };
 
 }  // namespace
@@ -252,6 +366,23 @@ Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions
   }
   ExpectValid(scene);
   return Subdivision(scene, rays, options).result;
+}
+
+PatchCounts CountPatches(const Scene& scene, const PatchesOptions& sizes) {
+  const auto count = [](double length_m, double size_m) {
+    return std::max(1.0, std::ceil(length_m / size_m));
+  };
+  PatchCounts counts;
+  for (const Facet& facet : scene.facets) {
+    double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
+    if (facet.kind == FacetKind::kTriangle)
+      u_m = v_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
+    const double along_u = count(u_m, sizes.patch_size_m), along_v = count(v_m, sizes.patch_size_m);
+    counts.patches += along_u * along_v;
+    counts.elements += along_u * count(u_m / along_u, sizes.element_size_m) * along_v *
+                       count(v_m / along_v, sizes.element_size_m);
+  }
+  return counts;
 }
 
 std::vector<Eigen::Vector3d> ProbesOf(const Element& element, bool triangle) {

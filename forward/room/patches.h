@@ -8,7 +8,9 @@
 // Models let solids stand on larger faces (a cabinet against its wall). The part of a face inside a solid
 // sees only the backs of facets, while a single sheet encloses nothing
 // (forward/room/internal/inside_solid.h). Elements that are wholly inside are left out. Elements partly
-// inside count with their free share of area.
+// inside count with their free share of area. Where a surface covers facets in part (Scene::surface), cells that it does not
+// reach have no element, and those that it covers in part count with that part: as a rectangle of its area where it nearly
+// fills one, otherwise as an element that is not whole.
 //
 // Lengths are in m, areas in m2, in the world frame.
 // Source: Cohen, Greenberg, Immel, Brock (1986), "An efficient radiosity approach for realistic image
@@ -93,6 +95,12 @@ std::vector<Eigen::Vector3d> ProbesOf(const Element& element, bool triangle);
 // Subdivides the scene, whose rays `rays` are. Throws std::invalid_argument unless 0 < element_size_m <=
 // patch_size_m, and for a scene that is not valid.
 Patches Subdivide(const Scene& scene, const RayScene& rays, const PatchesOptions& options = {});
+
+// Counts what Subdivide would make, but for what solids split, without making it.
+struct PatchCounts {
+  double patches = 0, elements = 0;
+};
+PatchCounts CountPatches(const Scene& scene, const PatchesOptions& sizes);
 
 }  // namespace luxfit
 

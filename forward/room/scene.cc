@@ -75,6 +75,30 @@ double DistanceToFacet(const Facet& facet, const Eigen::Vector3d& p) {
   return (p - facet.PointAt(u, v)).norm();
 }
 
+// Returns the box of a scan's room with each side moved in to the largest plane that lies near it and faces inwards, there
+// to its innermost corner: scraps stick out, and what lies behind a ceiling is not in the room.
+Eigen::AlignedBox3d WithinOuterPlanes(const Scene& scene, const Eigen::AlignedBox3d& box) {
+  constexpr double kNearM = 0.1, kAlongAxis = 0.99;
+  Eigen::AlignedBox3d inner = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double inwards : {1.0, -1.0}) {
+      double& side = inwards > 0 ? inner.min()[axis] : inner.max()[axis];
+      double largest_m2 = 0;
+      for (const Facet& facet : scene.facets) {
+        const Eigen::AlignedBox3d own = BoxOf(facet, 0);
+        const double innermost = inwards > 0 ? own.max()[axis] : own.min()[axis];
+        const double outer = inwards > 0 ? box.min()[axis] : box.max()[axis];
+        if (inwards * facet.Normal()[axis] < kAlongAxis || std::abs(innermost - outer) > kNearM ||
+            facet.AreaM2() <= largest_m2)
+          continue;
+        largest_m2 = facet.AreaM2();
+        side = innermost;
+      }
+    }
+  }
+  return inner;
+}
+
 }  // namespace
 
 Eigen::Vector2d Facet::CoordinatesOf(const Eigen::Vector3d& p) const {
@@ -86,7 +110,7 @@ Eigen::Vector2d Facet::CoordinatesOf(const Eigen::Vector3d& p) const {
 Eigen::AlignedBox3d Scene::Bounds() const {
   Eigen::AlignedBox3d box;
   for (const Facet& facet : facets) box.extend(BoxOf(facet, 0));
-  return box;
+  return surface.empty() ? box : WithinOuterPlanes(*this, box);
 }
 
 std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material) {
@@ -100,9 +124,21 @@ std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertice
   return Triangulate(vertices, material);
 }
 
+std::vector<Facet> SurfaceFacets(const Scene& scene) {
+  if (scene.surface.empty()) return scene.facets;
+  std::vector<Facet> triangles;
+  triangles.reserve(scene.surface.size());
+  for (const SurfaceTriangle& triangle : scene.surface) {
+    const Facet& facet = scene.facets[static_cast<size_t>(triangle.facet)];
+    const auto at = [&](size_t k) { return facet.PointAt(triangle.corners[k].x(), triangle.corners[k].y()); };
+    triangles.push_back({FacetKind::kTriangle, at(0), at(1) - at(0), at(2) - at(0), facet.material});
+  }
+  return triangles;
+}
+
 double DistanceToSurface(const Scene& scene, const Eigen::Vector3d& p_in_world) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Facet& facet : scene.facets) least = std::min(least, DistanceToFacet(facet, p_in_world));
+  for (const Facet& facet : SurfaceFacets(scene)) least = std::min(least, DistanceToFacet(facet, p_in_world));
   return least;
 }
 

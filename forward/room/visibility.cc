@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -64,21 +65,35 @@ struct RayScene::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<int> facet_of_triangle, facet_of_quad;
+  std::vector<std::array<Eigen::Vector2f, 3>>
+      corners;  // by triangle, of Scene::surface; empty: facets themselves
+
+  // Returns (u, v) of the facet at barycentric (u, v) of a triangle or (u, v) of a quad.
+  Eigen::Vector2f OnFacet(unsigned geometry, unsigned primitive, float u, float v) const {
+    if (geometry == kQuads || corners.empty()) return {u, v};
+    const auto& [a, b, c] = corners[primitive];
+    return a + u * (b - a) + v * (c - a);
+  }
+
+  int FacetOf(unsigned geometry, unsigned primitive) const {
+    return (geometry == kQuads ? facet_of_quad : facet_of_triangle)[primitive];
+  }
 
   ~State() {
     if (scene != nullptr) rtcReleaseScene(scene);
     if (device != nullptr) rtcReleaseDevice(device);
   }
 
-  void Attach(RTCGeometryType type, unsigned id, unsigned corners, const std::vector<RayCorner>& vertices) {
+  void Attach(RTCGeometryType type, unsigned id, unsigned corners_each,
+              const std::vector<RayCorner>& vertices) {
     if (vertices.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device, type);
     auto* out = static_cast<RayCorner*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(RayCorner), vertices.size()));
     std::copy(vertices.begin(), vertices.end(), out);
     auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, corners == 3 ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4,
-        corners * sizeof(unsigned), vertices.size() / corners));
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, corners_each == 3 ? RTC_FORMAT_UINT3 : RTC_FORMAT_UINT4,
+        corners_each * sizeof(unsigned), vertices.size() / corners_each));
     for (unsigned i = 0; i < vertices.size(); ++i) index[i] = i;
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene, geometry, id);
@@ -95,7 +110,15 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
   // Robust: rays through the common edge of two facets must hit one of them.
   rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
   std::vector<RayCorner> triangles, quads;
-  for (size_t f = 0; f < scene.facets.size(); ++f) {
+  for (const SurfaceTriangle& triangle : scene.surface) {
+    const Facet& facet = scene.facets[static_cast<size_t>(triangle.facet)];
+    for (const Eigen::Vector2d& corner : triangle.corners)
+      triangles.push_back(ToRayCorner(facet.PointAt(corner.x(), corner.y())));
+    state_->facet_of_triangle.push_back(triangle.facet);
+    const auto& [a, b, c] = triangle.corners;
+    state_->corners.push_back({a.cast<float>(), b.cast<float>(), c.cast<float>()});
+  }
+  for (size_t f = 0; f < scene.facets.size() && scene.surface.empty(); ++f) {
     const Facet& facet = scene.facets[f];
     const bool quad = facet.kind == FacetKind::kParallelogram;
     std::vector<RayCorner>& vertices = quad ? quads : triangles;
@@ -120,11 +143,11 @@ RayHit RayScene::Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
   rtcIntersect1(state_->scene, &context, &query);
   RayHit hit;
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-  const bool quad = query.hit.geomID == kQuads;
-  hit.facet = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID];
+  hit.facet = state_->FacetOf(query.hit.geomID, query.hit.primID);
   hit.distance = query.ray.tfar;
-  hit.u = query.hit.u;
-  hit.v = query.hit.v;
+  const Eigen::Vector2f at = state_->OnFacet(query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v);
+  hit.u = at.x();
+  hit.v = at.y();
   hit.front =
       query.hit.Ng_x * query.ray.dir_x + query.hit.Ng_y * query.ray.dir_y + query.hit.Ng_z * query.ray.dir_z <
       0;
@@ -158,10 +181,11 @@ PacketHits RayScene::Trace(const RayPacket& packet) const {
     hits.facet[k] = -1;
     hits.front[k] = false;
     if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
-    const bool quad = query.hit.geomID[k] == kQuads;
-    hits.facet[k] = (quad ? state_->facet_of_quad : state_->facet_of_triangle)[query.hit.primID[k]];
-    hits.u[k] = query.hit.u[k];
-    hits.v[k] = query.hit.v[k];
+    hits.facet[k] = state_->FacetOf(query.hit.geomID[k], query.hit.primID[k]);
+    const Eigen::Vector2f at =
+        state_->OnFacet(query.hit.geomID[k], query.hit.primID[k], query.hit.u[k], query.hit.v[k]);
+    hits.u[k] = at.x();
+    hits.v[k] = at.y();
     hits.front[k] = query.hit.Ng_x[k] * query.ray.dir_x[k] + query.hit.Ng_y[k] * query.ray.dir_y[k] +
                         query.hit.Ng_z[k] * query.ray.dir_z[k] <
                     0;

@@ -166,14 +166,21 @@ Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng) {
     for (const int f : pieces[static_cast<size_t>(p)]) out.insert(f);
   }
   Scene kept;
-  std::map<int, int> material_of;  // old index, new index
+  std::map<int, int> material_of, facet_of;  // old index, new index
   for (size_t f = 0; f < scene.facets.size(); ++f) {
     if (out.count(static_cast<int>(f)) > 0) continue;
     Facet facet = scene.facets[f];
     const auto [place, is_new] = material_of.try_emplace(facet.material, kept.materials.size());
     if (is_new) kept.materials.push_back(scene.materials[static_cast<size_t>(facet.material)]);
     facet.material = place->second;
+    facet_of[static_cast<int>(f)] = static_cast<int>(kept.facets.size());
     kept.facets.push_back(facet);
+  }
+  for (SurfaceTriangle triangle : scene.surface) {
+    const auto place = facet_of.find(triangle.facet);
+    if (place == facet_of.end()) continue;
+    triangle.facet = place->second;
+    kept.surface.push_back(triangle);
   }
   return kept;
 }

@@ -68,11 +68,14 @@ void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& fi
     const Eigen::Vector3d size = room.scene.Bounds().sizes();
     findings.push_back(
         {Health::kGood,
-         fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials", size.x(), size.y(),
-                     size.z(), room.scene.facets.size(), room.scene.materials.size()),
+         fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets{}, {} materials", size.x(), size.y(),
+                     size.z(),
+                     room.on_planes ? room.on_planes->triangles : static_cast<int>(room.scene.facets.size()),
+                     room.on_planes ? fmt::format(" on {} planes", room.scene.facets.size()) : "",
+                     room.scene.materials.size()),
          ""});
     AddWarnings(context.warnings, findings);
-    AddWarnings(CheckSession(session, room.rays).warnings, findings);
+    AddWarnings(CheckSession(OnSurfaceOf(room, session), room.rays).warnings, findings);
   } catch (const std::runtime_error& e) {
     findings.push_back({Health::kBad, e.what(), ""});
   }

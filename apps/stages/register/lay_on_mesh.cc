@@ -45,11 +45,12 @@ Registration NotLaid(const SurfaceAlignment& alignment) {
 
 TriangleSurface SurfaceOf(const Scene& scene) {
   TriangleSurface surface;
-  const auto facets = static_cast<Eigen::Index>(scene.facets.size());
+  const std::vector<Facet> all = SurfaceFacets(scene);
+  const auto facets = static_cast<Eigen::Index>(all.size());
   surface.vertices_m.resize(3, 4 * facets);
   std::vector<Eigen::Vector3i> triangles;
   for (Eigen::Index f = 0; f < facets; ++f) {
-    const Facet& facet = scene.facets[static_cast<size_t>(f)];
+    const Facet& facet = all[static_cast<size_t>(f)];
     const std::array<Eigen::Vector3d, 4> corners{facet.PointAt(0, 0), facet.PointAt(1, 0),
                                                  facet.PointAt(0, 1), facet.PointAt(1, 1)};
     for (Eigen::Index c = 0; c < 4; ++c) surface.vertices_m.col(4 * f + c) = corners[static_cast<size_t>(c)];

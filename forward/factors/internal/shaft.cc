@@ -43,7 +43,8 @@ std::vector<Blocker> BlockersOf(const std::vector<Facet>& facets) {
   blockers.reserve(facets.size());
   for (const Facet& facet : facets) {
     const ConvexPolygon polygon = MakePolygon(facet.origin, facet.edge_u, facet.edge_v, facet.kind);
-    blockers.push_back({polygon, facet.Normal(), BoxOf(polygon), static_cast<int>(blockers.size())});
+    blockers.push_back({polygon, facet.Normal(), BoxOf(polygon), static_cast<int>(blockers.size()),
+                        facet.covered_share >= 1});
   }
   return blockers;
 }
@@ -106,6 +107,7 @@ bool Shaft::SidesExclude(const Blocker& blocker) const {
 }
 
 bool Shaft::IsBlockedBy(const Blocker& blocker) const {
+  if (!blocker.is_whole) return false;
   const double offset = blocker.normal.dot(blocker.polygon[0]);
   const auto below = [&](const Eigen::Vector3d& p) { return blocker.normal.dot(p) - offset < -kTolerance; };
   const auto above = [&](const Eigen::Vector3d& p) { return blocker.normal.dot(p) - offset > kTolerance; };

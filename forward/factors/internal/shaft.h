@@ -29,7 +29,8 @@ struct Blocker {
   ConvexPolygon polygon;
   Eigen::Vector3d normal;
   Eigen::AlignedBox3d box;
-  int facet = 0;  // its index
+  int facet = 0;         // its index
+  bool is_whole = true;  // it blocks all of its polygon
 };
 std::vector<Blocker> BlockersOf(const std::vector<Facet>& facets);
 

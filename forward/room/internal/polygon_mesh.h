@@ -16,6 +16,8 @@
 #include <string_view>
 #include <vector>
 
+#include "forward/room/scene.h"
+
 namespace luxfit {
 
 struct PolygonMesh {
@@ -39,7 +41,6 @@ struct PolygonMesh {
 };
 
 // Names the material of a surface to which the file gives none.
-constexpr char kDefaultMaterial[] = "DefaultMaterial";
 // Triangulation takes quadratic time and more; no modeller draws such a face.
 constexpr int kMaxPolygonCorners = 1024;
 

@@ -93,6 +93,7 @@ class Starter {
     const bool has_photos = !light_.data.observations.empty();
     start_.state.albedo = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(materials.size()), 0.5);
     start_.state.albedo_free.assign(materials.size(), false);
+    std::vector<std::string> unseen;
     for (size_t m = 0; m < materials.size(); ++m) {
       const bool observed = static_cast<int>(seen[m].size()) >= kMinElementsOfMaterial;
       if (!given_.albedo.empty() && given_.albedo[m]) {
@@ -100,14 +101,23 @@ class Starter {
       } else if (observed || (!has_photos && light_.used_readings > 0)) {
         start_.state.albedo_free[m] = true;
       } else if (has_photos) {
-        findings_.warnings.push_back(
-            {"material_unseen",
-             fmt::format("the reflectance of \"{}\" is not determined: no photo shows it; 0.5 was "
-                         "taken for the light that it reflects",
-                         materials[m]),
-             fmt::format("photograph it, or give scene.albedo.{}", materials[m])});
+        unseen.push_back(materials[m]);
       }
     }
+    if (!unseen.empty()) WarnOfUnseen(unseen);
+  }
+
+  void WarnOfUnseen(const std::vector<std::string>& materials) {
+    const bool is_one = materials.size() == 1;
+    findings_.warnings.push_back(
+        {"material_unseen",
+         fmt::format(
+             "the reflectance{} of \"{}\" {} not determined: no photo shows {}; 0.5 was taken for the light "
+             "that {}",
+             is_one ? "" : "s", fmt::join(materials, "\", \""), is_one ? "is" : "are", is_one ? "it" : "them",
+             is_one ? "it reflects" : "they reflect"),
+         fmt::format("photograph {}, or give {} in [scene.albedo]", is_one ? "it" : "them",
+                     is_one ? "it" : "those that matter")});
   }
 
   void FillCameraScale() {

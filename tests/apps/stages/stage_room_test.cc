@@ -89,11 +89,12 @@ TEST_F(StageRoomTest, ACornerFarOffIsRefused) {
   }
 }
 
-// A crowd of triangles in the air: more form factors than a laptop holds.
-TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
+// A crowd of triangles in the air, far more than patches of a laptop's form factors: those of one part of space that face
+// alike share a plane.
+TEST_F(StageRoomTest, ACrowdOfTrianglesBecomesSomePlanes) {
   constexpr int kTriangles = 25000;
   std::ostringstream crowd;
-  crowd << kRoom;
+  crowd << kVertices << kRoom;
   for (int i = 0; i < kTriangles; ++i) {
     const int column = i % 170, row = i / 170;
     const double x = 0.1 + 0.01 * column, y = 0.1 + 0.01 * row;
@@ -101,12 +102,19 @@ TEST_F(StageRoomTest, AMeshOfTooManyFacetsToFitIsRefused) {
       crowd << "v " << at_x << " " << at_y << " 1\n";
     crowd << "f -3 -2 -1\nf -3 -1 -2\n";
   }
-  try {
-    WarningsOf(crowd.str());
-    FAIL() << "expected an error";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.mesh: expected patches whose form factors fit"));
-  }
+  folder_.Write("room.obj", crowd.str());
+  Session session;
+  session.path = "session.toml";
+  session.scene = SessionScene{folder_.Path("room.obj"), 1, "m", {}};
+  RunContext context;
+  const Room room = LoadRoom(session, context);
+  ASSERT_TRUE(room.on_planes);
+  EXPECT_EQ(room.on_planes->triangles, 2 * kTriangles + 6);
+  EXPECT_LT(room.scene.facets.size(), 100U);
+  double up_m2 = 0;
+  for (const Element& element : room.patches.elements)
+    up_m2 += element.normal.z() > 0.9 && element.center.z() > 0.5 ? element.area_m2 : 0;
+  EXPECT_NEAR(up_m2, kTriangles * 12.5e-6, 0.05 * kTriangles * 12.5e-6);
 }
 
 }  // namespace
