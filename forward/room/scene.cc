@@ -89,6 +89,16 @@ Eigen::AlignedBox3d Scene::Bounds() const {
   return box;
 }
 
+double Scene::VolumeM3() const {
+  const Eigen::Vector3d middle = facets.empty() ? Eigen::Vector3d::Zero() : Bounds().center().eval();
+  double six_times = 0;
+  for (const Facet& facet : facets) {
+    const double triangles = facet.kind == FacetKind::kTriangle ? 1 : 2;
+    six_times -= triangles * (facet.origin - middle).dot(facet.edge_u.cross(facet.edge_v));
+  }
+  return six_times / 6;
+}
+
 std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material) {
   if (vertices.size() == 4) {
     const Eigen::Vector3d gap = vertices[0] + vertices[2] - vertices[1] - vertices[3];

@@ -52,6 +52,9 @@ struct Scene {
   int dropped_facets = 0;  // left out because they have no area
 
   Eigen::AlignedBox3d Bounds() const;
+  // Returns the air in front of the facets, m3: -1/6 sum a . (b x c). Holds for a closed room that faces
+  // inwards, with solids in it that face outwards.
+  double VolumeM3() const;
 };
 
 Scene ReadScene(const std::string& path, double metres_per_unit = 1.0);
