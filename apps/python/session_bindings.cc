@@ -30,10 +30,14 @@ py::object OrNone(const std::string& text) {
 py::object SceneDict(const Session& session) {
   if (!session.scene) return py::none();
   py::dict dict;
-  dict["mesh"] = session.scene->mesh;
+  dict["mesh"] = OrNone(session.scene->mesh);
   dict["unit"] = session.scene->unit;
   dict["metres_per_unit"] = session.scene->metres_per_unit;
   dict["albedo_rgb"] = session.scene->known_albedo_rgb;
+  if (session.scene->outline) {
+    dict["corners_m"] = session.scene->outline->corners_m;
+    dict["heights_m"] = session.scene->outline->heights_m;
+  }
   return dict;
 }
 
@@ -164,7 +168,8 @@ void BindSession(py::module_& module) {
       .def_readonly("path", &Session::path)
       .def_property_readonly(
           "scene", &SceneDict,
-          "dict: mesh, unit, metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
+          "dict: mesh (None: a size or an outline, with corners_m (n, 2) and heights_m), unit, "
+          "metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
       .def_property_readonly("tags", &TagList, "list of dicts: id, size_m, center_m, normal, up (3,).")
       .def_property_readonly(
           "cameras", &CameraList,

@@ -4,6 +4,7 @@
 #     all_on            only the photos and readings with everything on, and nobody says how many luminaires there are
 #     quarter_views     every fourth view
 #     unfurnished       desks and cabinet missing from the mesh
+#     size              no mesh: three lengths, walls alone
 #     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
 #     exposures_apart   the same, and only the states that show one luminaire each: nothing ties their exposures
 #     two_cameras       every other view is of a second camera, whose exposures are stated as 0.64 of the true ones; photos unchanged
@@ -32,6 +33,9 @@ case $variant in
     rewrite room.obj awk '/^g / { skip = $2 ~ /^(desk|cabinet)/ } !(skip && /^f /)'
     # Tags on what is missing hang in the air: they stay surveyed.
     ;;
+  size)
+    rewrite session.toml sed -e 's/^mesh = .*/size = [6, 4, 2.8]/'
+    rm room.obj room.mtl ;;
   exposures_off | exposures_apart)
     # Park and Miller's generator: the same numbers with every awk.
     rewrite photos.csv awk -F, -v OFS=, -v seed="${SEED:-1}" '
@@ -64,5 +68,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart, two_cameras, survey_10mm or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, size, exposures_off, exposures_apart, two_cameras, survey_10mm or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -60,17 +60,17 @@ class TrialFolder {
 void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& findings) {
   if (!session.scene) {
     findings.push_back(
-        {Health::kNote, "no [scene]: all light is taken as direct", "give the mesh of the room"});
+        {Health::kNote, "no [scene]: all light is taken as direct", "give the room: size, outline or mesh"});
     return;
   }
   try {
     const Room room = LoadRoom(session, context);
     const Eigen::Vector3d size = room.scene.Bounds().sizes();
-    findings.push_back(
-        {Health::kGood,
-         fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials", size.x(), size.y(),
-                     size.z(), room.scene.facets.size(), room.scene.materials.size()),
-         ""});
+    findings.push_back({Health::kGood,
+                        fmt::format("{} of {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials",
+                                    session.scene->outline ? "outline" : "mesh", size.x(), size.y(), size.z(),
+                                    room.scene.facets.size(), room.scene.materials.size()),
+                        ""});
     AddWarnings(context.warnings, findings);
     AddWarnings(CheckSession(session, room.rays).warnings, findings);
   } catch (const std::runtime_error& e) {

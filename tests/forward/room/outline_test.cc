@@ -189,6 +189,15 @@ TEST(Outline, BoxesTakeAirAndFaceOutwards) {
   EXPECT_NEAR(table.sizes().x(), 1.6 * std::cos(0.5) + 0.8 * std::sin(0.5), kRounding);
 }
 
+TEST(Outline, ASolidMayStandAnywhere) {
+  for (const double x : {0.5, 1.0, 1.5, 2.0, 3.0}) {
+    RoomOutline room = Room(kL, {2.5});
+    room.boxes = {{"cabinet", {x, 1, 0}, {x + 1, 2, 2}, 0},
+                  {"lamp", {x + 0.2, 1.2, 2}, {x + 0.4, 1.4, 2.5}, 0}};
+    ExpectSound(SceneFrom(room));
+  }
+}
+
 TEST(Outline, ThingsOfOneNameAreOneMaterial) {
   RoomOutline room = OutlineOfBox({6, 4, 2.8});
   room.boxes = {{"desk", {1, 1, 0.7}, {2, 2, 0.75}, 0}, {"desk", {3, 1, 0.7}, {4, 2, 0.75}, 0}};
