@@ -83,27 +83,35 @@ std::string Walls(const Plan& plan, const Scene& scene) {
   return text;
 }
 
-// Names each material at its largest facet that a plan shows.
+// Tells whether a material is better named at this facet: at one that a plan shows as an area, at the larger one.
+bool IsBetterToName(const Facet& facet, const Facet& than) {
+  const bool upright = IsUpright(facet), than_upright = IsUpright(than);
+  return upright == than_upright ? facet.AreaM2() > than.AreaM2() : than_upright;
+}
+
+// Names each material once.
 std::string MaterialNames(const Plan& plan, const Scene& scene) {
-  std::map<int, const Facet*> largest;
+  std::map<int, const Facet*> named;
   for (const Facet& facet : scene.facets) {
     if (facet.Normal().z() < -0.1) continue;
-    const Facet*& known = largest[facet.material];
-    if (!known || facet.AreaM2() > known->AreaM2()) known = &facet;
+    const Facet*& known = named[facet.material];
+    if (!known || IsBetterToName(facet, *known)) known = &facet;
   }
   std::string text;
   size_t labels = 0;
-  for (const auto& [material, facet] : largest) {
+  for (const auto& [material, facet] : named) {
     if (++labels > kMostLabels) break;
     const double at = facet->kind == FacetKind::kTriangle ? 1.0 / 3 : 0.5;
     const Eigen::Vector3d p = facet->PointAt(at, at);
-    constexpr double kBesideWallPx = 16;
-    const Eigen::Vector2d aside = IsUpright(*facet)
-                                      ? Eigen::Vector2d(kBesideWallPx * facet->Normal().head<2>())
-                                      : Eigen::Vector2d(0, 0);
-    text += SvgText(plan.X(p.x()) + aside.x(), plan.Y(p.y()) - aside.y() + 4,
+    constexpr double kBesideWallPx = 12, kHalfLinePx = 4;
+    Eigen::Vector2d aside(0, 0);
+    if (IsUpright(*facet)) aside = kBesideWallPx * facet->Normal().head<2>();
+    // Names stand on the wall's inner side.
+    const char* anchor =
+        aside.x() > 0.5 * kBesideWallPx ? "start" : (aside.x() < -0.5 * kBesideWallPx ? "end" : "middle");
+    text += SvgText(plan.X(p.x()) + aside.x(), plan.Y(p.y()) - aside.y() + kHalfLinePx,
                     scene.materials[static_cast<size_t>(material)],
-                    fmt::format(" text-anchor=\"middle\" fill=\"{}\"", MaterialColour(material)));
+                    fmt::format(" text-anchor=\"{}\" fill=\"{}\"", anchor, MaterialColour(material)));
   }
   return text;
 }

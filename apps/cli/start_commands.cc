@@ -114,8 +114,11 @@ void AddRoom(CLI::App& app, Invocation& invocation) {
   command->final_callback(
       [&invocation, options] { invocation.run = [options] { return RoomCommand(*options); }; });
   AddExample(*command, "luxfit room office/session.toml -o plan.svg",
-             "office: 6.00 x 4.00 x 2.80 m, 24 facets, 7 materials; office/room.obj\n"
-             "...");
+             "office: 6.00 x 4.00 x 2.80 m, 27 facets, 7 materials; office/room.obj\n"
+             "volume 66.12 m3\n"
+             "  wall            44.80 m2\n"
+             "...\n"
+             "good  the surfaces close and face the room");
 }
 
 void AddDoctor(CLI::App& app, Invocation& invocation) {

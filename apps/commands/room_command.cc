@@ -48,8 +48,8 @@ void AddFindings(const Scene& given, ExaminedRoom& room) {
     const bool is_open = finding.defect == MeshDefect::kOpenMesh;
     encloses = encloses && !is_black && !is_open;
     if (is_black || is_open || finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
-      room.findings.push_back({is_black ? Health::kBad : Health::kNote,
-                               finding.message + "; " + finding.effect, finding.remedy});
+      room.findings.push_back(
+          {is_black ? Health::kBad : Health::kNote, finding.message + "; " + finding.effect, finding.remedy});
   }
   if (!encloses) return;
   room.volume_m3 = room.scene.VolumeM3();
@@ -89,9 +89,9 @@ const char* NameOf(Health health) {
 
 std::string TextOf(const ExaminedRoom& room) {
   const Eigen::Vector3d size = room.scene.Bounds().sizes();
-  std::string text = fmt::format("{}: {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials; {}\n", room.name,
-                                 size.x(), size.y(), size.z(), room.scene.facets.size(),
-                                 room.scene.materials.size(), room.is);
+  std::string text =
+      fmt::format("{}: {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials; {}\n", room.name, size.x(),
+                  size.y(), size.z(), room.scene.facets.size(), room.scene.materials.size(), room.is);
   text += room.volume_m3 ? fmt::format("volume {:.2f} m3\n", *room.volume_m3)
                          : "volume -: the surfaces do not enclose it\n";
   size_t width = 0;

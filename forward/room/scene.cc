@@ -90,13 +90,15 @@ Eigen::AlignedBox3d Scene::Bounds() const {
 }
 
 double Scene::VolumeM3() const {
-  const Eigen::Vector3d middle = facets.empty() ? Eigen::Vector3d::Zero() : Bounds().center().eval();
-  double six_times = 0;
+  if (facets.empty()) return 0;
+  const double floor_m = Bounds().min().z();
+  double volume_m3 = 0;
   for (const Facet& facet : facets) {
-    const double triangles = facet.kind == FacetKind::kTriangle ? 1 : 2;
-    six_times -= triangles * (facet.origin - middle).dot(facet.edge_u.cross(facet.edge_v));
+    const bool triangle = facet.kind == FacetKind::kTriangle;
+    const double mean_m = facet.PointAt(triangle ? 1. / 3 : 0.5, triangle ? 1. / 3 : 0.5).z() - floor_m;
+    volume_m3 -= mean_m * facet.edge_u.cross(facet.edge_v).z() * (triangle ? 0.5 : 1.0);
   }
-  return six_times / 6;
+  return volume_m3;
 }
 
 std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material) {

@@ -72,6 +72,8 @@ TEST_F(RoomCommandTest, AMeshAndASessionWithAMeshAreTheSameRoom) {
   EXPECT_EQ(mesh.status, 0);
   EXPECT_EQ(session.status, 0);
   EXPECT_THAT(mesh.output, HasSubstr("6.00 x 4.00 x 2.80 m"));
+  // 67.2 less the desks, a cabinet without bottom and a door without back.
+  EXPECT_THAT(mesh.output, HasSubstr("volume 66.12 m3"));
   EXPECT_EQ(mesh.output.substr(mesh.output.find('\n')), session.output.substr(session.output.find('\n')));
 }
 
@@ -94,7 +96,8 @@ TEST_F(RoomCommandTest, TagsThatMissTheRoomAreSaidAndThePlanIsDrawn) {
   folder_.Write("session.toml", "[scene]\nsize = [5, 5, 3]\n[tags]\nmap = \"" + kOffice + "/tags.json\"\n");
   const support::ProgramRun run = Run(folder_.Path("session.toml"), "-o '" + folder_.Path("plan.svg") + "'");
   EXPECT_EQ(run.status, 1);
-  EXPECT_THAT(run.output, HasSubstr("scene.outline: expected the surveyed tags to lie on the room's surfaces"));
+  EXPECT_THAT(run.output,
+              HasSubstr("scene.outline: expected the surveyed tags to lie on the room's surfaces"));
   EXPECT_TRUE(fs::exists(folder_.Path("plan.svg")));
 }
 
