@@ -75,6 +75,8 @@ class _Scene(TypedDict):
     """The [scene] of a session."""
 
     mesh: Optional[str]  # None: a size or an outline
+    corners_m: Optional[NDArray[numpy.float64]]  # (n, 2) of the outline; None for a mesh
+    heights_m: Optional[NDArray[numpy.float64]]  # (n,) of the ceiling over the corners
     unit: str
     metres_per_unit: float
     albedo_rgb: dict[str, NDArray[numpy.float64]]  # (3,) of each material that is given

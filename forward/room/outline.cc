@@ -75,6 +75,7 @@ class OutlineScene {
     // Seen from inside, s runs to the left where the corners run counter-clockwise.
     if (!IsClockwise()) std::reverse(polygon.begin(), polygon.end());
     std::vector<Eigen::Vector3d> facing;
+    facing.reserve(polygon.size());
     for (const Eigen::Vector2d& p : polygon) facing.push_back(OnWall(wall, p.x(), p.y()));
     Add(facing, material);
   }
