@@ -22,7 +22,8 @@ struct MeanError {
 };
 
 struct StatedErrors {
-  std::vector<std::string> kind, quantity;  // words of inverse/model/parameter.h; a parameter without a quantity: ""
+  std::vector<std::string> kind,
+      quantity;  // words of inverse/model/parameter.h; a parameter without a quantity: ""
   Eigen::VectorXd error;
   Eigen::MatrixXd covariance;
 
