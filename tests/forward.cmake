@@ -5,6 +5,7 @@ luxfit_test(forward/room gltf_mesh_test LINK luxfit::forward nlohmann_json::nloh
 luxfit_test(forward/room mesh_check_test LINK luxfit::forward)
 luxfit_test(forward/room survey_check_test LINK luxfit::forward)
 luxfit_test(forward/room outline_test LINK luxfit::forward)
+luxfit_test(forward/room ray_shares_test LINK luxfit::forward)
 luxfit_test(forward/room overlaps_test LINK luxfit::forward)
 luxfit_test(forward/room patches_test LINK luxfit::forward)
 luxfit_test(forward/room visibility_test LINK luxfit::forward)

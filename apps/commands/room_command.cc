@@ -18,6 +18,7 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/ray_shares.h"
 
 namespace luxfit {
 namespace {
@@ -42,10 +43,10 @@ double MetresPerUnitNamed(const std::string& unit) {
 
 void AddFindings(const Scene& given, ExaminedRoom& room) {
   bool encloses = true;
-  for (const MeshFinding& finding : CheckMesh(given)) {
+  for (const MeshFinding& finding : WithRayShares(CheckMesh(given), EstimateRayShares(room.scene))) {
     const bool is_black =
         finding.defect == MeshDefect::kFlippedFacets || finding.defect == MeshDefect::kInsideOut;
-    const bool is_open = finding.defect == MeshDefect::kOpenMesh;
+    const bool is_open = finding.defect == MeshDefect::kOpenMesh && finding.affects_light;
     encloses = encloses && !is_black && !is_open;
     if (is_black || is_open || finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
       room.findings.push_back(
