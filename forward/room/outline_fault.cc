@@ -22,7 +22,7 @@ std::string Joined(const Parts&... parts) {
   return text.str();
 }
 
-std::string At(const Eigen::Vector3d& p) { return Joined("(", p.x(), ", ", p.y(), ", ", p.z(), ")"); }
+std::string PointText(const Eigen::Vector3d& p) { return Joined("(", p.x(), ", ", p.y(), ", ", p.z(), ")"); }
 
 bool IsFar(const Eigen::Vector2d& p) { return !(p.cwiseAbs().maxCoeff() <= kMostM); }
 
@@ -132,11 +132,11 @@ Fault OfBoxes(const RoomOutline& outline) {
       return OutlineFault{OutlinePart::kBox, static_cast<int>(i), message};
     };
     if (!((box.max_m - box.min_m).minCoeff() >= kPlanGapM))
-      return fault(Joined("expected min below max along x, y and z, got ", At(box.min_m), " to ",
-                          At(box.max_m), " m; exchange them"));
+      return fault(Joined("expected min below max along x, y and z, got ", PointText(box.min_m), " to ",
+                          PointText(box.max_m), " m; exchange them"));
     if (!std::isfinite(box.turn_rad) || !room.Contains(box))
       return fault(Joined(
-          "expected a box inside the room, got ", At(box.min_m), " to ", At(box.max_m),
+          "expected a box inside the room, got ", PointText(box.min_m), " to ", PointText(box.max_m),
           " m, which reaches beyond a wall, the floor (z = 0) or the ceiling; correct it, or the outline"));
   }
   return {};

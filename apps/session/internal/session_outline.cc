@@ -7,7 +7,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
+constexpr double kTurnRadPerDeg = 3.14159265358979323846 / 180;
 
 // Checks that the section says once what the room is.
 void ExpectOneRoom(const TomlCursor& section) {
@@ -70,7 +70,7 @@ RoomBox ReadBox(const TomlCursor& table, double metres_per_unit) {
   box.max_m =
       metres_per_unit * table.Require("max", "the highest corner [x, y, z]").Vector("a corner [x, y, z]");
   if (const auto turn = table.Find("turn_deg"))
-    box.turn_rad = kRadPerDeg * turn->Number("an angle (degrees)");
+    box.turn_rad = kTurnRadPerDeg * turn->Number("an angle (degrees)");
   return box;
 }
 
