@@ -17,6 +17,8 @@ using nlohmann::json;
 
 constexpr double kPlanWidthPx = 900, kPlanMarginPx = 30, kPlanLegendPx = 56;
 
+constexpr size_t kMostLabels = 60;
+
 // Maps metres in the world to pixels of the picture, y upwards.
 struct Plan {
   Eigen::AlignedBox3d box;
@@ -56,6 +58,78 @@ std::string Outlines(const Plan& plan, const Scene& scene) {
     }
     text += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#888\"/>\n", points,
                         facet.origin.z() < plan.box.min().z() + 0.01 ? "#f4f2ee" : "#e2d6c4");
+  }
+  return text;
+}
+
+Plan PlanOfScene(const Scene& scene) {
+  Plan plan;
+  plan.box = scene.Bounds();
+  // A sheet that stands on the y axis has no width.
+  plan.scale = (kPlanWidthPx - 2 * kPlanMarginPx) / std::max(plan.box.sizes().x(), 1e-3);
+  return plan;
+}
+
+std::string MaterialColour(int material) {
+  return fmt::format("hsl({:.0f},55%,40%)",
+                     std::fmod(137.5 * material, 360.0));  // the golden angle: far apart
+}
+
+bool IsUpright(const Facet& facet) { return std::abs(facet.Normal().z()) < 0.1; }
+
+// Draws upright facets as the lines that they are from above.
+std::string Walls(const Plan& plan, const Scene& scene) {
+  std::string text;
+  for (const Facet& facet : scene.facets) {
+    if (!IsUpright(facet)) continue;
+    const Eigen::Vector2d normal = facet.Normal().head<2>().normalized();
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    Eigen::Vector2d first = facet.origin.head<2>(), last = first;
+    for (const Eigen::Vector3d& p : {facet.PointAt(1, 0), facet.PointAt(0, 1)}) {
+      const Eigen::Vector2d q = p.head<2>();
+      if (along.dot(q - first) < 0) first = q;
+      if (along.dot(q - last) > 0) last = q;
+    }
+    if (facet.kind == FacetKind::kParallelogram) {
+      const Eigen::Vector2d q = facet.PointAt(1, 1).head<2>();
+      if (along.dot(q - first) < 0) first = q;
+      if (along.dot(q - last) > 0) last = q;
+    }
+    text += SvgLine(plan.X(first.x()), plan.Y(first.y()), plan.X(last.x()), plan.Y(last.y()),
+                    fmt::format(" stroke=\"{}\" stroke-width=\"4\"", MaterialColour(facet.material)));
+  }
+  return text;
+}
+
+// Tells whether a material is better named at this facet: at one that a plan shows as an area, at the larger one.
+bool IsBetterToName(const Facet& facet, const Facet& than) {
+  const bool upright = IsUpright(facet), than_upright = IsUpright(than);
+  return upright == than_upright ? facet.AreaM2() > than.AreaM2() : than_upright;
+}
+
+// Names each material once.
+std::string MaterialNames(const Plan& plan, const Scene& scene) {
+  std::map<int, const Facet*> named;
+  for (const Facet& facet : scene.facets) {
+    if (facet.Normal().z() < -0.1) continue;
+    const Facet*& known = named[facet.material];
+    if (!known || IsBetterToName(facet, *known)) known = &facet;
+  }
+  std::string text;
+  size_t labels = 0;
+  for (const auto& [material, facet] : named) {
+    if (++labels > kMostLabels) break;
+    const double at = facet->kind == FacetKind::kTriangle ? 1.0 / 3 : 0.5;
+    const Eigen::Vector3d p = facet->PointAt(at, at);
+    constexpr double kBesideWallPx = 12, kHalfLinePx = 4;
+    Eigen::Vector2d aside(0, 0);
+    if (IsUpright(*facet)) aside = kBesideWallPx * facet->Normal().head<2>();
+    // Names stand on the wall's inner side.
+    const char* anchor =
+        aside.x() > 0.5 * kBesideWallPx ? "start" : (aside.x() < -0.5 * kBesideWallPx ? "end" : "middle");
+    text += SvgText(plan.X(p.x()) + aside.x(), plan.Y(p.y()) - aside.y() + kHalfLinePx,
+                    scene.materials[static_cast<size_t>(material)],
+                    fmt::format(" text-anchor=\"{}\" fill=\"{}\"", anchor, MaterialColour(material)));
   }
   return text;
 }
@@ -136,11 +210,24 @@ std::string LuxmeterPoints(const Plan& plan, const Session& session, const json&
 
 }  // namespace
 
+std::string RoomPlanSvg(const std::string& name, const Scene& scene) {
+  if (scene.facets.empty()) return "";
+  const Plan plan = PlanOfScene(scene);
+  const Eigen::Vector3d size = plan.box.sizes();
+  const double height = plan.scale * size.y() + 2 * kPlanMarginPx;
+  const std::string text =
+      Outlines(plan, scene) + Walls(plan, scene) + MaterialNames(plan, scene) +
+      SvgText(
+          kPlanMarginPx, height + 8,
+          fmt::format("{}: {:.2f} m x {:.2f} m x {:.2f} m. x to the right, y up; the lower left corner is "
+                      "({:.2f}, {:.2f}) m.",
+                      name, size.x(), size.y(), size.z(), plan.box.min().x(), plan.box.min().y()));
+  return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
+}
+
 std::string PlanSvg(const Session& session, const Scene& scene, const json& result) {
-  Plan plan;
-  plan.box = scene.Bounds();
-  if (plan.box.isEmpty()) return "";
-  plan.scale = (kPlanWidthPx - 2 * kPlanMarginPx) / plan.box.sizes().x();
+  if (scene.facets.empty()) return "";
+  const Plan plan = PlanOfScene(scene);
   const double height = plan.scale * plan.box.sizes().y() + 2 * kPlanMarginPx;
   const json &summary = result["summary"], &mean = summary["mean_abs_error_percent"];
   std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +

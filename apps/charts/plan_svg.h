@@ -1,4 +1,4 @@
-// Draws a plan of the room as SVG, with everything that was found in its place.
+// Draws a plan of the room as SVG, alone or with everything that was found in its place.
 //
 // The plan is seen from above, x to the right, y up, in metres. It shows the outlines of the mesh and the
 // cameras with their viewing directions. Luminaires carry size and flux, and luxmeter points the colour of
@@ -15,6 +15,12 @@
 namespace luxfit {
 
 // Returns an empty text where the scene has no facet.
+// Both return an empty text where the scene has no facet.
+//
+// Draws walls and what is drawn on them as lines in a colour for each material, floor and furniture as areas,
+// all with the names of their materials.
+std::string RoomPlanSvg(const std::string& name, const Scene& scene);
+
 std::string PlanSvg(const Session& session, const Scene& scene, const nlohmann::json& result);
 
 }  // namespace luxfit

@@ -133,7 +133,7 @@ void AddFormFactors(CLI::App& app, Invocation& invocation) {
   CLI::App* const sub =
       app.add_subcommand("formfactors", "form factors between the patches of a mesh, by any method");
   const auto options = std::make_shared<FormFactorsCommandOptions>();
-  sub->add_option("MESH", options->mesh, "OBJ, PLY or glTF")->required();
+  sub->add_option("MESH", options->mesh, "OBJ, PLY or glTF, or a session file (TOML)")->required();
   sub->add_option("-o,--out", options->file, "file to write, .csv or .json")->required();
   std::string methods;
   for (const FormFactorOps& ops : FormFactorMethods())

@@ -8,6 +8,7 @@
 #include "apps/commands/doctor_command.h"
 #include "apps/commands/init_command.h"
 #include "apps/commands/result/explain_command.h"
+#include "apps/commands/room_command.h"
 
 namespace luxfit {
 namespace {
@@ -72,10 +73,17 @@ void AddExplain(CLI::App& app, Invocation& invocation) {
 
 void AddInit(CLI::App& app, Invocation& invocation) {
   CLI::App* const command =
-      app.add_subcommand("init", "a draft of a session from photos and a mesh; every guess is marked");
+      app.add_subcommand("init", "a draft of a session from photos and the room; every guess is marked");
   const auto options = std::make_shared<InitCommandOptions>();
   command->add_option("--photos", options->photos, "folder of the photos")->required();
-  command->add_option("--mesh", options->mesh, "OBJ, PLY or glTF of the room")->required();
+  CLI::Option* const mesh = command->add_option("--mesh", options->mesh, "OBJ, PLY or glTF of the room");
+  command
+      ->add_option(
+          "--size", options->size,
+          "in place of a mesh: length along x, along y, height, m: 6 4 2.8 or 6x4x2.8 (default: guessed "
+          "from the tags)")
+      ->expected(1, 3)
+      ->excludes(mesh);
   command->add_option("--tags", options->tags, "map of the tags (JSON)");
   command
       ->add_option("-o,--out", options->out, "folder to write session.toml, photos.csv and luxmeter.csv into")
@@ -90,6 +98,27 @@ void AddInit(CLI::App& app, Invocation& invocation) {
              "check the lines that end in GUESS; then:\n"
              "- photos.csv: exposure_s of 49 photos: their metadata lacks it\n"
              "...");
+}
+
+void AddRoom(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command =
+      app.add_subcommand("room", "check and draw a room: size, volume, areas, what is wrong, a plan");
+  const auto options = std::make_shared<RoomCommandOptions>();
+  command->add_option("ROOM", options->file, "a session file (TOML), or a mesh: OBJ, PLY or glTF")
+      ->required();
+  command->add_option("-o,--out", options->plan, "plan to write, .svg");
+  command->add_option("--unit", options->unit, "unit of a mesh: m | cm | mm | in | ft")
+      ->capture_default_str();
+  AddJson(*command, options->json);
+  AddThreads(*command, invocation);
+  command->final_callback(
+      [&invocation, options] { invocation.run = [options] { return RoomCommand(*options); }; });
+  AddExample(*command, "luxfit room office/session.toml -o plan.svg",
+             "office: 6.00 x 4.00 x 2.80 m, 27 facets, 7 materials; office/room.obj\n"
+             "volume 66.12 m3\n"
+             "  wall            44.80 m2\n"
+             "...\n"
+             "good  the surfaces close and face the room");
 }
 
 void AddDoctor(CLI::App& app, Invocation& invocation) {
@@ -132,6 +161,7 @@ void AddDemo(CLI::App& app, Invocation& invocation) {
 void AddStartCommands(CLI::App& app, Invocation& invocation) {
   AddDemo(app, invocation);
   AddInit(app, invocation);
+  AddRoom(app, invocation);
   AddDoctor(app, invocation);
   AddBoard(app, invocation);
   AddExplain(app, invocation);

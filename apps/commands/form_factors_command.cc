@@ -68,7 +68,7 @@ Computed Compute(const FormFactorsCommandOptions& options) {
   how.method = MethodFrom(options.method);
   how.rays_per_element = options.rays;
   Computed computed;
-  const Scene given = ReadScene(options.mesh, MetresPer(options.unit));
+  const Scene given = SceneOfFile(options.mesh, MetresPer(options.unit));
   // Facets that lie on one another would both send light; they are removed as in MakeRoom.
   computed.scene = WithoutOverlaps(given);
   ExpectMatrixSize(computed.scene, options);

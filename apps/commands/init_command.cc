@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,7 @@
 #include "calib/luminance/image.h"
 #include "calib/targets/tags.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/outline.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {
@@ -42,6 +44,12 @@ std::vector<std::string> PhotosIn(const std::string& folder) {
   if (files.empty())
     throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, RAW), found none");
   return files;
+}
+
+void AddAreas(const Scene& scene, double scale, SessionDraft& draft) {
+  for (const Facet& facet : scene.facets)
+    draft.material_area_m2[scene.materials[static_cast<size_t>(facet.material)]] +=
+        facet.AreaM2() * scale * scale;
 }
 
 // Returns the first unit in which the mesh is some metres wide, as a room is.
@@ -66,16 +74,71 @@ void GuessUnit(const Eigen::Vector3d& size, const std::vector<SurveyedTag>& surv
   draft.size_m = size;
 }
 
-void LookAtMesh(const InitCommandOptions& options, SessionDraft& draft) {
+void LookAtMesh(const InitCommandOptions& options, const std::vector<SurveyedTag>& survey,
+                SessionDraft& draft) {
   const Scene scene = ReadScene(options.mesh);
-  const std::vector<SurveyedTag> survey =
-      options.tags.empty() ? std::vector<SurveyedTag>{} : ReadTagMap(options.tags);
   GuessUnit(scene.Bounds().sizes(), survey, scene, draft);
   const double scale =
       scene.Bounds().sizes().maxCoeff() > 0 ? draft.size_m.maxCoeff() / scene.Bounds().sizes().maxCoeff() : 1;
-  for (const Facet& facet : scene.facets)
-    draft.material_area_m2[scene.materials[static_cast<size_t>(facet.material)]] +=
-        facet.AreaM2() * scale * scale;
+  AddAreas(scene, scale, draft);
+}
+
+// Reads "6", "4", "2.8" or "6x4x2.8".
+Eigen::Vector3d SizeFrom(const std::vector<std::string>& words) {
+  std::string text = fmt::format("{}", fmt::join(words, "x"));
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'X' || c == '*'; }, 'x');
+  Eigen::Vector3d size;
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(), "%lfx%lfx%lf%c", &size.x(), &size.y(), &size.z(), &rest);
+  if (read == 3 && size.allFinite() && size.minCoeff() > 0) return size;
+  throw std::runtime_error("--size: expected three lengths in m, got " +
+                           Quoted(fmt::format("{}", fmt::join(words, " "))) +
+                           "; write --size 6 4 2.8 (along x, along y, height)");
+}
+
+// Guesses the room as the upright box that the tags on walls span. Leaves the draft as it is where they span none.
+void GuessSize(const std::vector<SurveyedTag>& survey, SessionDraft& draft) {
+  constexpr size_t kFewestTags = 4;
+  constexpr double kLeastLengthM = 1, kUsualHeightM = 2.5, kOriginM = 0.05, kAboveTagM = 0.1;
+  Eigen::AlignedBox3d box;
+  size_t on_walls = 0;
+  double ceiling_m = 0;
+  for (const SurveyedTag& tag : survey) {
+    if (tag.normal_in_world.z() < -0.9) ceiling_m = std::max(ceiling_m, tag.center_in_world.z());
+    if (std::abs(tag.normal_in_world.z()) > 0.3) continue;
+    ++on_walls;
+    box.extend(tag.center_in_world);
+  }
+  if (on_walls < kFewestTags || box.sizes().head<2>().minCoeff() < kLeastLengthM) return;
+  const auto rounded = [](double metres) { return 0.001 * std::round(1000 * metres); };
+  draft.corner_m = {rounded(box.min().x()), rounded(box.min().y())};
+  if (draft.corner_m.cwiseAbs().maxCoeff() < kOriginM) draft.corner_m.setZero();
+  draft.size_m.head<2>() << rounded(box.max().x()) - draft.corner_m.x(),
+      rounded(box.max().y()) - draft.corner_m.y();
+  draft.size_m.z() = ceiling_m > 0 ? ceiling_m : std::max(kUsualHeightM, rounded(box.max().z()) + kAboveTagM);
+  draft.size_because = fmt::format("as far as {} tags on walls reach{}; measure the room", on_walls,
+                                   ceiling_m > 0 ? "" : ", and a usual height");
+}
+
+// Sets the room of the draft: the mesh, the lengths that the user gives, or a guess from the tags.
+void LookAtRoom(const InitCommandOptions& options, SessionDraft& draft) {
+  const std::vector<SurveyedTag> survey =
+      options.tags.empty() ? std::vector<SurveyedTag>{} : ReadTagMap(options.tags);
+  if (!options.mesh.empty()) return LookAtMesh(options, survey, draft);
+  if (options.size.empty()) {
+    GuessSize(survey, draft);
+  } else {
+    draft.size_m = SizeFrom(options.size);
+  }
+  if (draft.size_m.isZero())
+    throw std::runtime_error(
+        fmt::format("--size: expected the room's three lengths (or a mesh, or a map of 4 or more tags on its "
+                    "walls), got none; "
+                    "measure along x, along y and the height in m, and type: luxfit init --photos {}{} "
+                    "--size 6 4 2.8 -o {}",
+                    options.photos, options.tags.empty() ? "" : " --tags " + options.tags, options.out));
+  AddAreas(SceneFrom(OutlineOfBox(draft.size_m)), 1, draft);
 }
 
 void LookAtPhotos(const InitCommandOptions& options, SessionDraft& draft) {
@@ -104,7 +167,8 @@ void LookAtPhotos(const InitCommandOptions& options, SessionDraft& draft) {
 void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
   std::set<fs::path> folders = {fs::absolute(options.photos).lexically_normal(),
                                 fs::absolute(options.photos).lexically_normal().parent_path(),
-                                fs::absolute(options.mesh).parent_path(), fs::absolute(options.out)};
+                                fs::absolute(options.out)};
+  if (!options.mesh.empty()) folders.insert(fs::absolute(options.mesh).parent_path());
   for (const fs::path& folder : folders) {
     if (!fs::is_directory(folder)) continue;
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -163,14 +227,14 @@ int InitCommand(const InitCommandOptions& options) {
   if (!fs::is_directory(options.photos))
     throw std::runtime_error("--photos: expected a folder, got " + Quoted(options.photos));
   ExpectNew(options.out);
-  fs::create_directories(options.out);
   SessionDraft draft;
+  LookAtRoom(options, draft);
+  fs::create_directories(options.out);
   draft.name = fs::absolute(options.out).lexically_normal().filename().string();
   if (draft.name.empty())
     draft.name = fs::absolute(options.out).lexically_normal().parent_path().filename().string();
-  draft.mesh = fs::relative(options.mesh, options.out).string();
+  draft.mesh = options.mesh.empty() ? "" : fs::relative(options.mesh, options.out).string();
   draft.tags = options.tags.empty() ? "" : fs::relative(options.tags, options.out).string();
-  LookAtMesh(options, draft);
   LookAtPhotos(options, draft);
   LookForIntrinsics(options, draft);
   LookForTags(options, draft);

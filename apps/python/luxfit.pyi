@@ -74,7 +74,9 @@ class _LitPatches(_Patches, _PatchLight):
 class _Scene(TypedDict):
     """The [scene] of a session."""
 
-    mesh: str
+    mesh: Optional[str]  # None: a size or an outline
+    corners_m: Optional[NDArray[numpy.float64]]  # (n, 2) of the outline; None for a mesh
+    heights_m: Optional[NDArray[numpy.float64]]  # (n,) of the ceiling over the corners
     unit: str
     metres_per_unit: float
     albedo_rgb: dict[str, NDArray[numpy.float64]]  # (3,) of each material that is given
@@ -226,7 +228,7 @@ class Room(metaclass=_Pybind11Type):
         method: str = "hybrid",
         rays: int = 64,
     ) -> None:
-        """Reads a mesh (OBJ, PLY: z up; glTF: y up, turned) of that unit and computes its form factors.
+        """Reads a mesh (OBJ, PLY: z up; glTF: y up, turned) of that unit, or the room of a session file (.toml), and computes its form factors.
 
         element_size_m: patch_size_m / 4 by default. method: one of help(luxfit.Room). rays: over the hemisphere of an element.
         """
@@ -265,7 +267,7 @@ class Session(metaclass=_Pybind11Type):
         """The absolute path of the session file."""
     @property
     def scene(self) -> Optional[_Scene]:
-        """The mesh, its unit and the reflectances that are given; None without [scene]."""
+        """The mesh or the outline, its unit and the reflectances that are given; None without [scene]."""
     @property
     def tags(self) -> list[_Tag]:
         """The surveyed tags, lengths in m."""

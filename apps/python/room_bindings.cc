@@ -46,7 +46,7 @@ std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::str
   options.planes.emplace();
   options.planes->name_materials = true;
   const py::gil_scoped_release release;
-  auto room = std::make_unique<Room>(MakeRoom(ReadScene(mesh.string(), metres->second), options));
+  auto room = std::make_unique<Room>(MakeRoom(SceneOfFile(mesh.string(), metres->second), options));
   if (room->sparse)
     throw std::runtime_error(mesh.string() + ": expected patches whose form factors fit into memory, got " +
                              std::to_string(room->patches.patches.size()) + "; raise patch_size_m");
@@ -108,7 +108,8 @@ py::dict RoomPatchLight(const Room& room, const std::vector<Luminaire>& luminair
 void BindRoom(py::module_& module) {
   // pybind11 copies it.
   const std::string about =
-      "A mesh (OBJ, PLY: z up; glTF: y up, turned) cut into patches and elements, with its form factors: "
+      "A mesh (OBJ, PLY: z up; glTF: y up, turned), or the room of a session file (.toml), cut into patches "
+      "and elements, with its form factors: "
       "all that light needs of geometry.\n\n"
       "unit: of the mesh (m, cm, mm, in, ft). Elements (patch_size_m / 4 by default) receive light, "
       "patches send it. method: " +

@@ -30,10 +30,22 @@ py::object OrNone(const std::string& text) {
 py::object SceneDict(const Session& session) {
   if (!session.scene) return py::none();
   py::dict dict;
-  dict["mesh"] = session.scene->mesh;
+  dict["mesh"] = OrNone(session.scene->mesh);
   dict["unit"] = session.scene->unit;
   dict["metres_per_unit"] = session.scene->metres_per_unit;
   dict["albedo_rgb"] = session.scene->known_albedo_rgb;
+  dict["corners_m"] = py::none();
+  dict["heights_m"] = py::none();
+  if (!session.scene->outline) return dict;
+  const RoomOutline& outline = *session.scene->outline;
+  RowMajorXd corners_m(static_cast<Eigen::Index>(outline.corners_m.size()), 2);
+  Eigen::VectorXd heights_m(corners_m.rows());
+  for (Eigen::Index i = 0; i < corners_m.rows(); ++i) {
+    corners_m.row(i) = outline.corners_m[static_cast<size_t>(i)].transpose();
+    heights_m[i] = outline.heights_m[outline.heights_m.size() == 1 ? 0 : static_cast<size_t>(i)];
+  }
+  dict["corners_m"] = corners_m;
+  dict["heights_m"] = heights_m;
   return dict;
 }
 
@@ -164,7 +176,8 @@ void BindSession(py::module_& module) {
       .def_readonly("path", &Session::path)
       .def_property_readonly(
           "scene", &SceneDict,
-          "dict: mesh, unit, metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
+          "dict: mesh (None: a size or an outline), corners_m (n, 2) and heights_m (n,) of the outline (None "
+          "for a mesh), unit, metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
       .def_property_readonly("tags", &TagList, "list of dicts: id, size_m, center_m, normal, up (3,).")
       .def_property_readonly(
           "cameras", &CameraList,

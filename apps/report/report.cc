@@ -9,6 +9,7 @@
 #include "apps/report/report_places.h"
 #include "apps/report/report_room.h"
 #include "apps/report/report_views.h"
+#include "apps/session/session_scene.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/version.h"
@@ -72,7 +73,8 @@ json ConditionsJson(const FittedRoom& fitted) {
           {"sensitivity",
            session.luxmeter.sensitivity_path.empty() ? "cosine" : session.luxmeter.sensitivity_path},
           {"ambient_lx", AmbientJson(session)},
-          {"mesh", session.scene ? json(session.scene->mesh) : json()},
+          {"mesh", session.scene && !session.scene->outline ? json(session.scene->mesh) : json()},
+          {"room", session.scene ? json(RoomText(*session.scene)) : json()},
           {"unit", session.scene ? json(session.scene->unit) : json()},
           {"tags", session.tags.survey.size()},
           {"tag_family", session.tags.family}};

@@ -22,15 +22,17 @@
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 #include "forward/direct/sensor.h"
+#include "forward/room/outline.h"
 
 namespace luxfit {
 
 struct SessionScene {
-  std::string mesh;  // absolute path
+  std::string mesh;  // absolute path; empty: the room is an outline
   double metres_per_unit = 1;
   std::string unit = "m";
   std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance, in [0, 1)
   int line = 0;                                             // line of [scene.albedo], else of [scene]
+  std::optional<RoomOutline> outline;                       // from size or outline; m
 };
 
 struct SessionTags {

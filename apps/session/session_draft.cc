@@ -10,13 +10,34 @@
 namespace luxfit {
 namespace {
 
+// Returns a box's keys: its lengths where a corner is at the origin, else its corners.
+std::string BoxText(const SessionDraft& draft) {
+  const Eigen::Vector3d& size = draft.size_m;
+  const std::string guess = draft.size_because.empty() ? "" : "   # GUESS: " + draft.size_because;
+  const std::string more =
+      "# Furniture of more than half a metre, doors and windows may follow as [[scene.box]] and "
+      "[[scene.opening]]:\n# `luxfit explain scene.box`. `luxfit room session.toml -o plan.svg` draws the "
+      "room.\n";
+  if (draft.corner_m.isZero(0))
+    return fmt::format("[scene]\nsize = [{:g}, {:g}, {:g}]{}\n{}", size.x(), size.y(), size.z(), guess, more);
+  const Eigen::Vector2d low = draft.corner_m, high = low + size.head<2>();
+  return fmt::format(
+      "[scene]\noutline = [[{0:g}, {1:g}], [{2:g}, {1:g}], [{2:g}, {3:g}], [{0:g}, {3:g}]]{4}\nheight = "
+      "{5:g}{4}\n{6}",
+      low.x(), low.y(), high.x(), high.y(), guess, size.z(), more);
+}
+
 std::string SceneText(const SessionDraft& draft) {
-  std::string text = fmt::format(
-      "[scene]\nmesh = {}\nunit = \"{}\"   # GUESS: {}: the room is then {:.2f} x {:.2f} x {:.2f} m\n\n"
-      "# Reflectances that you know; those not named are estimated from the photos. The mesh has:\n"
+  std::string text = draft.mesh.empty() ? BoxText(draft)
+                                        : fmt::format(
+                                              "[scene]\nmesh = {}\nunit = \"{}\"   # GUESS: {}: the room is "
+                                              "then {:.2f} x {:.2f} x {:.2f} m\n",
+                                              Quoted(draft.mesh), draft.unit, draft.unit_because,
+                                              draft.size_m.x(), draft.size_m.y(), draft.size_m.z());
+  text += fmt::format(
+      "\n# Reflectances that you know; those not named are estimated from the photos. The {} has:\n"
       "[scene.albedo]\n",
-      Quoted(draft.mesh), draft.unit, draft.unit_because, draft.size_m.x(), draft.size_m.y(),
-      draft.size_m.z());
+      draft.mesh.empty() ? "room" : "mesh");
   for (const auto& [material, area_m2] : draft.material_area_m2)
     text += fmt::format("# \"{}\" = 0.5   # {:.1f} m2\n", material, area_m2);
   return text + "\n";
@@ -117,6 +138,8 @@ std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,illuminan
 
 std::vector<std::string> ToDo(const SessionDraft& draft) {
   std::vector<std::string> list;
+  if (!draft.size_because.empty())
+    list.push_back("[scene]: measure the room; its lengths are a guess from where the tags hang");
   const auto count = std::count_if(draft.photos.begin(), draft.photos.end(),
                                    [](const DraftPhoto& photo) { return !photo.exposure.exposure_s; });
   if (count > 0)

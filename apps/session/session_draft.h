@@ -22,7 +22,10 @@ struct DraftPhoto {
 
 struct SessionDraft {
   std::string name;
-  std::string mesh;  // relative to the session, as all files
+  std::string mesh;  // relative to the session, as all files; empty: the room is an upright box
+  // Of that box, without a mesh: its least corner, and what told its lengths; empty: the user did.
+  Eigen::Vector2d corner_m = Eigen::Vector2d::Zero();
+  std::string size_because;
   std::string unit, unit_because;
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
   std::map<std::string, double> material_area_m2;

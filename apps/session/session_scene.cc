@@ -4,6 +4,7 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/session/internal/session_outline.h"
 #include "apps/session/session_files.h"
 #include "apps/session/tag_map.h"
 #include "apps/text/suggest.h"
@@ -33,13 +34,14 @@ const std::map<std::string, double>& MetresPerUnit() {
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
-  section.ExpectKeys({"mesh", "unit", "albedo"});
+  section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo"});
   SessionScene scene;
-  scene.mesh = AbsolutePath(FindFile(section.Require("mesh", "a mesh file (OBJ, PLY, glTF)"), folder));
   if (const auto unit = section.Find("unit")) {
     scene.unit = unit->OneOf({"m", "cm", "mm", "in", "ft"});
     scene.metres_per_unit = MetresPerUnit().at(scene.unit);
   }
+  scene.outline = ReadOutline(section, scene.metres_per_unit);
+  if (const auto mesh = section.Find("mesh")) scene.mesh = AbsolutePath(FindFile(*mesh, folder));
   scene.line = section.place().line;
   if (const auto albedo = section.Find("albedo")) {
     scene.line = albedo->place().line;
@@ -47,6 +49,24 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
       scene.known_albedo_rgb[material] = ReadAlbedo(value);
   }
   return scene;
+}
+
+Scene SceneOf(const SessionScene& scene) {
+  return scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit);
+}
+
+std::string RoomText(const SessionScene& scene) {
+  if (!scene.outline) return scene.mesh;
+  const std::string corners = std::to_string(scene.outline->corners_m.size());
+  return "an outline of " + corners + " corners, with " + std::to_string(scene.outline->boxes.size()) +
+         " boxes and " + std::to_string(scene.outline->rectangles.size()) + " openings";
+}
+
+Scene SceneOfFile(const std::string& path, double metres_per_unit) {
+  if (ExtensionOf(path) != ".toml") return ReadScene(path, metres_per_unit);
+  const Session session = ReadSession(path);
+  if (session.scene) return SceneOf(*session.scene);
+  throw InputError({path}, "scene", "expected [scene] with mesh, size or outline, got none; add it");
 }
 
 SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder) {

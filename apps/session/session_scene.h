@@ -1,4 +1,4 @@
-// Reads the sections [scene], [tags] and [registration] of a session.
+// Reads the sections [scene], [tags] and [registration] of a session, and makes the room that [scene] says.
 //
 // Each function takes its section and the session's folder, and throws std::runtime_error("FILE:LINE: key:
 // ...").
@@ -12,6 +12,7 @@
 
 #include "apps/session/session.h"
 #include "apps/text/formats/toml_reader.h"
+#include "forward/room/scene.h"
 
 namespace luxfit {
 
@@ -19,6 +20,15 @@ namespace luxfit {
 const std::map<std::string, double>& MetresPerUnit();
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder);
+
+// Returns the room: its mesh, read, or its outline, made. m, world frame.
+Scene SceneOf(const SessionScene& scene);
+
+// Names the room for people: the path of its mesh, or what its outline consists of.
+std::string RoomText(const SessionScene& scene);
+
+// Returns the scene of a mesh file, or that of a session file (.toml), whose [scene] has its own unit.
+Scene SceneOfFile(const std::string& path, double metres_per_unit);
 
 SessionTags ReadTagsSection(const TomlCursor& section, const std::string& folder);
 

@@ -91,9 +91,16 @@ class Parts {
     StageInputs inputs = {
         {"[tags]", HashText(Table("tags") + HashPath(session_.tags.map_path))},
         {"[registration]", HashText(Table("registration") + HashPath(session_.registration.colmap_model))}};
-    if (session_.scene)
+    if (!session_.scene) return inputs;
+    if (session_.scene->outline) {
+      std::string text = session_.scene->unit;
+      for (const char* key : {"size", "outline", "height", "box", "opening"})
+        text += fmt::format("{} {}\n", key, Text(root_["scene"][key]));
+      inputs["[scene]"] = HashText(text);
+    } else {
       inputs["mesh " + fs::path(session_.scene->mesh).filename().string()] =
           HashText(session_.scene->unit + HashPath(session_.scene->mesh));
+    }
     return inputs;
   }
 

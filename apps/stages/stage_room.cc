@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "apps/session/session_scene.h"
 #include "apps/stages/stages.h"
 #include "apps/text/seconds.h"
 #include "apps/text/terminal.h"
@@ -14,18 +15,20 @@
 namespace luxfit {
 namespace {
 
-void CheckTagsLieOnMesh(const Session& session, const Scene& scene) {
-  std::vector<Eigen::Vector3d> centers;
-  for (const SurveyedTag& tag : session.tags.survey) centers.push_back(tag.center_in_world);
-  const SurveyCheck check = CheckSurvey(scene, centers, session.scene->metres_per_unit);
-  if (check.fits) return;
-  const std::string remedy = check.better_unit.empty()
-                                 ? "check that mesh and tag map share one frame"
-                                 : fmt::format("the mesh fits with unit = \"{}\"", check.better_unit);
-  throw std::runtime_error(
-      fmt::format("{}: scene.unit: expected the surveyed tags to lie on the mesh, but with unit = \"{}\" "
-                  "a quarter of them are {:.3g} m and more away; {}",
-                  session.path, session.scene->unit, check.distance_m, remedy));
+// Returns the key that says what the room is.
+std::string RoomKey(const Session& session) {
+  return session.scene->outline ? "scene.outline" : "scene.mesh";
+}
+
+std::string RemedyOf(const SurveyCheck& check, bool is_mesh) {
+  if (!check.better_unit.empty())
+    return fmt::format("the {} fits with unit = \"{}\"", is_mesh ? "mesh" : "room", check.better_unit);
+  if (!is_mesh)
+    return "measure the room's lengths again; the floor is z = 0, size has a corner at the tag map's origin, "
+           "and "
+           "outline puts the corners elsewhere";
+  return check.fits_y_up ? "the tags lie on it where the mesh's y axis is up: export the mesh with z up"
+                         : "check that mesh and tag map share one frame";
 }
 
 // Returns the area of a facet's elements before they are trimmed: a triangle is cut as finely along both edges as along
@@ -47,7 +50,7 @@ void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOpt
   if (area_m2 <= kMaxElements * options.element_size_m * options.element_size_m) return;
   const Eigen::Vector3d size = scene.Bounds().sizes();
   throw std::runtime_error(fmt::format(
-      "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the mesh is "
+      "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the room is "
       "{:.4g} m x {:.4g} m x {:.4g} m; check the unit, and whether a corner lies far off all others",
       session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
       size.x(), size.y(), size.z()));
@@ -83,10 +86,24 @@ void Say(const RunContext& context, const std::string& words) {
   if (context.progress) context.progress->Say(words);
 }
 
+std::string SurveyComplaint(const Session& session, const Scene& scene) {
+  std::vector<Eigen::Vector3d> centers;
+  for (const SurveyedTag& tag : session.tags.survey) centers.push_back(tag.center_in_world);
+  const SurveyCheck check = CheckSurvey(scene, centers, session.scene->metres_per_unit);
+  if (check.fits) return "";
+  const bool is_mesh = !session.scene->outline;
+  return fmt::format(
+      "{}: {}: expected the surveyed tags to lie on the {}, but with unit = \"{}\" "
+      "a quarter of them are {:.3g} m and more away; {}",
+      session.path, is_mesh ? "scene.unit" : RoomKey(session), is_mesh ? "mesh" : "room's surfaces",
+      session.scene->unit, check.distance_m, RemedyOf(check, is_mesh));
+}
+
 LoadedMesh LoadMesh(const Session& session) {
   LoadedMesh mesh;
-  mesh.scene = ReadScene(session.scene->mesh, session.scene->metres_per_unit);
-  CheckTagsLieOnMesh(session, mesh.scene);
+  mesh.scene = SceneOf(*session.scene);
+  const std::string complaint = SurveyComplaint(session, mesh.scene);
+  if (!complaint.empty()) throw std::runtime_error(complaint);
   ExpectRoomSize(session, mesh.scene, PatchesOptions{});
   mesh.findings = CheckMesh(mesh.scene);
   return mesh;
@@ -111,7 +128,7 @@ void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext&
 
 Room LoadRoom(const Session& session, RunContext& context) {
   if (!session.scene) return MakeRoom(Scene{});
-  const StageTimer timer(context, "scene", session.scene->mesh);
+  const StageTimer timer(context, "scene", RoomText(*session.scene));
   const LoadedMesh mesh = LoadMesh(session);
   RoomOptions options;
   options.planes.emplace();
@@ -119,11 +136,11 @@ Room LoadRoom(const Session& session, RunContext& context) {
   Room room = MakeRoom(mesh.scene, options);
   if (room.sparse) {
     throw std::runtime_error(
-        fmt::format("{}: scene.mesh: expected patches whose form factors fit into {:.0f} GB, got {} patches "
+        fmt::format("{}: {}: expected patches whose form factors fit into {:.0f} GB, got {} patches "
                     "of {} facets; leave "
                     "out details, or merge them (luxfit simulate takes such meshes as they are)",
-                    session.path, 1e-9 * options.max_matrix_bytes, room.patches.patches.size(),
-                    room.scene.facets.size()));
+                    session.path, RoomKey(session), 1e-9 * options.max_matrix_bytes,
+                    room.patches.patches.size(), room.scene.facets.size()));
   }
   context.choices.push_back({"patches",
                              fmt::format("{} patches up to {:g} m, {} elements up to {:g} m",

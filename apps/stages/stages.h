@@ -76,7 +76,11 @@ void Advance(const RunContext& context, size_t total);
 // Shows words beside the running stage; where there is no terminal, every ten seconds at most.
 void Say(const RunContext& context, const std::string& words);
 
-// Loads the mesh of a session that has a [scene], checks it against the tag survey, and lists its defects.
+// Says by how much surveyed tags miss the surfaces of a session's room, and what to do, as the message of an
+// error. Returns an empty text where they lie on them. The session has a [scene].
+std::string SurveyComplaint(const Session& session, const Scene& scene);
+
+// Loads the room of a session that has a [scene], checks it against the tag survey, and lists its defects.
 struct LoadedMesh {
   Scene scene;
   std::vector<MeshFinding> findings;
@@ -84,7 +88,7 @@ struct LoadedMesh {
 LoadedMesh LoadMesh(const Session& session);
 void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context);
 
-// Returns that mesh with its form factors; an empty room where the session has no [scene].
+// Returns that room with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);
 
 // Returns the session's photos as the later stages use them. There is one for each view, state and camera,

@@ -17,7 +17,8 @@
 // narrower than 20 um are rounding of the file and stay. Areas are in m2.
 //
 // CheckSurvey tells whether surveyed points on surfaces and the mesh have the same frame and unit. Points are
-// near the mesh where they have. A mesh in another unit than declared is off by a known factor.
+// near the mesh where they have. A mesh in another unit than declared is off by a known factor, and one whose
+// y axis is up by a known turn.
 //
 // Source: Baum, Mann, Smith, Winget (1991), "Making radiosity usable: automatic preprocessing and meshing
 // techniques for the generation of accurate radiosity solutions"; solid angle of a triangle: Van Oosterom and
@@ -78,6 +79,7 @@ struct SurveyCheck {
   double distance_m = 0;    // three quarters of the points are no farther from the mesh
   bool fits = true;         // below tolerance_m
   std::string better_unit;  // m, cm, mm, in or ft where the mesh fits in that unit; else empty
+  bool fits_y_up = false;   // the mesh fits where its (x, y, z) is taken as (x, -z, y)
 };
 
 // `declared_metres_per_unit`: the scale with which the mesh was read. Without points, `fits` is true.

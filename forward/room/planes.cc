@@ -81,7 +81,8 @@ Vector3d OnAll(const std::set<int>& which, const std::vector<Plane>& planes, con
 std::vector<Vector3d> VerticesOnPlanes(const Segmented& room) {
   std::vector<std::set<int>> meet(room.mesh.vertices.size());
   for (size_t t = 0; t < room.mesh.triangles.size(); ++t) {
-    for (const int v : room.mesh.triangles[t]) meet[static_cast<size_t>(v)].insert(room.regions.of_triangle[t]);
+    for (const int v : room.mesh.triangles[t])
+      meet[static_cast<size_t>(v)].insert(room.regions.of_triangle[t]);
   }
   std::vector<Vector3d> placed = room.mesh.vertices;
   for (size_t v = 0; v < placed.size(); ++v) placed[v] = OnAll(meet[v], room.regions.planes, placed[v]);
@@ -119,7 +120,9 @@ class RegionFacet {
  public:
   RegionFacet(const Segmented& room, const std::vector<Vector3d>& placed, const Vector3d& main_direction,
               int region)
-      : room_(room), placed_(placed), plane_(room.regions.planes[static_cast<size_t>(region)]),
+      : room_(room),
+        placed_(placed),
+        plane_(room.regions.planes[static_cast<size_t>(region)]),
         axes_(AxesOf(plane_, main_direction)) {}
 
   void Add(size_t t) {
@@ -156,7 +159,8 @@ class RegionFacet {
   static constexpr double kLeastM2 = 1e-10;
 
   static double AreaOf(const SurfaceTriangle& triangle) {
-    const Vector2d a = triangle.corners[1] - triangle.corners[0], b = triangle.corners[2] - triangle.corners[0];
+    const Vector2d a = triangle.corners[1] - triangle.corners[0],
+                   b = triangle.corners[2] - triangle.corners[0];
     return 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
 
@@ -222,7 +226,8 @@ class PlaneNames {
     const double height_m = ceiling_m_ - floor_m_;
     if (plane.normal.z() > kLevel && high_[region] < floor_m_ + kEnd * height_m) return "floor";
     if (plane.normal.z() < -kLevel && low_[region] > ceiling_m_ - kEnd * height_m) return "ceiling";
-    if (std::abs(plane.normal.z()) < kUpright && high_[region] - low_[region] > kTall * height_m) return "wall";
+    if (std::abs(plane.normal.z()) < kUpright && high_[region] - low_[region] > kTall * height_m)
+      return "wall";
     return "surface";
   }
 
@@ -239,7 +244,8 @@ void NameMaterials(const Segmented& room, Scene& scene, std::vector<int>& materi
   std::vector<int> piece_of(material.size(), -1);
   std::vector<double> piece_m2(pieces.size(), 0);
   for (size_t t = 0; t < pieces.size(); ++t) {
-    if (room.regions.of_triangle[t] >= 0) piece_of[static_cast<size_t>(room.regions.of_triangle[t])] = pieces[t];
+    if (room.regions.of_triangle[t] >= 0)
+      piece_of[static_cast<size_t>(room.regions.of_triangle[t])] = pieces[t];
     piece_m2[static_cast<size_t>(pieces[t])] += 0.5 * room.mesh.AreaNormal(t).norm();
   }
   PlaneNames names(room.mesh, room.regions);

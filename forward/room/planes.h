@@ -27,10 +27,10 @@
 namespace luxfit {
 
 struct PlanesOptions {
-  double off_plane_m = 0.03;     // depth cameras err by a centimetre or two; light hardly sees such relief
-  double largest_hole_m = 1.2;   // diagonal of holes that are closed
-  int most_planes = 1200;        // more become fewer, see above
-  bool name_materials = false;   // a mesh without materials gets some
+  double off_plane_m = 0.03;    // depth cameras err by a centimetre or two; light hardly sees such relief
+  double largest_hole_m = 1.2;  // diagonal of holes that are closed
+  int most_planes = 1200;       // more become fewer, see above
+  bool name_materials = false;  // a mesh without materials gets some
 };
 
 struct LaidOnPlanes {

@@ -113,6 +113,18 @@ Eigen::AlignedBox3d Scene::Bounds() const {
   return surface.empty() ? box : WithinOuterPlanes(*this, box);
 }
 
+double Scene::VolumeM3() const {
+  if (facets.empty()) return 0;
+  const double floor_m = Bounds().min().z();
+  double volume_m3 = 0;
+  for (const Facet& facet : facets) {
+    const bool triangle = facet.kind == FacetKind::kTriangle;
+    const double mean_m = facet.PointAt(triangle ? 1. / 3 : 0.5, triangle ? 1. / 3 : 0.5).z() - floor_m;
+    volume_m3 -= mean_m * facet.edge_u.cross(facet.edge_v).z() * (triangle ? 0.5 : 1.0);
+  }
+  return volume_m3;
+}
+
 std::vector<Facet> FacetsFromPolygon(const std::vector<Eigen::Vector3d>& vertices, int material) {
   if (vertices.size() == 4) {
     const Eigen::Vector3d gap = vertices[0] + vertices[2] - vertices[1] - vertices[3];

@@ -65,6 +65,9 @@ struct Scene {
   int dropped_facets = 0;  // left out because they have no area
 
   Eigen::AlignedBox3d Bounds() const;
+  // Returns the air in front of the facets, m3: -sum (z - z_min) n_z A, z of the facets' centroids. Holds for a
+  // closed room whose solids face outwards. They may lack the side on the floor or at a wall.
+  double VolumeM3() const;
 };
 
 // The material of surfaces to which a file gives none.

@@ -40,6 +40,12 @@ SurveyCheck CheckSurvey(const Scene& scene, const std::vector<Eigen::Vector3d>& 
       check.better_unit = unit.name;
     }
   }
+  if (!check.better_unit.empty()) return check;
+  // A point of the world lies in the mesh's own frame at (x, z, -y).
+  std::vector<Eigen::Vector3d> in_mesh;
+  in_mesh.reserve(points_in_world.size());
+  for (const Eigen::Vector3d& p : points_in_world) in_mesh.emplace_back(p.x(), p.z(), -p.y());
+  check.fits_y_up = TypicalDistance(scene, in_mesh, 1.0) < tolerance_m;
   return check;
 }
 

@@ -73,6 +73,7 @@ def run_office():
     luxfit("doctor", office / "session.toml", save="doctor")
     luxfit("init", "--photos", office / "photos", "--mesh", office / "room.obj", "--tags", office / "tags.json",
            "-o", OUT / "init", save="init")
+    luxfit("room", office / "session.toml", "-o", WORK / "plan.svg", save="room")
     out = OUT / "office"
     luxfit("run", office / "session.toml", "-o", out, status=1)  # the reading that disagrees
     shutil.copytree(out, OUT / "albedo")

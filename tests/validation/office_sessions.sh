@@ -4,6 +4,9 @@
 #     all_on            only the photos and readings with everything on, and nobody says how many luminaires there are
 #     quarter_views     every fourth view
 #     unfurnished       desks and cabinet missing from the mesh
+#     size              no mesh: three lengths, walls alone
+#     size_door         the same with the door
+#     boxes             no mesh: three lengths, two desks, the cabinet and the door
 #     exposures_off     each photo's exposure time off by up to 5 %, evenly (another draw with SEED=2, ...); photos unchanged
 #     exposures_apart   the same, and only the states that show one luminaire each: nothing ties their exposures
 #     two_cameras       every other view is of a second camera, whose exposures are stated as 0.64 of the true ones; photos unchanged
@@ -31,6 +34,36 @@ case $variant in
   unfurnished)
     rewrite room.obj awk '/^g / { skip = $2 ~ /^(desk|cabinet)/ } !(skip && /^f /)'
     # Tags on what is missing hang in the air: they stay surveyed.
+    ;;
+  size | size_door | boxes)
+    rewrite session.toml sed -e 's/^mesh = .*/size = [6, 4, 2.8]/'
+    rm room.obj room.mtl
+    [ "$variant" != boxes ] || cat >> session.toml <<'END'
+
+[[scene.box]]
+name = "desk"
+min = [0.8, 1.0, 0.7]
+max = [2.4, 1.8, 0.74]
+
+[[scene.box]]
+name = "desk"
+min = [3.4, 2.3, 0.7]
+max = [5.0, 3.1, 0.74]
+
+[[scene.box]]
+name = "cabinet"
+min = [5.5, 0.2, 0.0]
+max = [5.98, 1.4, 1.6]
+END
+    [ "$variant" = size ] || cat >> session.toml <<'END'
+
+[[scene.opening]]
+name = "door"
+wall = 1
+from = 2.6
+to = 3.5
+high = 2.05
+END
     ;;
   exposures_off | exposures_apart)
     # Park and Miller's generator: the same numbers with every awk.
@@ -64,5 +97,5 @@ case $variant in
     for id in C D; do
       printf '\n[[luminaire]]\nid = "%s"\nphotometry = "lambertian"\nshape = "point"\n' $id
     done >> session.toml ;;
-  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, exposures_off, exposures_apart, two_cameras, survey_10mm or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
+  *) echo "$0: VARIANT: expected all_on, quarter_views, unfurnished, size, size_door, boxes, exposures_off, exposures_apart, two_cameras, survey_10mm or wrong_photometry, got \"$variant\"" >&2; exit 2 ;;
 esac

@@ -60,7 +60,7 @@ class TrialFolder {
 void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& findings) {
   if (!session.scene) {
     findings.push_back(
-        {Health::kNote, "no [scene]: all light is taken as direct", "give the mesh of the room"});
+        {Health::kNote, "no [scene]: all light is taken as direct", "give the room: size, outline or mesh"});
     return;
   }
   try {
@@ -68,8 +68,8 @@ void ExamineRoom(const Session& session, RunContext& context, DoctorFindings& fi
     const Eigen::Vector3d size = room.scene.Bounds().sizes();
     findings.push_back(
         {Health::kGood,
-         fmt::format("mesh of {:.2f} x {:.2f} x {:.2f} m, {} facets{}, {} materials", size.x(), size.y(),
-                     size.z(),
+         fmt::format("{} of {:.2f} x {:.2f} x {:.2f} m, {} facets{}, {} materials",
+                     session.scene->outline ? "outline" : "mesh", size.x(), size.y(), size.z(),
                      room.on_planes ? room.on_planes->triangles : static_cast<int>(room.scene.facets.size()),
                      room.on_planes ? fmt::format(" on {} planes", room.scene.facets.size()) : "",
                      room.scene.materials.size()),

@@ -37,7 +37,7 @@ export function conditions(data) {
     ['Absolute scale', data.is_absolute ? (scale.length > 0 ? 'from ' + scale.join(', ') : 'from readings, fluxes or camera that the session gives') : 'none: all light is relative'],
     ['Ambient light', isNumber(c.ambient_lx) ? `measured and subtracted, up to ${digits(c.ambient_lx)} lx` : 'none given'],
     ['States', h('ul', { class: 'plain' }, data.states.map((s) => h('li', null, h('b', null, s.id), ': ', data.luminaires.map((l, k) => (s.dimming[k] > 0 ? `${l.id} ${fixed(100 * s.dimming[k], 0)} %` : null)).filter(Boolean).join(', ') || 'all off')))],
-    c.mesh ? ['Mesh', `${c.mesh} (unit ${c.unit})`] : null,
+    c.mesh ? ['Mesh', `${c.mesh} (unit ${c.unit})`] : c.room ? ['Room', c.room] : null,
     ['Model', `${data.result.model.patches} patches, ${data.result.model.elements} elements, ${data.result.model.observations} observations, ${data.result.model.parameters} parameters; model error ${digits(100 * data.result.model.relative_model_error, 2)} %`],
   ]);
 }

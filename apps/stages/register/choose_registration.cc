@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "apps/session/session_scene.h"
 #include "apps/stages/register/colmap_run.h"
 #include "apps/stages/register/lay_on_mesh.h"
 #include "apps/stages/register/view_features.h"
@@ -64,7 +65,7 @@ class RegistrationJob {
     if (session_.tags.survey.empty()) {
       options.tag_size_m = session_.tags.size_m;
     } else if (session_.scene) {
-      options.surface = SurfaceOf(ReadScene(session_.scene->mesh, session_.scene->metres_per_unit));
+      options.surface = SurfaceOf(SceneOf(*session_.scene));
     }
     return options;
   }

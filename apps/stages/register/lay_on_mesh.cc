@@ -31,8 +31,8 @@ void ExpectStartAndMesh(const Session& session) {
   if (!session.scene)
     throw std::runtime_error(
         session.path +
-        ": scene.mesh: expected a mesh to lay the photos' points onto, got none; add [scene] "
-        "with mesh = ...");
+        ": scene.mesh: expected a room to lay the photos' points onto, got none; add [scene] "
+        "with mesh, size or outline");
 }
 
 Registration NotLaid(const SurfaceAlignment& alignment) {

@@ -26,10 +26,12 @@ class Hole {
     mesh_.vertices.push_back(mean_);
     for (const Side& side : rim_) {
       const int region = Nearest(side);
-      if (region < 0 || !AddTriangle(side.to, side.from, center, regions_.material[static_cast<size_t>(region)], mesh_))
+      if (region < 0 ||
+          !AddTriangle(side.to, side.from, center, regions_.material[static_cast<size_t>(region)], mesh_))
         continue;
       regions_.of_triangle.push_back(region);
-      regions_.area_m2[static_cast<size_t>(region)] += 0.5 * mesh_.AreaNormal(mesh_.triangles.size() - 1).norm();
+      regions_.area_m2[static_cast<size_t>(region)] +=
+          0.5 * mesh_.AreaNormal(mesh_.triangles.size() - 1).norm();
     }
   }
 

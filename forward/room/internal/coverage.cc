@@ -40,7 +40,8 @@ void Add(const Clipped& polygon, CellCoverage& cell) {
 
 }  // namespace
 
-std::vector<CellCoverage> CoverageOf(const std::vector<SurfaceTriangle>& triangles, int cells_u, int cells_v) {
+std::vector<CellCoverage> CoverageOf(const std::vector<SurfaceTriangle>& triangles, int cells_u,
+                                     int cells_v) {
   std::vector<CellCoverage> cells(static_cast<size_t>(cells_u) * static_cast<size_t>(cells_v));
   const Vector2d scale(cells_u, cells_v);
   for (const SurfaceTriangle& triangle : triangles) {
@@ -51,7 +52,9 @@ std::vector<CellCoverage> CoverageOf(const std::vector<SurfaceTriangle>& triangl
       box.extend(corner.cwiseProduct(scale));
     }
     const auto first = [](double low) { return std::max(0, static_cast<int>(std::floor(low))); };
-    const auto last = [](double high, int count) { return std::min(count - 1, static_cast<int>(std::floor(high))); };
+    const auto last = [](double high, int count) {
+      return std::min(count - 1, static_cast<int>(std::floor(high)));
+    };
     for (int j = first(box.min().y()); j <= last(box.max().y(), cells_v); ++j) {
       const Clipped row = Keep(Keep(whole, 1, j, 1), 1, j + 1, -1);
       for (int i = first(box.min().x()); i <= last(box.max().x(), cells_u) && row.count > 2; ++i) {

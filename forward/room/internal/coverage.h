@@ -16,11 +16,13 @@
 namespace luxfit {
 
 struct CellCoverage {
-  double area = 0;                                    // 1: all of the cell
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();   // of the covered part, in the grid's coordinates
-  Eigen::AlignedBox2d box;                            // round the covered part, likewise
+  double area = 0;                                   // 1: all of the cell
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // of the covered part, in the grid's coordinates
+  Eigen::AlignedBox2d box;                           // round the covered part, likewise
 
-  double Filled() const { return box.isEmpty() || box.volume() <= 0 ? 0 : std::min(1.0, area / box.volume()); }
+  double Filled() const {
+    return box.isEmpty() || box.volume() <= 0 ? 0 : std::min(1.0, area / box.volume());
+  }
 };
 
 // Returns the cells of a grid of cells_u x cells_v, row by row: cell (i, j) at j cells_u + i.

@@ -10,8 +10,8 @@
 namespace luxfit {
 namespace {
 
-constexpr double kTurnedCosine = 0.766;     // 40 degrees
-constexpr double kHardlyTurnedCosine = 0.5; // normals beyond 60 degrees are of another surface: not averaged
+constexpr double kTurnedCosine = 0.766;      // 40 degrees
+constexpr double kHardlyTurnedCosine = 0.5;  // normals beyond 60 degrees are of another surface: not averaged
 constexpr double kSmallM2 = 0.01;
 
 // Gathers the moments of triangles, weighted by area.
@@ -42,7 +42,8 @@ class PlaneFit {
     Plane plane;
     plane.normal = solver.eigenvectors().col(0);
     // A sliver's plane is any plane through it.
-    if (std::abs(plane.normal.dot(facing_)) < kTurnedCosine * facing_.norm()) plane.normal = facing_.normalized();
+    if (std::abs(plane.normal.dot(facing_)) < kTurnedCosine * facing_.norm())
+      plane.normal = facing_.normalized();
     if (plane.normal.dot(facing_) < 0) plane.normal = -plane.normal;
     plane.offset_m = plane.normal.dot(mean);
     return plane;
@@ -120,7 +121,8 @@ class Grower {
       for (const int neighbour : mesh_.across[members[at]]) {
         if (neighbour < 0) continue;
         const auto n = static_cast<size_t>(neighbour);
-        if (result.of_triangle[n] >= 0 || mesh_.material[n] != mesh_.material[seed] || !Takes(plane, n)) continue;
+        if (result.of_triangle[n] >= 0 || mesh_.material[n] != mesh_.material[seed] || !Takes(plane, n))
+          continue;
         result.of_triangle[n] = region;
         members.push_back(n);
         fit.Add(mesh_, n);
@@ -138,7 +140,8 @@ class Grower {
     const int region = static_cast<int>(result.planes.size());
     Plane plane;
     plane.normal = normals_[seed];
-    plane.offset_m = plane.normal.dot((mesh_.Corner(seed, 0) + mesh_.Corner(seed, 1) + mesh_.Corner(seed, 2)) / 3);
+    plane.offset_m =
+        plane.normal.dot((mesh_.Corner(seed, 0) + mesh_.Corner(seed, 1) + mesh_.Corner(seed, 2)) / 3);
     std::vector<size_t> members = Grow(seed, region, true, plane);
     for (const size_t t : members) result.of_triangle[t] = -1;
     members = Grow(seed, region, false, plane);
@@ -228,7 +231,8 @@ PlanarRegions Numbered(const PlanarRegions& regions) {
     numbered.area_m2.push_back(regions.area_m2[r]);
     numbered.material.push_back(regions.material[r]);
   }
-  for (const int r : regions.of_triangle) numbered.of_triangle.push_back(r < 0 ? -1 : number[static_cast<size_t>(r)]);
+  for (const int r : regions.of_triangle)
+    numbered.of_triangle.push_back(r < 0 ? -1 : number[static_cast<size_t>(r)]);
   return numbered;
 }
 
@@ -250,8 +254,9 @@ PlanarRegions GatherSmall(const ScanMesh& mesh, const PlanarRegions& regions, do
     const Eigen::Vector3d& normal = regions.planes[r].normal;
     int axis = 0;
     normal.cwiseAbs().maxCoeff(&axis);
-    const std::array<int, 5> key{static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()),
-                                 2 * axis + (normal[axis] > 0 ? 1 : 0), regions.material[r]};
+    const std::array<int, 5> key{static_cast<int>(cell.x()), static_cast<int>(cell.y()),
+                                 static_cast<int>(cell.z()), 2 * axis + (normal[axis] > 0 ? 1 : 0),
+                                 regions.material[r]};
     into[r] = region_of.try_emplace(key, r).first->second;
     if (into[r] == r) continue;
     gathered.area_m2[into[r]] += regions.area_m2[r];

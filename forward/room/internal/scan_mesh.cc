@@ -60,7 +60,8 @@ std::vector<std::vector<Side>> RimsOf(const ScanMesh& mesh) {
       path.push_back(at->second);
       const int next = at->second.to;
       open.erase(at);
-      const auto loop = std::find_if(path.begin(), path.end(), [&](const Side& side) { return side.from == next; });
+      const auto loop =
+          std::find_if(path.begin(), path.end(), [&](const Side& side) { return side.from == next; });
       if (loop != path.end()) {
         rims.emplace_back(loop, path.end());
         path.erase(loop, path.end());
@@ -94,6 +95,5 @@ ScanMesh MakeScanMesh(const Scene& scene) {
   FindNeighbours(mesh);
   return mesh;
 }
-
 
 }  // namespace luxfit

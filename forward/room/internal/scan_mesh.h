@@ -17,7 +17,8 @@ struct ScanMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from the front
   std::vector<int> material;                  // by triangle
-  std::vector<std::array<int, 3>> across;     // by triangle: the neighbour at side k, corners k and k + 1; -1: none
+  std::vector<std::array<int, 3>>
+      across;  // by triangle: the neighbour at side k, corners k and k + 1; -1: none
 
   const Eigen::Vector3d& Corner(size_t triangle, size_t k) const {
     return vertices[static_cast<size_t>(triangles[triangle][k])];

@@ -10,8 +10,9 @@ namespace luxfit {
 namespace {
 
 constexpr double kMaxSolidAngles = 1e7;  // about half a second: the largest shells come first
-constexpr double kThin = 1e-6;           // volume over area^1.5: a sheet with two sides has none
-constexpr double kNearlyClosed = 0.02;   // sum of area vectors over the area
+constexpr size_t kPlaces = 5;
+constexpr double kThin = 1e-6;          // volume over area^1.5: a sheet with two sides has none
+constexpr double kNearlyClosed = 0.02;  // sum of area vectors over the area
 
 struct Shell {
   std::vector<int> facets;
@@ -65,10 +66,20 @@ std::vector<Shell> ShellsOf(const Scene& scene, const Shells& shells) {
   return result;
 }
 
-// Returns a place just off the shell, within it.
-Eigen::Vector3d PointWithin(const Scene& scene, const Shell& shell) {
-  const Facet& facet = scene.facets[static_cast<size_t>(shell.facets.front())];
+// Returns a place just off one of the shell's facets, within it.
+Eigen::Vector3d PointWithin(const Scene& scene, const Shell& shell, size_t index) {
+  const Facet& facet = scene.facets[static_cast<size_t>(shell.facets[index])];
   return facet.PointAt(0.31, 0.29) - (shell.volume_m3 > 0 ? 1e-3 : -1e-3) * facet.Normal();
+}
+
+// Tells whether the shell is the inside of something. Most of a few places decide: one of them may lie in a solid
+// that stands on the facet.
+bool ShouldBeRoom(const Scene& scene, const Shell& shell) {
+  const size_t places = std::min(kPlaces, shell.facets.size());
+  size_t in_odd = 0;
+  for (size_t k = 0; k < places; ++k)
+    in_odd += IsWithinOdd(scene, shell, PointWithin(scene, shell, k * shell.facets.size() / places)) ? 1 : 0;
+  return 2 * in_odd < places;
 }
 
 bool CanBeJudged(const Shell& shell) {
@@ -85,12 +96,11 @@ std::vector<int> FacetsOfShellsInsideOut(const Scene& scene, const Shells& shell
   std::sort(judged.begin(), judged.end(),
             [](const Shell& a, const Shell& b) { return a.box.volume() > b.box.volume(); });
   const size_t affordable =
-      1 + static_cast<size_t>(kMaxSolidAngles / static_cast<double>(scene.facets.size() + 1));
+      1 + static_cast<size_t>(kMaxSolidAngles / static_cast<double>(kPlaces * (scene.facets.size() + 1)));
   judged.resize(std::min(judged.size(), affordable));
   std::vector<int> inside_out;
   for (const Shell& shell : judged) {
-    const bool should_be_room = !IsWithinOdd(scene, shell, PointWithin(scene, shell));
-    if ((shell.volume_m3 < 0) != should_be_room)
+    if ((shell.volume_m3 < 0) != ShouldBeRoom(scene, shell))
       inside_out.insert(inside_out.end(), shell.facets.begin(), shell.facets.end());
   }
   std::sort(inside_out.begin(), inside_out.end());

@@ -86,6 +86,64 @@ TEST(InitTest, GuessesTheUnit) {
   EXPECT_THAT(folder.Read("mine/session.toml"), HasSubstr("unit = \"mm\""));
 }
 
+support::ProgramRun InitWithoutMesh(const std::string& options, const std::string& out) {
+  return support::RunProgram("init --photos " + kOffice + "/photos " + options + " -o " + out);
+}
+
+TEST(InitTest, TakesThreeLengths) {
+  const TempFolder folder;
+  for (const char* size : {"6 4 2.8", "6x4x2.8"}) {
+    const std::string out = folder.Path(std::string("mine") + size[1]);
+    const support::ProgramRun init =
+        InitWithoutMesh("--tags " + kOffice + "/tags.json --size " + size, "'" + out + "'");
+    ASSERT_EQ(init.status, 0) << init.output;
+    const std::string text = folder.Read(std::string("mine") + size[1] + "/session.toml");
+    EXPECT_THAT(text,
+                AllOf(HasSubstr("\nsize = [6, 4, 2.8]\n"), HasSubstr("# \"wall 1\" = 0.5   # 16.8 m2")));
+    EXPECT_EQ(ReadSession(out + "/session.toml").scene->outline->heights_m, std::vector<double>{2.8});
+  }
+  for (const char* size : {"6 4", "6x4", "6 4 0", "6 4 high", "nan 1 1"}) {
+    const support::ProgramRun init = InitWithoutMesh(std::string("--size ") + size, folder.Path("bad"));
+    EXPECT_EQ(init.status, 2) << size;
+    EXPECT_THAT(init.output, HasSubstr("--size: expected three lengths in m")) << size;
+    EXPECT_FALSE(fs::exists(folder.Path("bad"))) << size;
+  }
+}
+
+TEST(InitTest, GuessesTheRoomFromTags) {
+  const TempFolder folder;
+  const support::ProgramRun init = InitWithoutMesh("--tags " + kOffice + "/tags.json", folder.Path("mine"));
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(init.output, HasSubstr("- [scene]: measure the room; its lengths are a guess"));
+  EXPECT_THAT(folder.Read("mine/session.toml"),
+              HasSubstr("size = [6, 4, 2.5]   # GUESS: as far as 9 tags on walls reach, and a usual height"));
+  // Tags that are surveyed from elsewhere: the room's corner is not the origin.
+  std::string tags = "[";
+  for (int i = 0; i < 4; ++i) {
+    const double x = i == 0 ? 1 : (i == 1 ? 6 : 3), y = i == 2 ? -2 : (i == 3 ? 2 : 0);
+    tags += (i > 0 ? ", " : "") + std::string("{\"id\": ") + std::to_string(i) +
+            ", \"size_m\": 0.2, \"center_m\": [" + std::to_string(x) + ", " + std::to_string(y) +
+            ", 2.7], \"normal\": [" + (i < 2 ? (i == 0 ? "1, 0" : "-1, 0") : (i == 2 ? "0, 1" : "0, -1")) +
+            ", 0], \"up\": [0, 0, 1]}";
+  }
+  folder.Write("tags.json", tags + "]");
+  ASSERT_EQ(InitWithoutMesh("--tags " + folder.Path("tags.json"), folder.Path("other")).status, 0);
+  EXPECT_THAT(folder.Read("other/session.toml"),
+              AllOf(HasSubstr("outline = [[1, -2], [6, -2], [6, 2], [1, 2]]   # GUESS: "),
+                    HasSubstr("height = 2.8   # GUESS: ")));
+  EXPECT_EQ(ReadSession(folder.Path("other/session.toml")).scene->outline->corners_m.size(), 4U);
+}
+
+TEST(InitTest, AsksForThreeLengthsWhereNothingTellsTheRoom) {
+  const TempFolder folder;
+  const support::ProgramRun init = InitWithoutMesh("", folder.Path("mine"));
+  EXPECT_EQ(init.status, 2);
+  EXPECT_THAT(init.output,
+              AllOf(HasSubstr("--size: expected the room's three lengths"),
+                    HasSubstr("type: luxfit init --photos " + kOffice + "/photos --size 6 4 2.8 -o ")));
+  EXPECT_FALSE(fs::exists(folder.Path("mine")));
+}
+
 TEST(DoctorTest, SaysWhatASessionLacks) {
   const support::ProgramRun good = support::RunProgram("doctor " + kOffice + "/session.toml");
   EXPECT_EQ(good.status, 0);

@@ -48,6 +48,22 @@ class InFolder(unittest.TestCase):
         return self.folder / name
 
 
+class RoomWithoutMeshTest(InFolder):
+    def test_three_lengths_are_a_room(self):
+        path = self.write("session.toml", "[scene]\nsize = [300, 200, 250]\nunit = \"cm\"\n")
+        scene = luxfit.read_session(path).scene
+        assert scene and scene["corners_m"] is not None and scene["heights_m"] is not None
+        self.assertIsNone(scene["mesh"])
+        np.testing.assert_allclose(scene["corners_m"], [[0, 0], [3, 0], [3, 2], [0, 2]])
+        np.testing.assert_allclose(scene["heights_m"], [2.5] * 4)
+        room = luxfit.Room(path, patch_size_m=1)
+        self.assertEqual(room.materials, ["floor", "ceiling", "wall 1", "wall 2", "wall 3", "wall 4"])
+        self.assertAlmostEqual(room.patches["area_m2"].sum(), 37)
+        with_mesh = luxfit.read_session(OFFICE).scene
+        assert with_mesh
+        self.assertIsNone(with_mesh["corners_m"])
+
+
 class SessionTest(unittest.TestCase):
     def test_office_as_its_files_say(self):
         session = luxfit.read_session(OFFICE)

@@ -26,6 +26,52 @@ TEST_F(SessionErrorsTest, AMissingSessionOrAFolderIsReported) {
   EXPECT_THAT(ErrorOf(folder_.Path("photos")), HasSubstr("got a folder; name the session file in it"));
 }
 
+TEST_F(SessionErrorsTest, ARoomIsSaidOnce) {
+  const std::string mesh = "mesh = \"room.obj\"";
+  EXPECT_THAT(
+      ErrorAfter(mesh, mesh + "\nsize = [6, 4, 2.8]"),
+      HasSubstr("scene.size: expected one of mesh, size and outline, got mesh and size; remove all but one"));
+  EXPECT_THAT(ErrorAfter(mesh, mesh + "\nheight = 2.8"),
+              HasSubstr("scene.height: expected no height beside mesh, got one; remove it"));
+  EXPECT_THAT(ErrorAfter(mesh, mesh + "\nbox = [{ name = \"a\", min = [0, 0, 0], max = [1, 1, 1] }]"),
+              HasSubstr("scene.box: expected none beside a mesh"));
+}
+
+TEST_F(SessionErrorsTest, RoomsWithoutAMeshAreChecked) {
+  const std::string mesh = "mesh = \"room.obj\"";
+  const auto error_of = [&](const std::string& room) { return ErrorAfter(mesh, room); };
+  EXPECT_EQ(error_of("size = [600, 400, 280]"), "");
+  EXPECT_THAT(error_of("size = [600, 400]"),
+              Holds("session.toml:4: scene.size: expected the room's three lengths", "write three numbers"));
+  EXPECT_THAT(error_of("size = [600, 400, 0]"), HasSubstr("scene.size: expected three lengths > 0, got "));
+  EXPECT_THAT(error_of("outline = [[0, 0], [600, 0], [600, 400]]"),
+              HasSubstr("scene.height: expected the height of the ceiling (a number, or one for each "
+                        "corner), got nothing"));
+  const std::string height = "\nheight = 280";
+  EXPECT_THAT(error_of("outline = [[0, 0], [600, 0]]" + height),
+              Holds("session.toml:4: scene.outline: expected 3 to 128 corners, got 2"));
+  EXPECT_THAT(error_of("outline = [[0, 0], [600, 0, 0], [600, 400]]" + height),
+              HasSubstr("scene.outline[1]: expected a corner [x, y]"));
+  EXPECT_THAT(
+      error_of("outline = [[0, 0], [600, 400], [600, 0], [0, 400]]" + height),
+      HasSubstr("scene.outline: expected walls that do not cross, got wall 1 (corners 1, 2) across wall 3"));
+  EXPECT_THAT(error_of("outline = [[0, 0], [0, 0], [600, 0], [0, 400]]" + height),
+              HasSubstr("scene.outline: expected walls of 1 mm and more"));
+  EXPECT_THAT(error_of("outline = [[0, 0], [600, 0], [600, 400]]\nheight = [280, 280]"),
+              HasSubstr("scene.height: expected one height, or one for each of the 3 corners, got 2"));
+  EXPECT_THAT(
+      error_of("size = [600, 400, 280]\nbox = [{ name = \"a\", min = [0, 0, 0], max = [700, 1, 1] }]"),
+      HasSubstr("scene.box[0]: expected a box inside the room, got (0, 0, 0) to (7, 0.01, 0.01) m"));
+  EXPECT_THAT(error_of("size = [600, 400, 280]\nbox = [{ name = \"a\", min = [0, 0, 0] }]"),
+              HasSubstr("scene.box[0].max: expected the highest corner [x, y, z], got nothing"));
+  EXPECT_THAT(error_of("size = [600, 400, 280]\n"
+                       "opening = [{ name = \"door\", wall = 5, from = 0, to = 90, high = 200 }]"),
+              HasSubstr("scene.opening[0]: expected a wall from 1 to 4, got 5"));
+  EXPECT_THAT(error_of("size = [600, 400, 280]\n"
+                       "opening = [{ name = \"door\", wal = 1, from = 0, to = 90, high = 200 }]"),
+              HasSubstr("did you mean \"wall\"?"));
+}
+
 TEST_F(SessionErrorsTest, BrokenTomlNamesTheLine) {
   EXPECT_THAT(ErrorAfter("unit = \"cm\"", "unit = cm"),
               Holds(At("unit"), "expected valid TOML", "fix this line"));
@@ -230,9 +276,9 @@ TEST_F(SessionErrorsTest, SceneTagsAndCamerasAreChecked) {
   EXPECT_THAT(ErrorAfter("[0.7, 0.6, 0.5]", "[0.7, 0.6]"),
               HasSubstr("scene.albedo.wall: expected a reflectance"));
   EXPECT_THAT(ErrorAfter("tag36h11", "tag36h12"), HasSubstr("did you mean \"tag36h11\"?"));
-  EXPECT_THAT(ErrorAfter("mesh = \"room.obj\"\n", ""),
-              HasSubstr("scene.mesh: expected a mesh file (OBJ, PLY, glTF), got "
-                        "nothing; add mesh = ..."));
+  EXPECT_THAT(
+      ErrorAfter("mesh = \"room.obj\"\n", ""),
+      HasSubstr("scene.mesh: expected what the room is: mesh, size or outline, got none; add size = "));
   EXPECT_THAT(ErrorAfter("black_level = 64", "black_level = -1"),
               HasSubstr("camera[0].black_level: expected >= 0, got -1"));
   EXPECT_THAT(ErrorAfter("[photos]", "[[camera]]\nid = \"cam0\"\nintrinsics = \"cam0.yaml\"\n[photos]"),

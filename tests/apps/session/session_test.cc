@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/session/session_scene.h"
 #include "tests/paths.h"
 #include "tests/support/apps/tiny_session.h"
 
@@ -192,6 +193,40 @@ TEST_F(SessionTest, ByteOrderMarksAndCrlfAreTolerated) {
   }
   EXPECT_EQ(Error(), "");
   EXPECT_EQ(Read().photos[0].state, "Z");
+}
+
+TEST_F(SessionTest, ARoomIsReadWithoutAMesh) {
+  const std::string mesh = "mesh = \"room.obj\"\n";
+  folder_.Replace("session.toml", mesh, "size = [600, 400, 280]\n");
+  const Session by_size = Read();
+  EXPECT_EQ(by_size.scene->mesh, "");
+  EXPECT_NEAR(SceneOf(*by_size.scene).VolumeM3(), 67.2, 1e-9) << "in centimetres";
+  EXPECT_EQ(std::count(by_size.input_files.begin(), by_size.input_files.end(), ""), 0);
+  folder_.Replace("session.toml", "size = [600, 400, 280]\n",
+                  "outline = [[0, 0], [600, 0], [600, 400], [0, 400]]\nheight = [200, 300, 300, 200]\n");
+  folder_.Replace("session.toml", "[tags]", R"([[scene.box]]
+name = "cabinet"
+min = [100, 100, 0]
+max = [200, 150, 200]
+turn_deg = 90
+
+[[scene.opening]]
+name = "door"
+wall = 2
+from = 50
+to = 140
+high = 210
+
+[tags])");
+  const Session session = Read();
+  const RoomOutline& outline = *session.scene->outline;
+  EXPECT_NEAR(outline.boxes.at(0).turn_rad, 1.5707963267948966, 1e-12);
+  EXPECT_EQ(outline.rectangles.at(0).wall, 1);
+  EXPECT_EQ(outline.rectangles.at(0).low_m, 0);
+  EXPECT_EQ(outline.rectangles.at(0).high_m, 2.1);
+  EXPECT_NEAR(SceneOf(*session.scene).VolumeM3(), 6 * 4 * 2.5 - 1, 1e-9);
+  EXPECT_EQ(SceneOf(*session.scene).materials.back(), "cabinet");
+  EXPECT_EQ(session.scene->known_albedo_rgb.count("floor"), 1U);
 }
 
 TEST(SessionFixture, OfficeIsRead) {

@@ -28,10 +28,11 @@ TEST(ScannedOffice, LuminairesAreFound) {
   const TempFolder folder;
   std::filesystem::copy(fixture, folder.Path("office"), std::filesystem::copy_options::recursive);
   std::mt19937_64 rng(1);
-  support::WriteTriangles(support::ScanOf(ReadScene(fixture + "/room.obj"), {}, rng), folder.Path("office/scan.obj"));
+  support::WriteTriangles(support::ScanOf(ReadScene(fixture + "/room.obj"), {}, rng),
+                          folder.Path("office/scan.obj"));
   folder.Replace("office/session.toml", "room.obj", "scan.obj");
-  const support::ProgramRun run =
-      support::RunProgram("run " + folder.Path("office/session.toml") + " --budget 900 -o " + folder.Path("out"));
+  const support::ProgramRun run = support::RunProgram("run " + folder.Path("office/session.toml") +
+                                                      " --budget 900 -o " + folder.Path("out"));
   ASSERT_EQ(run.status, 0) << run.output;
   const json result = json::parse(folder.Read("out/result.json"));
   EXPECT_EQ(result["status"], "done");

@@ -120,6 +120,29 @@ TEST_F(Simulate, WritesIlluminanceOfEveryReading) {
   EXPECT_GT(lux[1], lux[0] / 2);
 }
 
+TEST_F(Simulate, ThreeLengthsGiveTheLightOfTheirMesh) {
+  const auto predicted_lx = [&](const std::string& room) {
+    folder_.Write("session.toml", kSession);
+    folder_.Replace("session.toml", "mesh = \"room.obj\"", room);
+    folder_.Replace("session.toml", "wall = 0.5",
+                    "ceiling = 0.8\n\"wall 1\" = 0.5\n\"wall 2\" = 0.4\n\"wall 3\" = 0.5\n\"wall 4\" = 0.6");
+    const support::ProgramRun run = Run();
+    EXPECT_EQ(run.status, 0) << run.output;
+    std::vector<double> lx;
+    const nlohmann::json artifact = Artifact();
+    for (const nlohmann::json& reading : artifact["luxmeter"]) lx.push_back(reading.at("predicted_lx"));
+    return lx;
+  };
+  folder_.Write("room.obj",
+                "v 0 0 0\nv 3 0 0\nv 3 2 0\nv 0 2 0\nv 0 0 2\nv 3 0 2\nv 3 2 2\nv 0 2 2\n"
+                "usemtl floor\nf 1 2 3 4\nusemtl ceiling\nf 8 7 6 5\nusemtl wall 1\nf 5 6 2 1\n"
+                "usemtl wall 2\nf 6 7 3 2\nusemtl wall 3\nf 7 8 4 3\nusemtl wall 4\nf 8 5 1 4\n");
+  const std::vector<double> by_mesh = predicted_lx("mesh = \"room.obj\""),
+                            by_size = predicted_lx("size = [300, 200, 200]\nunit = \"cm\"");
+  ASSERT_EQ(by_size.size(), 3U);
+  for (size_t i = 0; i < by_size.size(); ++i) EXPECT_NEAR(by_size[i], by_mesh[i], 1e-6);
+}
+
 TEST_F(Simulate, ComparesNothingWithPlacesThatNobodyMeasured) {
   folder_.Replace("luxmeter.csv", "both,150", "both,");
   const support::ProgramRun run = Run();

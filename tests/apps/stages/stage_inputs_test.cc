@@ -39,6 +39,22 @@ TEST_F(StageInputsTest, NothingChangedIsNothing) {
   EXPECT_THAT(ChangedInputs(before_.result, now.result), IsEmpty());
 }
 
+TEST_F(StageInputsTest, AnOutlineTouchesRegistrationAndWhatFollows) {
+  folder_.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
+  const SessionInputs by_size = Now();
+  EXPECT_THAT(ChangedInputs(before_.linearize, by_size.linearize), IsEmpty());
+  EXPECT_THAT(ChangedInputs(before_.registration, by_size.registration),
+              ElementsAre("[scene]", "mesh room.obj"));
+  folder_.Replace("office/session.toml", "size = [6, 4, 2.8]", "size = [6, 4, 2.9]");
+  EXPECT_THAT(ChangedInputs(by_size.registration, Now().registration), ElementsAre("[scene]"));
+  EXPECT_THAT(ChangedInputs(by_size.result, Now().result), ElementsAre("[scene]"));
+  folder_.Replace("office/session.toml", "size = [6, 4, 2.9]", "size = [6, 4, 2.8]  # measured");
+  EXPECT_THAT(ChangedInputs(by_size.result, Now().result), IsEmpty());
+  folder_.Replace("office/session.toml", "[tags]",
+                  "[[scene.box]]\nname = \"a\"\nmin = [1, 1, 0]\nmax = [2, 2, 1]\n[tags]");
+  EXPECT_THAT(ChangedInputs(by_size.result, Now().result), ElementsAre("[scene]"));
+}
+
 TEST_F(StageInputsTest, AReadingTouchesTheFitAlone) {
   folder_.Replace("office/luxmeter.csv", "341.73", "342");
   const SessionInputs now = Now();

@@ -2,13 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/session/session_scene.h"
 #include "apps/stages/stages.h"
+#include "tests/paths.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -24,13 +28,20 @@ constexpr char kVertices[] =
 constexpr char kFloor[] = "f 1 2 3 4\n", kCeiling[] = "f 5 8 7 6\n";
 constexpr char kWalls[] = "f 1 4 8 5\nf 2 6 7 3\nf 1 5 6 2\nf 4 3 7 8\n";
 
+SessionScene MeshScene(const std::string& path, double metres_per_unit = 1) {
+  SessionScene scene;
+  scene.mesh = path;
+  scene.metres_per_unit = metres_per_unit;
+  return scene;
+}
+
 class StageRoomTest : public testing::Test {
  protected:
   std::vector<Warning> WarningsOf(const std::string& faces, double metres_per_unit = 1) {
     folder_.Write("room.obj", kVertices + faces);
     Session session;
     session.path = "session.toml";
-    session.scene = SessionScene{folder_.Path("room.obj"), metres_per_unit, "m", {}};
+    session.scene = MeshScene(folder_.Path("room.obj"), metres_per_unit);
     RunContext context;
     LoadRoom(session, context);
     return context.warnings;
@@ -76,6 +87,45 @@ TEST_F(StageRoomTest, AMeshInMillimetresReadAsMetresIsRefused) {
     EXPECT_THAT(error.what(), HasSubstr("session.toml: scene.unit: expected a room"));
     EXPECT_THAT(error.what(), HasSubstr("2000 m x 2000 m x 2000 m"));
   }
+}
+
+// Returns what is said of the office's tags beside that room of theirs; empty where they fit.
+std::string ComplaintOf(const std::string& office, const SessionScene& room) {
+  Session session = ReadSession(office + "/session.toml");
+  session.path = "session.toml";
+  session.scene = room;
+  return SurveyComplaint(session, SceneOf(*session.scene));
+}
+
+TEST_F(StageRoomTest, AMeshWithYUpIsNamed) {
+  const std::string office = std::string(LUXFIT_FIXTURES) + "/office";
+  std::ifstream mesh(office + "/room.obj");
+  std::ostringstream turned;
+  for (std::string line; std::getline(mesh, line);) {
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3) {
+      turned << "v " << x << " " << z << " " << -y << "\n";
+    } else {
+      turned << line << "\n";
+    }
+  }
+  folder_.Write("y_up.obj", turned.str());
+  EXPECT_EQ(ComplaintOf(office, MeshScene(office + "/room.obj")), "");
+  EXPECT_THAT(ComplaintOf(office, MeshScene(folder_.Path("y_up.obj"))),
+              testing::AllOf(
+                  HasSubstr("session.toml: scene.unit: expected the surveyed tags to lie on the mesh"),
+                  HasSubstr("the tags lie on it where the mesh's y axis is up: export the mesh with z up")));
+}
+
+TEST_F(StageRoomTest, ARoomOfOtherLengthsIsNamed) {
+  const std::string office = std::string(LUXFIT_FIXTURES) + "/office";
+  SessionScene room;
+  room.outline = OutlineOfBox({6, 4, 2.8});
+  EXPECT_EQ(ComplaintOf(office, room), "");
+  room.outline = OutlineOfBox({5, 5, 2.8});
+  EXPECT_THAT(ComplaintOf(office, room),
+              testing::AllOf(HasSubstr("session.toml: scene.outline: expected the surveyed tags"),
+                             HasSubstr("measure the room's lengths again")));
 }
 
 // Its area is small, but a triangle is cut as finely across as along: more elements than memory holds.

@@ -62,7 +62,8 @@ TEST(ScannedRoom, TrianglesOfOnePlaneAreMergedForAnAccuracy) {
   const AccurateSceneLight got = ChooseAccuracy(tiled, accuracy);
   const AccurateSceneLight right = ChooseAccuracy(truth, accuracy);
   EXPECT_EQ(got.light.room.scene.facets.size(), 12U);
-  EXPECT_LT(RelativeRmsPercent(got.light.light.total.cast<double>(), right.light.light.total.cast<double>()), 1);
+  EXPECT_LT(RelativeRmsPercent(got.light.light.total.cast<double>(), right.light.light.total.cast<double>()),
+            1);
 }
 
 }  // namespace

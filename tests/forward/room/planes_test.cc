@@ -23,7 +23,8 @@ const Vector3d kRoom(5, 4, 2.5);
 
 Scene Furnished() {
   Scene scene = support::ClosedRoom(kRoom);
-  support::AddBox(scene, {Vector3d(1, 1, 0.7), Vector3d(2.6, 1.8, 0.74)}, support::Facing::kOutward, {"desk"});
+  support::AddBox(scene, {Vector3d(1, 1, 0.7), Vector3d(2.6, 1.8, 0.74)}, support::Facing::kOutward,
+                  {"desk"});
   return scene;
 }
 
@@ -56,7 +57,8 @@ void ExpectShell(const Scene& scene, double within_m, double within_rad) {
         return f.AreaM2() > 5 && std::acos(std::min(1.0, f.Normal().dot(inward))) < within_rad &&
                std::abs(f.PointAt(0.5, 0.5)[axis] - at) < within_m;
       };
-      EXPECT_EQ(std::count_if(scene.facets.begin(), scene.facets.end(), fits), 1) << "axis " << axis << " at " << at;
+      EXPECT_EQ(std::count_if(scene.facets.begin(), scene.facets.end(), fits), 1)
+          << "axis " << axis << " at " << at;
     }
   }
 }
@@ -113,7 +115,8 @@ TEST(LayOnPlanes, HitsHaveThePlaceOnTheirFacet) {
     hits.push_back(rays.Trace(from, direction));
     ASSERT_GE(hits.back().facet, 0);
     const Facet& facet = scene.facets[static_cast<size_t>(hits.back().facet)];
-    EXPECT_LT((facet.PointAt(hits.back().u, hits.back().v) - from - hits.back().distance * direction).norm(), 1e-5);
+    EXPECT_LT((facet.PointAt(hits.back().u, hits.back().v) - from - hits.back().distance * direction).norm(),
+              1e-5);
     packet.Add(from.cast<float>(), direction.cast<float>());
   }
   const PacketHits together = rays.Trace(packet);

@@ -49,6 +49,22 @@ TEST(CheckSurvey, AMeshInAnotherUnitIsRecognised) {
             "m");  // metres declared as centimetres
 }
 
+TEST(CheckSurvey, AMeshWithYUpIsRecognised) {
+  Scene y_up = RoomReadAs(1, 1);
+  const auto turned = [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.z(), -p.y()); };
+  for (Facet& facet : y_up.facets) {
+    facet.origin = turned(facet.origin);
+    facet.edge_u = turned(facet.edge_u);
+    facet.edge_v = turned(facet.edge_v);
+  }
+  const SurveyCheck check = CheckSurvey(y_up, kTags, 1);
+  EXPECT_FALSE(check.fits);
+  EXPECT_TRUE(check.fits_y_up);
+  EXPECT_EQ(check.better_unit, "");
+  EXPECT_FALSE(CheckSurvey(RoomReadAs(1, 1), kTags, 1).fits_y_up);
+  EXPECT_FALSE(CheckSurvey(RoomReadAs(0.01, 1), kTags, 1).fits_y_up) << "the unit explains it";
+}
+
 TEST(CheckSurvey, WithoutTagsThereIsNothingToCheck) {
   EXPECT_TRUE(CheckSurvey(RoomReadAs(1, 1), {}, 1).fits);
 }

@@ -24,7 +24,8 @@ namespace luxfit::support {
 struct ScanOptions {
   double edge_m = 0.09;
   double bump_m = 0.005, jitter_m = 0.002;  // 1 sigma, each axis
-  double bump_number_per_m = 9;             // wave numbers, 1 sigma: bumps are alike over 0.1 m, as in depth cameras' scans
+  double bump_number_per_m =
+      9;  // wave numbers, 1 sigma: bumps are alike over 0.1 m, as in depth cameras' scans
   double hole_share = 0.03, hole_radius_m = 0.25;
 };
 
@@ -48,9 +49,11 @@ class Warp {
   Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
     Eigen::Vector3d moved = p;
     for (const Wave& wave : waves_)
-      moved += options_.bump_m * std::sqrt(2.0 / waves_.size()) * std::sin(wave.number.dot(p) + wave.phase) * wave.along;
+      moved += options_.bump_m * std::sqrt(2.0 / waves_.size()) * std::sin(wave.number.dot(p) + wave.phase) *
+               wave.along;
     uint64_t place = 0;
-    for (int axis = 0; axis < 3; ++axis) place = Mix(place + static_cast<uint64_t>(std::lround(1e4 * p[axis]) + 1000000));
+    for (int axis = 0; axis < 3; ++axis)
+      place = Mix(place + static_cast<uint64_t>(std::lround(1e4 * p[axis]) + 1000000));
     for (int axis = 0; axis < 3; ++axis) {
       // The sum of twelve uniform numbers is nearly normal.
       double sum = -6;
@@ -96,16 +99,14 @@ inline Scene ScanOf(const Scene& scene, const ScanOptions& options, std::mt19937
   scan.materials = {kDefaultMaterial};
   const scan::Warp warp(options, rng);
   for (const Facet& facet : scene.facets) scan::AddFacet(facet, warp, options.edge_m, scan);
-  const auto least =
-      static_cast<size_t>((1 - options.hole_share) * static_cast<double>(scan.facets.size()));
+  const auto least = static_cast<size_t>((1 - options.hole_share) * static_cast<double>(scan.facets.size()));
   std::uniform_int_distribution<size_t> any(0, scan.facets.size() - 1);
   while (scan.facets.size() > least) {
     const Eigen::Vector3d center = scan.facets[any(rng) % scan.facets.size()].origin;
-    scan.facets.erase(std::remove_if(scan.facets.begin(), scan.facets.end(),
-                                     [&](const Facet& f) {
-                                       return (f.origin - center).norm() < options.hole_radius_m;
-                                     }),
-                      scan.facets.end());
+    scan.facets.erase(
+        std::remove_if(scan.facets.begin(), scan.facets.end(),
+                       [&](const Facet& f) { return (f.origin - center).norm() < options.hole_radius_m; }),
+        scan.facets.end());
   }
   return scan;
 }
