@@ -18,6 +18,7 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/planes.h"
 #include "forward/room/ray_shares.h"
 
 namespace luxfit {
@@ -30,6 +31,8 @@ struct ExaminedRoom {
   Scene scene;           // facets drawn on one another are cut
   std::vector<double> material_area_m2;
   std::optional<double> volume_m3;  // absent where the surfaces enclose none
+  int facets = 0;                   // as given
+  bool is_on_planes = false;        // a scan
   std::vector<DoctorFinding> findings;
 };
 
@@ -43,7 +46,11 @@ double MetresPerUnitNamed(const std::string& unit) {
 
 void AddFindings(const Scene& given, ExaminedRoom& room) {
   bool encloses = true;
-  for (const MeshFinding& finding : WithRayShares(CheckMesh(given), EstimateRayShares(room.scene))) {
+  Scene surface = room.scene;
+  surface.facets = SurfaceFacets(room.scene);
+  surface.surface.clear();
+  for (const MeshFinding& finding :
+       JudgedByRays(CheckMesh(given), room.is_on_planes, EstimateRayShares(surface))) {
     const bool is_black =
         finding.defect == MeshDefect::kFlippedFacets || finding.defect == MeshDefect::kInsideOut;
     const bool is_open = finding.defect == MeshDefect::kOpenMesh && finding.affects_light;
@@ -53,8 +60,17 @@ void AddFindings(const Scene& given, ExaminedRoom& room) {
           {is_black ? Health::kBad : Health::kNote, finding.message + "; " + finding.effect, finding.remedy});
   }
   if (!encloses) return;
-  room.volume_m3 = room.scene.VolumeM3();
+  room.volume_m3 = surface.VolumeM3();
   room.findings.insert(room.findings.begin(), {Health::kGood, "the surfaces close and face the room", ""});
+}
+
+// Makes the scene as `run` does.
+void Layout(const Scene& given, ExaminedRoom& room) {
+  room.facets = static_cast<int>(given.facets.size());
+  room.is_on_planes = IsFinerThanPatches(given, {});
+  PlanesOptions options;
+  options.name_materials = true;
+  room.scene = room.is_on_planes ? LayOnPlanes(given, options).scene : WithoutOverlaps(given);
 }
 
 ExaminedRoom Examine(const RoomCommandOptions& options) {
@@ -75,7 +91,7 @@ ExaminedRoom Examine(const RoomCommandOptions& options) {
     room.is = options.file;
     given = ReadScene(options.file, MetresPerUnitNamed(options.unit));
   }
-  room.scene = WithoutOverlaps(given);
+  Layout(given, room);
   room.material_area_m2.assign(room.scene.materials.size(), 0);
   for (const Facet& facet : room.scene.facets)
     room.material_area_m2[static_cast<size_t>(facet.material)] += facet.AreaM2();
@@ -90,9 +106,11 @@ const char* NameOf(Health health) {
 
 std::string TextOf(const ExaminedRoom& room) {
   const Eigen::Vector3d size = room.scene.Bounds().sizes();
-  std::string text =
-      fmt::format("{}: {:.2f} x {:.2f} x {:.2f} m, {} facets, {} materials; {}\n", room.name, size.x(),
-                  size.y(), size.z(), room.scene.facets.size(), room.scene.materials.size(), room.is);
+  std::string text = fmt::format(
+      "{}: {:.2f} x {:.2f} x {:.2f} m, {} facets{}, {} materials; {}\n", room.name, size.x(), size.y(),
+      size.z(), room.is_on_planes ? room.facets : static_cast<int>(room.scene.facets.size()),
+      room.is_on_planes ? fmt::format(" on {} planes", room.scene.facets.size()) : "",
+      room.scene.materials.size(), room.is);
   text += room.volume_m3 ? fmt::format("volume {:.2f} m3\n", *room.volume_m3)
                          : "volume -: the surfaces do not enclose it\n";
   size_t width = 0;

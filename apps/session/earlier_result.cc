@@ -23,7 +23,9 @@ void Replace(SessionLuminaire& luminaire, const json& fitted, FluxUnit unit, con
   if (!flux.is_number())
     throw InputError({path, 0}, "luminaires",
                      "expected fluxes in lm, but that of " + Quoted(luminaire.id) +
-                         " is relative; run the fit with a luxmeter reading that sets the scale");
+                         (fitted.contains("flux_relative")
+                              ? " is relative; run the fit with a luxmeter reading that sets the scale"
+                              : " is not determined; the result's warnings say what the data lack"));
   luminaire.line = std::max(luminaire.line, 1);  // > 0: the luminaire is described now
   luminaire.position_m = VectorFrom(fitted.at("position_m"));
   luminaire.aim = VectorFrom(fitted.at("aim"));

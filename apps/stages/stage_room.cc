@@ -109,9 +109,9 @@ LoadedMesh LoadMesh(const Session& session) {
   return mesh;
 }
 
-void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context) {
-  RayShares shares = RaySharesOf(room.form_factors);
-  if (room.on_planes) {
+std::vector<MeshFinding> JudgedByRays(std::vector<MeshFinding> findings, bool is_on_planes,
+                                      RayShares shares) {
+  if (is_on_planes) {
     // Holes were closed. What slits are left loses less light than the surface errs.
     constexpr double kSlitsShare = 0.01;
     findings.erase(std::remove_if(findings.begin(), findings.end(),
@@ -119,7 +119,12 @@ void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext&
                    findings.end());
     if (shares.escaped < kSlitsShare) shares.escaped = 0;
   }
-  for (const MeshFinding& finding : WithRayShares(std::move(findings), shares)) {
+  return WithRayShares(std::move(findings), shares);
+}
+
+void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context) {
+  const RayShares shares = RaySharesOf(room.form_factors);
+  for (const MeshFinding& finding : JudgedByRays(std::move(findings), room.on_planes.has_value(), shares)) {
     if (finding.affects_light || finding.defect == MeshDefect::kFacetsDropped)
       context.warnings.push_back(
           {ToString(finding.defect), finding.message + "; " + finding.effect, finding.remedy});

@@ -32,10 +32,10 @@ class SparseTransport;
 
 struct RoomOptions {
   PatchesOptions patches;
-  std::optional<PlanesOptions> planes;  // lays a mesh that is finer than patches onto planes; nothing: never
   FormFactorOptions form_factors;
   double max_matrix_bytes =
       4e9;  // bytes of form factors and coupling; beyond it, only pairs that rays find are kept
+  std::optional<PlanesOptions> planes = std::nullopt;  // lays a mesh that is finer than patches onto planes
 };
 
 struct Room {

@@ -1,5 +1,6 @@
 #include "apps/commands/internal/room_run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -85,6 +86,10 @@ std::map<std::string, double> LastTimes(const std::string& out) {
   return times_s;
 }
 
+bool HasFlux(const json& luminaire) {
+  return luminaire.at("flux_lm").is_number() || luminaire.contains("flux_relative");
+}
+
 // Writes the report page. Returns the seconds that it took.
 double MakeReport(const RunContext& context, const std::function<FittedRoom()>& fitted_room) {
   RunContext own;
@@ -117,9 +122,11 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
     PrintText(options.json ? JsonText(PlanJson(plan)) : PlanText(plan));
     return 0;
   }
-  // A fit without luminaires has no report, and its warnings say why.
+  // A fit without luminaires, or with some of unknown flux, has no report, and its warnings say why.
   const auto has_report = [&](const json& result) {
-    return what == RoomRun::kAll && !result.at("luminaires").empty();
+    const json& luminaires = result.at("luminaires");
+    return what == RoomRun::kAll && !luminaires.empty() &&
+           std::all_of(luminaires.begin(), luminaires.end(), HasFlux);
   };
   if (plan.is_up_to_date && !options.fresh) {
     std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",

@@ -4,10 +4,13 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
 #include "tests/paths.h"
 #include "tests/support/apps/program.h"
+#include "tests/support/forward/scan_of.h"
+#include "tests/support/scenes.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -113,6 +116,16 @@ TEST_F(RoomCommandTest, BadInputWritesNothing) {
     EXPECT_FALSE(fs::exists(folder_.Path(out)));
   }
   EXPECT_THAT(Run(kOffice + "/room.obj", "--unit yd").output, HasSubstr("--unit: expected"));
+}
+
+TEST_F(RoomCommandTest, AScanIsLaidOntoPlanes) {
+  std::mt19937_64 rng(3);
+  support::WriteTriangles(support::ScanOf(support::ClosedRoom({4, 3, 2.5}), {}, rng),
+                          folder_.Path("scan.obj"));
+  const support::ProgramRun run = support::RunProgram("room " + folder_.Path("scan.obj"));
+  EXPECT_EQ(run.status, 0) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("facets on "), HasSubstr("planes"), HasSubstr("wall 4"),
+                                HasSubstr("ceiling"), HasSubstr("the surfaces close and face the room")));
 }
 
 }  // namespace
