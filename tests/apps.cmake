@@ -40,7 +40,7 @@ luxfit_test(apps/stages albedo_office_test SLOW LINK nlohmann_json::nlohmann_jso
 add_dependencies(apps_albedo_office_test luxfit)
 luxfit_test(apps/commands board_command_test LINK luxfit_apps)
 add_dependencies(apps_board_command_test luxfit)
-luxfit_test(apps/commands room_command_test LINK nlohmann_json::nlohmann_json)
+luxfit_test(apps/commands room_command_test LINK luxfit::forward nlohmann_json::nlohmann_json)
 add_dependencies(apps_room_command_test luxfit)
 luxfit_test(apps/commands first_commands_test LINK luxfit_apps)
 add_dependencies(apps_first_commands_test luxfit)

@@ -8,6 +8,7 @@
 
 #include "apps/session/earlier_result.h"
 #include "apps/stages/register/registration_json.h"
+#include "apps/stages/session_check.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
@@ -112,6 +113,7 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
                     Room room) {
   RunContext context;
   context.is_quiet = true;
+  session = OnSurfaceOf(room, std::move(session));
   std::vector<Luminaire> luminaires = GivenLuminaires(session, "report", context);
   Eigen::VectorXd albedo = AlbedoOf(result, room.scene);
   PlaceLight light = LightOfElements(room, luminaires, albedo, BodiesOf(result));

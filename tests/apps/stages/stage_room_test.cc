@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -11,8 +12,11 @@
 #include <vector>
 
 #include "apps/session/session_scene.h"
+#include "apps/stages/session_check.h"
 #include "apps/stages/stages.h"
 #include "tests/paths.h"
+#include "tests/support/forward/scan_of.h"
+#include "tests/support/scenes.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -155,7 +159,8 @@ TEST_F(StageRoomTest, ACrowdOfTrianglesBecomesSomePlanes) {
   folder_.Write("room.obj", crowd.str());
   Session session;
   session.path = "session.toml";
-  session.scene = SessionScene{folder_.Path("room.obj"), 1, "m", {}};
+  session.scene = SessionScene{};
+  session.scene->mesh = folder_.Path("room.obj");
   RunContext context;
   const Room room = LoadRoom(session, context);
   ASSERT_TRUE(room.on_planes);
@@ -165,6 +170,34 @@ TEST_F(StageRoomTest, ACrowdOfTrianglesBecomesSomePlanes) {
   for (const Element& element : room.patches.elements)
     up_m2 += element.normal.z() > 0.9 && element.center.z() > 0.5 ? element.area_m2 : 0;
   EXPECT_NEAR(up_m2, kTriangles * 12.5e-6, 0.05 * kTriangles * 12.5e-6);
+}
+
+// A scan errs by 5 mm: what lies a little behind its floor lies on it, and what is far behind is left to be named.
+TEST_F(StageRoomTest, PlacesALittleBehindAScanAreOnIt) {
+  std::mt19937_64 rng(3);
+  support::ScanOptions scan;
+  scan.hole_share = 0;
+  support::WriteTriangles(support::ScanOf(support::ClosedRoom({4, 3, 2.5}), scan, rng),
+                          folder_.Path("scan.obj"));
+  Session session;
+  session.path = "session.toml";
+  session.scene = SessionScene{};
+  session.scene->mesh = folder_.Path("scan.obj");
+  session.luxmeter.readings.resize(3);
+  const double heights_m[] = {-0.008, 0.3, -0.1};
+  for (size_t i = 0; i < 3; ++i) {
+    session.luxmeter.readings[i].position_m = {2, 1.5, heights_m[i]};
+    session.luxmeter.readings[i].normal = {0, 0, 1};
+  }
+  RunContext context;
+  const Room room = LoadRoom(session, context);
+  ASSERT_TRUE(room.on_planes);
+  EXPECT_NEAR(room.on_planes->rms_m, 0.0055, 0.001);
+  const Session placed = OnSurfaceOf(room, session);
+  EXPECT_NEAR(placed.luxmeter.readings[0].position_m.z(), 0, 0.003);
+  EXPECT_EQ(FindReadingsOutside(placed, room.rays).warnings.size(), 1U);  // of the third
+  EXPECT_EQ(placed.luxmeter.readings[1].position_m.z(), 0.3);
+  EXPECT_EQ(placed.luxmeter.readings[2].position_m.z(), -0.1);
 }
 
 }  // namespace

@@ -166,26 +166,49 @@ TEST(ChooseAccuracy, AHundredOfManySensorsChoose) {
 }
 
 // Triangles are cut alike in both directions, so that long ones have many narrow pieces: larger patches come first.
-TEST(ChooseAccuracy, LongTrianglesStartWithLargerPatches) {
-  LitScene lit = Furnished();
+Scene OfLongTriangles(double twist_m) {
   Scene scene;
   for (const Facet& facet : support::ClosedRoom({4, 3, 2.7}).facets) {
     constexpr int kStrips = 12;
-    const Eigen::Vector3d strip = facet.edge_u / kStrips, far = facet.origin + facet.edge_v;
+    // Corners of strip i, at one edge of the facet and at the other, which twists apart the two triangles between.
+    const auto at = [&](int i, double v) {
+      const double inward_m = i % kStrips == 0 || (i % 2 == 0) == (v == 0) ? 0 : twist_m;
+      return Eigen::Vector3d(facet.PointAt(static_cast<double>(i) / kStrips, v) + inward_m * facet.Normal());
+    };
     for (int i = 0; i < kStrips; ++i) {
-      support::AddTriangle(scene, facet.origin + i * strip, strip, facet.edge_v, "wall");
-      support::AddTriangle(scene, far + (i + 1) * strip, -strip, -facet.edge_v, "wall");
+      const Eigen::Vector3d near = at(i, 0), next = at(i + 1, 0), far = at(i, 1), corner = at(i + 1, 1);
+      support::AddTriangle(scene, near, next - near, far - near, "wall");
+      support::AddTriangle(scene, corner, far - corner, next - corner, "wall");
     }
   }
-  lit.scene = scene;
+  return scene;
+}
+
+constexpr double kSmallMatrixBytes = 4e7;
+
+AccuracyChoice ChoiceOfLongTriangles(double twist_m) {
+  LitScene lit = Furnished();
+  lit.scene = OfLongTriangles(twist_m);
   lit.albedo_rgb = Eigen::Matrix3Xd::Constant(3, 1, 0.5);
   AccuracyOptions options;
   options.error_percent = 5;
-  options.max_matrix_bytes = 1e8;
-  const AccuracyChoice choice = ChooseAccuracy(lit, options).choice;
-  EXPECT_GT(choice.tried.front().patch_size_m, options.coarsest_patch_m);
+  options.max_matrix_bytes = kSmallMatrixBytes;
+  return ChooseAccuracy(lit, options).choice;
+}
+
+TEST(ChooseAccuracy, LongTrianglesStartWithLargerPatches) {
+  const AccuracyChoice choice = ChoiceOfLongTriangles(0.05);
+  EXPECT_GT(choice.tried.front().patch_size_m, AccuracyOptions{}.coarsest_patch_m);
   EXPECT_LE(8.0 * choice.tried.front().patches * choice.tried.front().elements * sizeof(float),
-            options.max_matrix_bytes);
+            kSmallMatrixBytes);
+  EXPECT_TRUE(choice.reached);
+}
+
+// Those of one plane are one facet, which is cut evenly.
+TEST(ChooseAccuracy, LongTrianglesOfOnePlaneCostWhatTheFacetWould) {
+  const AccuracyChoice choice = ChoiceOfLongTriangles(0);
+  EXPECT_EQ(choice.tried.front().patch_size_m, AccuracyOptions{}.coarsest_patch_m);
+  EXPECT_LT(choice.tried.front().patches, 150);
   EXPECT_TRUE(choice.reached);
 }
 
