@@ -28,7 +28,7 @@ struct Plan {
 };
 
 // Returns facets to draw: a facet that a surface covers only in part as the surface's triangles.
-std::vector<Facet> Drawn(const Scene& scene) {
+std::vector<Facet> FacetsToDraw(const Scene& scene) {
   constexpr double kNearlyAll = 0.85;
   if (scene.surface.empty()) return scene.facets;
   const std::vector<Facet> triangles = SurfaceFacets(scene);
@@ -46,7 +46,7 @@ std::vector<Facet> Drawn(const Scene& scene) {
 
 std::string Outlines(const Plan& plan, const Scene& scene) {
   std::string text;
-  for (const Facet& facet : Drawn(scene)) {
+  for (const Facet& facet : FacetsToDraw(scene)) {
     // Only surfaces that face up are drawn: furniture and floor. Walls appear as the floor's edge.
     if (facet.Normal().z() < 0.5) continue;
     std::string points;
