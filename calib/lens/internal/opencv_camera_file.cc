@@ -99,6 +99,8 @@ FiledCamera ReadOpenCvCamera(const std::string& path) {
     return filed;
   } catch (const cv::Exception& e) {
     Fail(path, "cannot read the calibration, expected OpenCV YAML (first line %YAML:1.0) or XML: " + e.err);
+  } catch (const std::logic_error&) {  // of OpenCV's parser, where a name in the file is broken
+    Fail(path, "cannot read the calibration, expected OpenCV YAML (first line %YAML:1.0) or XML");
   }
 }
 
