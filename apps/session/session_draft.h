@@ -23,7 +23,7 @@ struct DraftPhoto {
 struct SessionDraft {
   std::string name;
   std::string mesh;  // relative to the session, as all files; empty: the room is an upright box
-  // Of that box, without a mesh: its least corner, and what told its lengths; empty: the user did.
+  // Describe the box where there is no mesh: its least corner, and what told its lengths (empty: the user).
   Eigen::Vector2d corner_m = Eigen::Vector2d::Zero();
   std::string size_because;
   std::string unit, unit_because;
