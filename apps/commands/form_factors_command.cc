@@ -26,14 +26,6 @@ FormFactorMethod MethodFrom(const std::string& name) {
   throw std::runtime_error("--method: " + ExpectedOneOf(names, name));
 }
 
-double MetresPer(const std::string& unit) {
-  const auto known = MetresPerUnit().find(unit);
-  if (known != MetresPerUnit().end()) return known->second;
-  std::vector<std::string> names;
-  for (const auto& [name, metres] : MetresPerUnit()) names.push_back(name);
-  throw std::runtime_error("--unit: " + ExpectedOneOf(names, unit));
-}
-
 void Warn(const std::vector<MeshFinding>& findings) {
   for (const MeshFinding& finding : findings) {
     if (finding.affects_light)
@@ -68,7 +60,7 @@ Computed Compute(const FormFactorsCommandOptions& options) {
   how.method = MethodFrom(options.method);
   how.rays_per_element = options.rays;
   Computed computed;
-  const Scene given = SceneOfFile(options.mesh, MetresPer(options.unit));
+  const Scene given = SceneOfFile(options.mesh, MetresPerUnit(options.unit, "--unit"));
   // Facets that lie on one another would both send light; they are removed as in MakeRoom.
   computed.scene = WithoutOverlaps(given);
   ExpectMatrixSize(computed.scene, options);

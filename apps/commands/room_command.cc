@@ -36,14 +36,6 @@ struct ExaminedRoom {
   std::vector<DoctorFinding> findings;
 };
 
-double MetresPerUnitNamed(const std::string& unit) {
-  const auto known = MetresPerUnit().find(unit);
-  if (known != MetresPerUnit().end()) return known->second;
-  std::vector<std::string> names;
-  for (const auto& [name, metres] : MetresPerUnit()) names.push_back(name);
-  throw std::runtime_error("--unit: " + ExpectedOneOf(names, unit));
-}
-
 void AddFindings(const Scene& given, ExaminedRoom& room) {
   bool encloses = true;
   Scene surface = room.scene;
@@ -89,7 +81,7 @@ ExaminedRoom Examine(const RoomCommandOptions& options) {
   } else {
     room.name = FileName(options.file);
     room.is = options.file;
-    given = ReadScene(options.file, MetresPerUnitNamed(options.unit));
+    given = ReadScene(options.file, MetresPerUnit(options.unit, "--unit"));
   }
   Layout(given, room);
   room.material_area_m2.assign(room.scene.materials.size(), 0);

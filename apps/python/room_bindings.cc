@@ -31,12 +31,7 @@ std::vector<std::string> MethodNames() {
 std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::string& unit,
                                double patch_size_m, std::optional<double> element_size_m,
                                const std::string& method, int rays) {
-  const auto metres = MetresPerUnit().find(unit);
-  if (metres == MetresPerUnit().end()) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : MetresPerUnit()) names.push_back(name);
-    throw std::runtime_error("Room: unit: " + ExpectedOneOf(names, unit));
-  }
+  const double metres_per_unit = MetresPerUnit(unit, "Room: unit");
   RoomOptions options;
   options.patches.patch_size_m = patch_size_m;
   options.patches.element_size_m = element_size_m.value_or(patch_size_m / 4);
@@ -46,7 +41,7 @@ std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::str
   options.planes.emplace();
   options.planes->name_materials = true;
   const py::gil_scoped_release release;
-  auto room = std::make_unique<Room>(MakeRoom(SceneOfFile(mesh.string(), metres->second), options));
+  auto room = std::make_unique<Room>(MakeRoom(SceneOfFile(mesh.string(), metres_per_unit), options));
   if (room->sparse)
     throw std::runtime_error(mesh.string() + ": expected patches whose form factors fit into memory, got " +
                              std::to_string(room->patches.patches.size()) + "; raise patch_size_m");

@@ -17,6 +17,7 @@
 #include "apps/session/session_scene.h"
 #include "apps/text/formats/toml_reader.h"
 #include "apps/text/suggest.h"
+#include "forward/room/mesh_files.h"
 
 namespace luxfit {
 namespace fs = std::filesystem;
@@ -128,7 +129,9 @@ std::vector<std::string> InputFiles(const Session& session) {
   const auto add = [&](const std::string& file) {
     if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   };
-  if (session.scene) add(session.scene->mesh);
+  if (session.scene && !session.scene->mesh.empty()) {
+    for (const std::string& file : FilesOfMesh(session.scene->mesh)) add(file);
+  }
   add(session.tags.map_path);
   for (const std::string& file : ColmapModelFiles(session.registration.colmap_model)) add(file);
   for (const SessionCamera& camera : session.cameras) {

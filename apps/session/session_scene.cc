@@ -1,6 +1,8 @@
 #include "apps/session/session_scene.h"
 
 #include <filesystem>
+#include <map>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -25,20 +27,32 @@ Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
   return albedo_rgb;
 }
 
-}  // namespace
-
-const std::map<std::string, double>& MetresPerUnit() {
+const std::map<std::string, double>& Units() {
   static const std::map<std::string, double> metres{
       {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
   return metres;
+}
+
+std::vector<std::string> UnitNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, metres] : Units()) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+double MetresPerUnit(const std::string& unit, const std::string& key) {
+  const auto known = Units().find(unit);
+  if (known == Units().end()) throw std::runtime_error(key + ": " + ExpectedOneOf(UnitNames(), unit));
+  return known->second;
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo"});
   SessionScene scene;
   if (const auto unit = section.Find("unit")) {
-    scene.unit = unit->OneOf({"m", "cm", "mm", "in", "ft"});
-    scene.metres_per_unit = MetresPerUnit().at(scene.unit);
+    scene.unit = unit->OneOf(UnitNames());
+    scene.metres_per_unit = Units().at(scene.unit);
   }
   scene.outline = ReadOutline(section, scene.metres_per_unit);
   if (const auto mesh = section.Find("mesh")) scene.mesh = AbsolutePath(FindFile(*mesh, folder));

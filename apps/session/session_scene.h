@@ -7,7 +7,6 @@
 #ifndef LUXFIT_APPS_SESSION_SESSION_SCENE_H_
 #define LUXFIT_APPS_SESSION_SESSION_SCENE_H_
 
-#include <map>
 #include <string>
 
 #include "apps/session/session.h"
@@ -16,8 +15,8 @@
 
 namespace luxfit {
 
-// m, cm, mm, in, ft.
-const std::map<std::string, double>& MetresPerUnit();
+// Returns the metres of a unit: m, cm, mm, in or ft. Throws std::runtime_error("KEY: expected one of ...") for other names.
+double MetresPerUnit(const std::string& unit, const std::string& key);
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder);
 

@@ -1,5 +1,7 @@
 #include "apps/stages/stage_cache.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -14,25 +16,26 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char kFormat[] = "luxfit-stage-2";
+constexpr char kFormat[] = "luxfit-stage-3";
 
 std::string PathOf(const std::string& out, const std::string& stage) {
   return out + "/stages/" + stage + ".cbor";
 }
 
+// A file is its format, a line end, the hash of what follows, a line end, and CBOR.
 std::optional<json> ReadKept(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  json kept = json::from_cbor(bytes, true, false);
-  if (!kept.is_object() || kept.value("format", "") != kFormat || !kept.contains("inputs"))
-    return std::nullopt;
-  return kept;
+  std::string format, hash;
+  if (!std::getline(file, format) || format != kFormat || !std::getline(file, hash)) return std::nullopt;
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (HashText(bytes) != hash) return std::nullopt;
+  return json::from_cbor(bytes);
 }
 
 void Write(const std::string& path, const json& kept) {
-  const std::vector<uint8_t> bytes = json::to_cbor(kept);
-  WriteText(path, std::string(bytes.begin(), bytes.end()));
+  const std::vector<uint8_t> cbor = json::to_cbor(kept);
+  const std::string bytes(cbor.begin(), cbor.end());
+  WriteText(path, fmt::format("{}\n{}\n{}", kFormat, HashText(bytes), bytes));
 }
 
 json Sayings(const RunContext& context, const StageMark& mark) {
@@ -70,7 +73,7 @@ std::optional<json> KeptProduct(const std::string& stage, const StageInputs& inp
 void KeepProduct(const std::string& stage, const StageInputs& inputs, const RunContext& context,
                  const StageMark& mark, const json& product) {
   Write(PathOf(context.out, stage),
-        {{"format", kFormat}, {"inputs", inputs}, {"said", Sayings(context, mark)}, {"product", product}});
+        {{"inputs", inputs}, {"said", Sayings(context, mark)}, {"product", product}});
 }
 
 std::optional<StageInputs> LastInputs(const std::string& out, const std::string& stage) {
@@ -80,7 +83,7 @@ std::optional<StageInputs> LastInputs(const std::string& out, const std::string&
 }
 
 void KeepInputs(const std::string& out, const std::string& stage, const StageInputs& inputs) {
-  Write(PathOf(out, stage), {{"format", kFormat}, {"inputs", inputs}});
+  Write(PathOf(out, stage), {{"inputs", inputs}});
 }
 
 }  // namespace luxfit

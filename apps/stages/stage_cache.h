@@ -1,7 +1,7 @@
 // Keeps the product of a stage in OUT/stages/NAME.cbor as long as nothing that it depends on changes.
 //
 // The choices and warnings that the stage recorded are kept with the product, so that a run that reuses it
-// reports the same. A file that cannot be read is ignored.
+// reports the same. A file that is damaged (its hash is not that of its content) is ignored: the stage runs again.
 //
 // Source: RFC 8949 (CBOR).
 #ifndef LUXFIT_APPS_STAGES_STAGE_CACHE_H_

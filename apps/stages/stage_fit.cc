@@ -60,6 +60,13 @@ RoomFit FitSession(const Session& session, const LinearizedSession& linearized, 
   const bool fitted = std::any_of(readings.begin(), readings.end(), [](const LuminaireReading& r) {
     return r.given.role == ReadingRole::kFit;
   });
+  if (observed.observations.empty() && !fitted && !session.photos.empty()) {
+    throw std::runtime_error(
+        session.path +
+        ": photos: expected photos that show the front of the room's surfaces, got none; where "
+        "facets face outwards, turn them round (`luxfit room` names them), else check that "
+        "mesh and tags share one frame");
+  }
   if (observed.observations.empty() && !fitted) {
     throw std::runtime_error(session.path +
                              ": expected something to fit to, got neither photos nor readings; add [photos], "

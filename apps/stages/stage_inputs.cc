@@ -10,6 +10,7 @@
 
 #include "apps/stages/register/view_tags.h"
 #include "apps/text/formats/artifact.h"
+#include "forward/room/mesh_files.h"
 
 namespace luxfit {
 namespace {
@@ -28,6 +29,12 @@ std::string HashPath(const std::string& path) {
   std::string text = path;
   for (const std::string& file : files) text += file + HashFile(file);
   return HashText(text);
+}
+
+std::string HashMesh(const std::string& mesh) {
+  std::string text;
+  for (const std::string& file : FilesOfMesh(mesh)) text += HashPath(file);
+  return text;
 }
 
 class Parts {
@@ -99,7 +106,7 @@ class Parts {
       inputs["[scene]"] = HashText(text);
     } else {
       inputs["mesh " + fs::path(session_.scene->mesh).filename().string()] =
-          HashText(session_.scene->unit + HashPath(session_.scene->mesh));
+          HashText(session_.scene->unit + HashMesh(session_.scene->mesh));
     }
     return inputs;
   }

@@ -8,8 +8,11 @@
 #include "apps/session/session_scene.h"
 #include "apps/stages/stages.h"
 #include "apps/text/seconds.h"
+#include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/patches.h"
+#include "forward/room/planes.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {
@@ -31,29 +34,27 @@ std::string RemedyOf(const SurveyCheck& check, bool is_mesh) {
                          : "check that mesh and tag map share one frame";
 }
 
-// Returns the area of a facet's elements before they are trimmed: a triangle is cut as finely along both edges as along
-// its longest one (forward/room/patches.h).
-double AreaAsCutM2(const Facet& facet, double element_size_m) {
-  const double u_m = facet.edge_u.norm(), v_m = facet.edge_v.norm();
-  const double longest_m = std::max({u_m, v_m, (facet.edge_u - facet.edge_v).norm()});
-  if (longest_m <= element_size_m) return facet.AreaM2();  // one element
-  if (facet.kind == FacetKind::kTriangle) return longest_m * longest_m;
-  return std::max(u_m, element_size_m) * std::max(v_m, element_size_m);
+// Tells whether the room is cut into so few elements that form factors, elements x patches x 4 bytes, may fit in memory.
+// Triangles that share a plane are merged first, as the light's computation does.
+bool IsOfUsualSize(const Scene& scene) {
+  constexpr double kMostElements = 1e6;
+  const PatchesOptions options;
+  if (CountPatches(scene, options).elements <= kMostElements) return true;
+  const Eigen::Vector3d size = scene.Bounds().sizes();
+  const double box_m2 = 2 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x());
+  if (box_m2 > kMostElements * std::pow(options.element_size_m, 2)) return false;
+  return CountPatches(WithTrianglesMerged(scene), options).elements <= kMostElements;
 }
 
-// Checks the size of the room. Form factors take elements x patches x 4 bytes: a room in millimetres that is
-// read as metres would take petabytes.
-void ExpectRoomSize(const Session& session, const Scene& scene, const PatchesOptions& options) {
-  constexpr double kMaxElements = 1e6;
-  double area_m2 = 0;
-  for (const Facet& facet : scene.facets) area_m2 += AreaAsCutM2(facet, options.element_size_m);
-  if (area_m2 <= kMaxElements * options.element_size_m * options.element_size_m) return;
+// Refuses a room in millimetres that is read as metres: its form factors would take petabytes.
+void ExpectRoomSize(const Session& session, const Scene& scene) {
+  if (IsOfUsualSize(scene)) return;
   const Eigen::Vector3d size = scene.Bounds().sizes();
-  throw std::runtime_error(fmt::format(
-      "{}: scene.unit: expected a room of up to {:.0f} m2 of surface, but with unit = \"{}\" the room is "
-      "{:.4g} m x {:.4g} m x {:.4g} m; check the unit, and whether a corner lies far off all others",
-      session.path, kMaxElements * options.element_size_m * options.element_size_m, session.scene->unit,
-      size.x(), size.y(), size.z()));
+  throw std::runtime_error(
+      fmt::format("{}: scene.unit: expected a room of up to 10000 m2 of surface, but with unit = \"{}\" the "
+                  "room is {:.4g} m x {:.4g} m x {:.4g} m; check the unit, and whether a corner lies far off "
+                  "all others",
+                  session.path, session.scene->unit, size.x(), size.y(), size.z()));
 }
 
 }  // namespace
@@ -104,9 +105,19 @@ LoadedMesh LoadMesh(const Session& session) {
   mesh.scene = SceneOf(*session.scene);
   const std::string complaint = SurveyComplaint(session, mesh.scene);
   if (!complaint.empty()) throw std::runtime_error(complaint);
-  ExpectRoomSize(session, mesh.scene, PatchesOptions{});
+  ExpectRoomSize(session, mesh.scene);
   mesh.findings = CheckMesh(mesh.scene);
   return mesh;
+}
+
+void WarnOfUnknownMaterials(const Session& session, const Scene& scene, RunContext& context) {
+  if (!session.scene) return;
+  for (const auto& [name, albedo] : session.scene->known_albedo_rgb) {
+    if (std::count(scene.materials.begin(), scene.materials.end(), name) > 0) continue;
+    context.warnings.push_back({"unknown_material",
+                                fmt::format("scene.albedo.{}: the room has no such material", name),
+                                "remove it, or correct the name" + DidYouMean(name, scene.materials)});
+  }
 }
 
 std::vector<MeshFinding> JudgedByRays(std::vector<MeshFinding> findings, bool is_on_planes,
@@ -164,6 +175,7 @@ Room LoadRoom(const Session& session, RunContext& context) {
          "facets finer than patches tell light nothing; their errors average out over a plane"});
   }
   WarnOfMesh(mesh.findings, room, context);
+  WarnOfUnknownMaterials(session, room.scene, context);
   return room;
 }
 

@@ -89,6 +89,8 @@ LoadedMesh LoadMesh(const Session& session);
 // Judges defects by what rays saw. Of a scan that was laid onto planes, holes count only where rays find them.
 std::vector<MeshFinding> JudgedByRays(std::vector<MeshFinding> findings, bool is_on_planes, RayShares shares);
 void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context);
+// Warns of reflectances that the session gives for materials that the room does not have.
+void WarnOfUnknownMaterials(const Session& session, const Scene& scene, RunContext& context);
 
 // Returns that room with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);

@@ -9,6 +9,7 @@
 
 #include "forward/light/internal/adaptive_patches.h"
 #include "forward/light/internal/room_again.h"
+#include "forward/room/planes.h"
 
 namespace luxfit {
 namespace {
@@ -54,7 +55,7 @@ double CoarsestPatchM(const Scene& scene, const AccuracyOptions& options) {
 class Chooser {
  public:
   Chooser(const LitScene& lit, const AccuracyOptions& options)
-      : all_(OnItsPlanes(lit)), lit_(WithFewSensors(all_)), options_(options) {
+      : all_(WithLongTrianglesMerged(lit)), lit_(WithFewSensors(all_)), options_(options) {
     coarsest_m_ = CoarsestPatchM(lit_.scene, options);
     choice_.options.solver.tolerance_percent = kBouncesShare * options.error_percent;
   }
@@ -85,20 +86,9 @@ class Chooser {
   }
 
  private:
-  // Returns the scene with its triangles merged where that changes no surface: many share a plane, and long ones are cut
-  // more finely than need be.
-  static LitScene OnItsPlanes(const LitScene& lit) {
-    constexpr double kSamePlaneM = 5e-4, kMuchFewer = 3;
-    if (!IsFinerThanPatches(lit.scene, {})) return lit;
-    PlanesOptions exact;
-    exact.off_plane_m = kSamePlaneM;
-    exact.largest_hole_m = 0;
-    exact.most_planes = static_cast<int>(lit.scene.facets.size());
-    OnPlanes laid = LayOnPlanes(lit.scene, exact);
-    if (kMuchFewer * CountPatches(laid.scene, {}).patches > CountPatches(lit.scene, {}).patches) return lit;
-    LitScene merged = lit;
-    merged.scene = std::move(laid.scene);
-    return merged;
+  static LitScene WithLongTrianglesMerged(LitScene lit) {
+    lit.scene = WithTrianglesMerged(lit.scene);
+    return lit;
   }
 
   // Returns the scene with sensors evenly taken from the list. What all of them cost is then paid once.

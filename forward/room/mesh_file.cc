@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "forward/room/internal/polygon_mesh.h"
+#include "forward/room/one_line.h"
 #include "forward/room/text_encoding.h"
 
 namespace luxfit {
@@ -39,7 +40,7 @@ Scene SceneOf(const PolygonMesh& mesh, const std::string& name, double metres_pe
     }
     if (material < 0) {
       material = static_cast<int>(scene.materials.size());
-      scene.materials.push_back(mesh.materials[static_cast<size_t>(mesh.material[f])]);
+      scene.materials.push_back(OneLine(mesh.materials[static_cast<size_t>(mesh.material[f])]));
     }
     scene.facets.insert(scene.facets.end(), facets.begin(), facets.end());
   }

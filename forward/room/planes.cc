@@ -292,6 +292,19 @@ OnPlanes LayOnPlanes(const Scene& mesh, const PlanesOptions& options) {
   return result;
 }
 
+Scene WithTrianglesMerged(const Scene& mesh) {
+  constexpr double kSamePlaneM = 5e-4, kMuchFewer = 3;
+  if (!IsFinerThanPatches(mesh, {})) return mesh;
+  PlanesOptions exact;
+  exact.off_plane_m = kSamePlaneM;
+  exact.largest_hole_m = 0;
+  exact.most_planes = static_cast<int>(mesh.facets.size());
+  OnPlanes laid = LayOnPlanes(mesh, exact);
+  const bool is_much_less =
+      kMuchFewer * CountPatches(laid.scene, {}).patches <= CountPatches(mesh, {}).patches;
+  return is_much_less ? std::move(laid.scene) : mesh;
+}
+
 bool IsFinerThanPatches(const Scene& mesh, const PatchesOptions& options) {
   constexpr double kManyPatches = 1500, kTooMany = 3;
   double area_m2 = 0;

@@ -43,6 +43,10 @@ struct OnPlanes {
 };
 OnPlanes LayOnPlanes(const Scene& mesh, const PlanesOptions& options = {});
 
+// Merges triangles that share a plane to half a millimetre, where that leaves far fewer patches to cut: long triangles are
+// cut as finely across as along. Returns other meshes as they are.
+Scene WithTrianglesMerged(const Scene& mesh);
+
 // Tells whether a mesh would be cut into far more patches than its area asks for: its facets are finer than patches, or are
 // long triangles, which are cut as finely across as along.
 bool IsFinerThanPatches(const Scene& mesh, const PatchesOptions& options);

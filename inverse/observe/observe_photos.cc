@@ -63,7 +63,9 @@ PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cam
         ObservePhoto(maps[static_cast<size_t>(index)], photo.image, index, photo.state);
     observed.observations.insert(observed.observations.end(), seen.begin(), seen.end());
   }
-  observed.seen = FindSeenLuminaires(room, cameras, views, blobs);
+  SeenLuminairesOptions seen_options;
+  seen_options.tags = survey;
+  observed.seen = FindSeenLuminaires(room, cameras, views, blobs, seen_options);
   observed.outlines = FindSeenOutlines(cameras, views, blobs);
   return observed;
 }

@@ -18,6 +18,7 @@ namespace {
 
 // Tolerance for a luminaire just below a ceiling: the error of the mesh and of the views' poses.
 constexpr double kMeshToleranceM = 0.05;
+constexpr double kTagOffM = 0.02;  // error of a tag's survey and of the views' poses
 
 struct BlobOfPhoto {
   const PhotoBlobs* photo = nullptr;
@@ -50,6 +51,7 @@ class SeenSearch {
     for (const int state : states) {
       for (const SeenPlace& place : OfState(state)) Merge(place, places);
     }
+    for (SeenPlace& place : places) place.dark_states = DarkStates(place, states);
     std::stable_sort(places.begin(), places.end(),
                      [](const SeenPlace& a, const SeenPlace& b) { return a.views > b.views; });
     return places;
@@ -83,7 +85,8 @@ class SeenSearch {
       SeenPlace place = PlaceOf(point, blobs);
       place.states = {state};
       CountPhotos(state, place);
-      if (place.photos > place.missing && IsInFreeSight(place, point, blobs)) places.push_back(place);
+      if (place.photos > place.missing && IsInFreeSight(place, point, blobs) && !IsOnTag(place))
+        places.push_back(place);
     }
     return places;
   }
@@ -150,6 +153,18 @@ class SeenSearch {
     }
   }
 
+  std::vector<int> DarkStates(const SeenPlace& place, const std::set<int>& states) const {
+    std::vector<int> dark;
+    for (const int state : states) {
+      if (std::count(place.states.begin(), place.states.end(), state) > 0) continue;
+      SeenPlace here = place;
+      here.photos = here.missing = 0;
+      CountPhotos(state, here);
+      if (here.missing > here.photos) dark.push_back(state);
+    }
+    return dark;
+  }
+
   // Returns whether no surface stands between the place and half of the views that saw it, or more.
   bool IsInFreeSight(const SeenPlace& place, const TriangulatedPoint& point,
                      const std::vector<BlobOfPhoto>& blobs) const {
@@ -157,6 +172,19 @@ class SeenSearch {
       return Sees(View(*blobs[static_cast<size_t>(i)].photo), place);
     });
     return 2 * free >= static_cast<std::ptrdiff_t>(point.sights.size());
+  }
+
+  // Returns whether the place lies on a tag's paper, within three sigmas.
+  bool IsOnTag(const SeenPlace& place) const {
+    constexpr double kPaperOverTag = 1.5;  // side of the sheet's white square over that of the tag
+    return std::any_of(options_.tags.begin(), options_.tags.end(), [&](const SurveyedTag& tag) {
+      const Eigen::Vector3d off = place.position - tag.center_in_world;
+      const double above = off.dot(tag.normal_in_world), up = off.dot(tag.up_in_world);
+      const double across = off.dot(tag.normal_in_world.cross(tag.up_in_world));
+      const double half_m = 0.5 * kPaperOverTag * tag.size_m + place.sigma_m;
+      return std::abs(above) < 3 * place.sigma_m + kTagOffM &&
+             std::max(std::abs(up), std::abs(across)) < half_m;
+    });
   }
 
   bool Sees(const RegisteredView& view, const SeenPlace& place) const {
@@ -200,6 +228,15 @@ class SeenSearch {
 };
 
 }  // namespace
+
+bool MayBePlaceOf(const SeenPlace& place, const std::vector<Eigen::VectorXd>& dimming, int luminaire) {
+  if (place.states.empty()) return false;
+  const auto factor = [&](int state) { return dimming[static_cast<size_t>(state)][luminaire]; };
+  double lowest = std::numeric_limits<double>::infinity();  // at which it is bright
+  for (const int state : place.states) lowest = std::min(lowest, factor(state));
+  return lowest > 0 && std::none_of(place.dark_states.begin(), place.dark_states.end(),
+                                    [&](int state) { return factor(state) >= lowest; });
+}
 
 std::vector<SeenPlace> FindSeenLuminaires(const Room& room, const std::vector<Camera>& cameras,
                                           const std::vector<RegisteredView>& views,

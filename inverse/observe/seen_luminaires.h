@@ -7,10 +7,14 @@
 //
 // The blobs of all views are triangulated state by state (calib/register/triangulation.h). A place is dropped
 // where it lies outside the room, or where more of the photos that should show it miss it than show it. A
-// highlight moves with the camera, and a washed-out surface is not washed out in a shorter exposure.
+// highlight moves with the camera, and a washed-out surface is not washed out in a shorter exposure. So is a place on
+// the paper of a surveyed tag.
 //
-// The remaining places may hold a luminaire. Tags on a desk, mirror images and windows stay among them where
-// several views saw them alike. The light decides which are right (inverse/model/internal/search/first_guess.h).
+// A luminaire that is bright in one state is so in each in which it is dimmed no lower, whatever else is on: a lit wall is
+// not. So a place also has the states in which photos show it dark.
+//
+// The remaining places may hold a luminaire. White things on a desk, mirror images and windows stay among them
+// where several views saw them alike. The light decides which are right (inverse/model/internal/search/first_guess.h).
 // Blobs at a photo's edge are cut: their centres are not used, but they count as seen.
 //
 // Throws std::invalid_argument for a view out of range. Sources: those of bright_blobs.h and triangulation.h.
@@ -23,6 +27,7 @@
 #include "calib/lens/camera.h"
 #include "calib/luminance/bright_blobs.h"
 #include "calib/register/registration.h"
+#include "calib/targets/tags.h"
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire.h"
 
@@ -37,16 +42,21 @@ struct PhotoBlobs {
 
 struct SeenPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double sigma_m = 0;       // standard deviation along the worst direction
-  std::vector<int> states;  // states in which it is bright
-  int photos = 0;           // photos of those states that show it
-  int views = 0;            // views from which it was triangulated, in one state
-  int missing = 0;          // photos of those states that should show it and do not
+  double sigma_m = 0;            // standard deviation along the worst direction
+  std::vector<int> states;       // states in which it is bright
+  std::vector<int> dark_states;  // states in which most photos that should show it do not
+  int photos = 0;                // photos of those states that show it
+  int views = 0;                 // views from which it was triangulated, in one state
+  int missing = 0;               // photos of those states that should show it and do not
   double area_m2 = 0;
 };
 
 // Returns whether enough views saw the place that chance is excluded: three.
 inline bool IsSure(const SeenPlace& place) { return place.views >= 3; }
+
+// Returns whether the place may be that of the luminaire: bright in states where it is on and in no other, and not dark in
+// one in which it is dimmed no lower. `dimming`: one vector for each state, by luminaire.
+bool MayBePlaceOf(const SeenPlace& place, const std::vector<Eigen::VectorXd>& dimming, int luminaire);
 
 struct SeenLuminairesOptions {
   int min_views = 2;  // three would exclude chance; here the light decides
@@ -54,6 +64,7 @@ struct SeenLuminairesOptions {
   // As a share of the width of a square as large as the blob, or as long: a blob's centre is not the image of the
   // luminaire's centre, the less the longer it is.
   double width_sigma = 0.05;
+  std::vector<SurveyedTag> tags;  // their paper is no luminaire
 };
 
 // Returns the places, those of most views first.

@@ -14,7 +14,7 @@ constexpr size_t kNamedChanges = 4;
 
 PlannedStage Plan(const std::string& stage, const StageInputs& inputs, const std::string& out) {
   const std::optional<StageInputs> last = LastInputs(out, stage);
-  if (!last) return {stage, true, "no earlier run left it in " + out};
+  if (!last) return {stage, true, "no earlier run left it, whole, in " + out};
   const std::vector<std::string> changed = ChangedInputs(*last, inputs);
   if (changed.empty()) return {stage, false, "nothing that it depends on has changed"};
   std::string names;

@@ -1,5 +1,7 @@
 #include "apps/session/internal/session_luxmeter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,7 +20,19 @@ namespace {
 constexpr char kIlluminance[] = "illuminance_lx";
 constexpr std::array<const char*, 3> kIlluminanceAliases = {"lux", "illuminance_fc", "illuminance_klx"};
 
+constexpr double kMostLx = 1e7;  // a hundred times the sun's
+
 std::string NameOf(const SessionReading& reading) { return reading.id + "@" + reading.state; }
+
+// Returns a number that is within the limit, in size. What is beyond is a slip: a unit, a column, a missing point.
+double NumberWithin(const CsvTable& table, const CsvRow& row, const std::string& column, double limit,
+                    const std::string& what) {
+  const double value = CsvNumber(table, row, column);
+  if (std::abs(value) <= limit) return value;
+  throw CsvError(table, row, column,
+                 fmt::format("expected {} of up to {:g}, got {}; correct it", what, limit,
+                             Quoted(CsvText(table, row, column))));
+}
 
 SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vector<SessionState>& states) {
   SessionReading reading;
@@ -27,8 +41,9 @@ SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vect
   if (reading.id.empty())
     throw CsvError(table, row, "id", "expected a name, got nothing; name the place, such as L1");
   for (int axis = 0; axis < 3; ++axis) {
-    reading.position_m[axis] = CsvNumber(table, row, std::string(1, "xyz"[axis]) + "_m");
-    reading.normal[axis] = CsvNumber(table, row, "n" + std::string(1, "xyz"[axis]));
+    const std::string name(1, "xyz"[axis]);
+    reading.position_m[axis] = NumberWithin(table, row, name + "_m", 1e5, "a place in m");
+    reading.normal[axis] = NumberWithin(table, row, "n" + name, 1e6, "a direction");
   }
   if (reading.normal.norm() < 1e-9)
     throw CsvError(
@@ -41,7 +56,9 @@ SessionReading ReadRow(const CsvTable& table, const CsvRow& row, const std::vect
   for (const char* alias : kIlluminanceAliases) column = HasColumn(table, alias) ? alias : column;
   reading.is_measured = !CsvText(table, row, column).empty();
   if (!reading.is_measured) return reading;
-  reading.illuminance_lx = CsvNumber(table, row, column) * UnitFactor(column, kIlluminance).value_or(1);
+  const double lx_per_unit = UnitFactor(column, kIlluminance).value_or(1);
+  reading.illuminance_lx =
+      lx_per_unit * NumberWithin(table, row, column, kMostLx / lx_per_unit, "an illuminance");
   if (reading.illuminance_lx < 0)
     throw CsvError(table, row, column,
                    "expected >= 0, got " + Quoted(CsvText(table, row, column)) +

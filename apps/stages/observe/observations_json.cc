@@ -78,6 +78,7 @@ json ObservationsJson(const SessionObservations& observed) {
     seen.push_back({{"position_m", VectorJson(p.position)},
                     {"sigma_m", p.sigma_m},
                     {"states", p.states},
+                    {"dark_states", p.dark_states},
                     {"photos", p.photos},
                     {"views", p.views},
                     {"missing", p.missing},
@@ -102,6 +103,7 @@ SessionObservations ObservationsFromJson(const json& in) {
     place.position = VectorFromJson(entry.at("position_m"));
     place.sigma_m = entry.at("sigma_m");
     place.states = entry.at("states").get<std::vector<int>>();
+    place.dark_states = entry.at("dark_states").get<std::vector<int>>();
     place.photos = entry.at("photos");
     place.views = entry.at("views");
     place.missing = entry.at("missing");

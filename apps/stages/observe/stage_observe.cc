@@ -76,15 +76,21 @@ std::vector<PhotoBlobs> ListBlobs(std::vector<std::optional<PhotoBlobs>> blobs) 
   return photos;
 }
 
+std::vector<std::string> NamesOf(const Session& session, const std::vector<int>& states) {
+  std::vector<std::string> names;
+  names.reserve(states.size());
+  for (const int s : states) names.push_back(session.states[static_cast<size_t>(s)].id);
+  return names;
+}
+
 nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& places) {
   nlohmann::json list = nlohmann::json::array();
   for (const SeenPlace& place : places) {
-    std::vector<std::string> states;
-    for (const int s : place.states) states.push_back(session.states[static_cast<size_t>(s)].id);
     const Eigen::Vector3d& p = place.position;
     list.push_back({{"position_m", {p.x(), p.y(), p.z()}},
                     {"sigma_m", place.sigma_m},
-                    {"states", states},
+                    {"states", NamesOf(session, place.states)},
+                    {"dark_states", NamesOf(session, place.dark_states)},
                     {"photos", place.photos},
                     {"views", place.views},
                     {"photos_without", place.missing},
@@ -141,8 +147,10 @@ SessionObservations ObserveSession(const Session& session, const LinearizedPhoto
   observations = WithSelfCalibration(session, photos, registered, room.patches,
                                      InOneUnit(std::move(observations), photos, views), context, artifact);
   const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs));
+  SeenLuminairesOptions seen_options;
+  seen_options.tags = session.tags.survey;
   SessionObservations observed{
-      std::move(observations), FindSeenLuminaires(room, registered.cameras, views, seen),
+      std::move(observations), FindSeenLuminaires(room, registered.cameras, views, seen, seen_options),
       FindSeenOutlines(registered.cameras, views, seen), PoseErrorsOf(registered.registration)};
   artifact["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", artifact);

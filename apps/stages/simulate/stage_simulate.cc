@@ -11,8 +11,8 @@
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"
+#include "apps/text/formats/csv_text.h"
 #include "apps/text/input_error.h"
-#include "apps/text/suggest.h"
 #include "forward/direct/luminaire_body.h"
 #include "inverse/check/luxmeter_check.h"
 
@@ -39,7 +39,7 @@ class Simulation {
         given_(ReadGivenScene(session, "simulate", context)),
         error_percent_(error_percent) {
     ExpectReadings(session);
-    WarnOfUnknownMaterials();
+    WarnOfUnknownMaterials(session_, given_.lit.scene, context_);
   }
 
   json Run() {
@@ -61,17 +61,6 @@ class Simulation {
     bool is_outside = false;  // the reading is not in the room: nothing is predicted
     double lx = 0, direct_lx = 0;
   };
-
-  void WarnOfUnknownMaterials() const {
-    const std::vector<std::string>& materials = given_.lit.scene.materials;
-    if (!session_.scene) return;
-    for (const auto& [name, albedo] : session_.scene->known_albedo_rgb) {
-      if (std::count(materials.begin(), materials.end(), name) > 0) continue;
-      context_.warnings.push_back({"unknown_material",
-                                   fmt::format("scene.albedo.{}: the mesh has no such material", name),
-                                   "remove it, or correct the name" + DidYouMean(name, materials)});
-    }
-  }
 
   void Compute() {
     AccuracyOptions options;
@@ -145,15 +134,9 @@ class Simulation {
 
   std::string Csv() const {
     std::string text = "id,state,illuminance_lx,direct_lx,indirect_lx\n";
-    const auto field = [](const std::string& value) {
-      if (value.find_first_of(",\"\n") == std::string::npos) return value;
-      std::string quoted = "\"";
-      for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
-      return quoted + "\"";
-    };
     for (size_t i = 0; i < rows_.size(); ++i) {
       const SessionReading& reading = session_.luxmeter.readings[i];
-      text += field(reading.id) + "," + field(reading.state);
+      text += CsvField(reading.id) + "," + CsvField(reading.state);
       text += rows_[i].is_outside ? ",,,\n"
                                   : fmt::format(",{:.6g},{:.6g},{:.6g}\n", rows_[i].lx, rows_[i].direct_lx,
                                                 rows_[i].lx - rows_[i].direct_lx);

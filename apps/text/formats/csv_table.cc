@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "apps/text/formats/csv_text.h"
 #include "apps/text/formats/text_file.h"
 #include "apps/text/formats/units.h"
 #include "apps/text/input_error.h"
@@ -42,6 +43,11 @@ std::vector<std::string> ReadLines(const std::string& path) {
   return lines;
 }
 
+// Takes off the apostrophe that keeps a spreadsheet from running a text (apps/text/formats/csv_text.h).
+std::string WithoutApostrophe(const std::string& text) {
+  return !text.empty() && text[0] == '\'' && IsFormula(text.substr(1)) ? text.substr(1) : text;
+}
+
 std::vector<std::string> SplitFields(const SourcePlace& place, const std::string& line) {
   std::vector<std::string> fields;
   std::string field;
@@ -59,7 +65,7 @@ std::vector<std::string> SplitFields(const SourcePlace& place, const std::string
         quoted = false;
       }
     } else if (end || line[i] == ',') {
-      fields.push_back(was_quoted ? field : Trimmed(field));
+      fields.push_back(WithoutApostrophe(was_quoted ? field : Trimmed(field)));
       field.clear();
       was_quoted = false;
     } else if (line[i] == '"' && Trimmed(field).empty()) {

@@ -2,14 +2,24 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace luxfit {
 
+bool IsFormula(const std::string& text) {
+  if (text.empty() || std::string("=+-@").find(text[0]) == std::string::npos) return false;
+  double value = 0;
+  const char* begin = text.data() + (text[0] == '+' ? 1 : 0);
+  const auto [stop, error] = std::from_chars(begin, text.data() + text.size(), value);
+  return error != std::errc() || stop != text.data() + text.size();
+}
+
 std::string CsvField(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
-std::string CsvField(const std::string& text) {
+std::string CsvField(const std::string& given) {
+  const std::string text = (IsFormula(given) ? "'" : "") + given;
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -95,29 +96,14 @@ int HexDigit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// Decodes a reference, which is percent-encoded: "my%20room.bin".
-std::string PathOf(const std::string& uri, const JsonPlace& place) {
-  std::string path;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] != '%') {
-      path += uri[i];
-      continue;
-    }
-    const int high = i + 2 < uri.size() ? HexDigit(uri[i + 1]) : -1;
-    const int low = i + 2 < uri.size() ? HexDigit(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) place.Fail("expected two hexadecimal digits after each %, got others");
-    path += static_cast<char>(16 * high + low);
-    i += 2;
-  }
-  return path;
-}
-
 std::string BytesOfFile(const std::string& uri, size_t length, const std::string& folder,
                         const JsonPlace& place) {
   if (folder.empty() || uri.find("://") != std::string::npos)
     place.Fail("expected a buffer within the file or beside it, got \"" + uri.substr(0, 40) +
                "\"; export it as GLB");
-  const std::filesystem::path path = std::filesystem::path(folder) / PathOf(uri, place);
+  const std::optional<std::string> file_name = PercentDecoded(uri);
+  if (!file_name) place.Fail("expected two hexadecimal digits after each %, got others");
+  const std::filesystem::path path = std::filesystem::path(folder) / *file_name;
   std::error_code error;
   const bool is_file = std::filesystem::is_regular_file(path, error);
   if (!is_file || std::filesystem::file_size(path, error) < length)
@@ -144,6 +130,22 @@ std::string BufferOf(const JsonPlace& place, size_t length, std::string_view bin
 }
 
 }  // namespace
+
+std::optional<std::string> PercentDecoded(const std::string& uri) {
+  std::string path;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      path += uri[i];
+      continue;
+    }
+    const int high = i + 2 < uri.size() ? HexDigit(uri[i + 1]) : -1;
+    const int low = i + 2 < uri.size() ? HexDigit(uri[i + 2]) : -1;
+    if (high < 0 || low < 0) return std::nullopt;
+    path += static_cast<char>(16 * high + low);
+    i += 2;
+  }
+  return path;
+}
 
 GltfFile ParseGltfFile(std::string_view bytes, const std::string& name, const std::string& folder) {
   const Container container = ContainerOf(bytes, name);

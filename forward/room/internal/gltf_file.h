@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ struct GltfFile {
 // Parses a text or GLB asset that messages call `name`. Buffers in other files are read from `folder`, and
 // refused where it is empty.
 GltfFile ParseGltfFile(std::string_view bytes, const std::string& name, const std::string& folder);
+
+// Decodes a reference to a file, which is percent-encoded: "my%20room.bin". Returns nothing where it is not.
+std::optional<std::string> PercentDecoded(const std::string& uri);
 
 // Reads a whole number of `size` <= 4 bytes: glTF is little-endian on every machine.
 inline uint32_t LittleEndian(const char* bytes, size_t size) {

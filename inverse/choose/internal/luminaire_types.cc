@@ -188,13 +188,6 @@ bool TellsAimsApart(const LuminaireFit& fit, const std::vector<int>& type) {
          !(difference.dot(factor.solve(difference)) <= Chi2Of95(static_cast<double>(n)));
 }
 
-// Returns whether the place is bright in states where the luminaire is on, and in no other.
-bool IsWhereOn(const SeenPlace& place, const LightData& data, int luminaire) {
-  return !place.states.empty() && std::all_of(place.states.begin(), place.states.end(), [&](int s) {
-    return data.dimming[static_cast<size_t>(s)][luminaire] > 0;
-  });
-}
-
 // Returns whether each place has a luminaire of its own near it.
 bool AreReached(const std::vector<Eigen::Vector3d>& places, const LightState& state,
                 const std::vector<int>& type) {
@@ -262,7 +255,7 @@ std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, co
     if (type.size() < 2) continue;
     std::vector<SeenPlace> own;
     for (const SeenPlace& place : seen)
-      if (IsWhereOn(place, data, type.front()) && place.area_m2 > 0) own.push_back(place);
+      if (MayBePlaceOf(place, data.dimming, type.front()) && place.area_m2 > 0) own.push_back(place);
     if (own.size() < type.size()) continue;
     std::stable_sort(own.begin(), own.end(),
                      [](const SeenPlace& a, const SeenPlace& b) { return a.area_m2 > b.area_m2; });

@@ -165,6 +165,11 @@ TEST_F(SessionErrorsTest, ReadingRowsAreChecked) {
               Holds("luxmeter.csv:2: nx,ny,nz: expected the direction", "got 0,0,0; 0,0,1 is"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "-3"),
               HasSubstr("luxmeter.csv:2: lux: expected >= 0, got \"-3\"; correct"));
+  EXPECT_THAT(
+      ErrorAfter("luxmeter.csv", "320.5", "1e308"),
+      HasSubstr("luxmeter.csv:2: lux: expected an illuminance of up to 1e+07, got \"1e308\"; correct"));
+  EXPECT_THAT(ErrorAfter("luxmeter.csv", "0,0,2,all", "1e308,0,2,all"),
+              HasSubstr("luxmeter.csv:2: nx: expected a direction of up to 1e+06"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "nan"),
               HasSubstr("luxmeter.csv:2: lux: expected a finite number"));
   EXPECT_THAT(ErrorAfter("luxmeter.csv", "320.5", "320,5"),

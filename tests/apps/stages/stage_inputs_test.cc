@@ -14,6 +14,7 @@ namespace luxfit {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
@@ -53,6 +54,18 @@ TEST_F(StageInputsTest, AnOutlineTouchesRegistrationAndWhatFollows) {
   folder_.Replace("office/session.toml", "[tags]",
                   "[[scene.box]]\nname = \"a\"\nmin = [1, 1, 0]\nmax = [2, 2, 1]\n[tags]");
   EXPECT_THAT(ChangedInputs(by_size.result, Now().result), ElementsAre("[scene]"));
+}
+
+TEST_F(StageInputsTest, ABufferBesideAGltfIsAPartOfTheMesh) {
+  folder_.Write("office/my room.bin", "0123");
+  folder_.Write("office/room.gltf",
+                R"({"buffers": [{"uri": "my%20room.bin", "byteLength": 4}, {"uri": "data:;base64,AA=="}]})");
+  folder_.Replace("office/session.toml", "mesh = \"room.obj\"", "mesh = \"room.gltf\"");
+  const SessionInputs before = Now();
+  folder_.Write("office/my room.bin", "0124");
+  EXPECT_THAT(ChangedInputs(before.registration, Now().registration), ElementsAre("mesh room.gltf"));
+  EXPECT_THAT(ReadSession(folder_.Path("office/session.toml")).input_files,
+              Contains(folder_.Path("office/my room.bin")));
 }
 
 TEST_F(StageInputsTest, AReadingTouchesTheFitAlone) {
@@ -120,6 +133,16 @@ TEST(StageCacheTest, RepeatsProductAndSayings) {
   folder.Write("stages/register.cbor", "not CBOR at all");
   run({{"photo a", "2"}});
   EXPECT_EQ(computed, 3) << "a broken file counts as none";
+  // One bit of 0.1's double: still CBOR, but another number.
+  std::string bytes = folder.Read("stages/register.cbor");
+  const size_t value = bytes.rfind("value");
+  ASSERT_NE(value, std::string::npos);
+  bytes.at(value + 8) = static_cast<char>(bytes.at(value + 8) ^ 1);
+  folder.Write("stages/register.cbor", bytes);
+  run({{"photo a", "2"}});
+  EXPECT_EQ(computed, 4) << "a damaged file counts as none";
+  run({{"photo a", "2"}});
+  EXPECT_EQ(computed, 4);
 }
 
 }  // namespace

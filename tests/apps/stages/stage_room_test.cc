@@ -14,6 +14,8 @@
 #include "apps/session/session_scene.h"
 #include "apps/stages/session_check.h"
 #include "apps/stages/stages.h"
+#include "forward/room/patches.h"
+#include "forward/room/planes.h"
 #include "tests/paths.h"
 #include "tests/support/forward/scan_of.h"
 #include "tests/support/scenes.h"
@@ -73,6 +75,32 @@ TEST_F(StageRoomTest, EachDefectIsWarnedOfOnce) {
   EXPECT_THAT(CodesOf(kRoom + "f 1 2 2\n"), ElementsAre("facets_dropped"));
   EXPECT_THAT(CodesOf("f 4 3 2 1\nf 6 7 8 5\nf 5 8 4 1\nf 3 7 6 2\nf 2 6 5 1\nf 8 7 3 4\n"),
               ElementsAre("inside_out"));
+}
+
+TEST_F(StageRoomTest, AReflectanceOfNoMaterialIsNamed) {
+  folder_.Write("room.obj", kVertices + kRoom);
+  Session session;
+  session.path = "session.toml";
+  session.scene = MeshScene(folder_.Path("room.obj"));
+  session.scene->known_albedo_rgb["wal"] = Eigen::Vector3d::Constant(0.5);
+  RunContext context;
+  LoadRoom(session, context);
+  ASSERT_EQ(context.warnings.size(), 1U);
+  EXPECT_EQ(context.warnings[0].code, "unknown_material");
+  EXPECT_THAT(context.warnings[0].remedy, HasSubstr("did you mean \"wall\"?"));
+}
+
+TEST_F(StageRoomTest, NamesOfAMeshStayOnOneLine) {
+  folder_.Write("room.obj",
+                std::string(kVertices).replace(std::string(kVertices).find("wall"), 4, "w\033[31m") + kRoom);
+  EXPECT_THAT(LoadMesh([&] {
+                Session session;
+                session.path = "session.toml";
+                session.scene = MeshScene(folder_.Path("room.obj"));
+                return session;
+              }())
+                  .scene.materials,
+              ElementsAre("w [31m"));
 }
 
 TEST_F(StageRoomTest, AWarningTellsWhereHowMuchAndWhatToDo) {
@@ -141,6 +169,40 @@ TEST_F(StageRoomTest, ACornerFarOffIsRefused) {
     EXPECT_THAT(error.what(), HasSubstr("3500 m x 2 m x 2 m"));
     EXPECT_THAT(error.what(), HasSubstr("a corner lies far off"));
   }
+}
+
+// Long triangles are cut as finely across as along; those of one plane are merged, and only then counted.
+TEST_F(StageRoomTest, AHallOfStripsIsAHall) {
+  constexpr int kStrips = 34;
+  constexpr double kLengthM = 20, kDepthM = 12, kHeightM = 4;
+  std::ostringstream hall;
+  int vertices = 0;
+  const auto quad = [&](const std::vector<Eigen::Vector3d>& corners) {
+    for (const Eigen::Vector3d& p : corners) hall << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+    hall << "f " << vertices + 1 << " " << vertices + 2 << " " << vertices + 3 << "\n";
+    hall << "f " << vertices + 1 << " " << vertices + 3 << " " << vertices + 4 << "\n";
+    vertices += 4;
+  };
+  for (int i = 0; i < kStrips; ++i) {
+    const double x = kLengthM * i / kStrips, to = kLengthM * (i + 1) / kStrips;
+    quad({{x, 0, 0}, {to, 0, 0}, {to, kDepthM, 0}, {x, kDepthM, 0}});
+    quad({{x, 0, kHeightM}, {x, kDepthM, kHeightM}, {to, kDepthM, kHeightM}, {to, 0, kHeightM}});
+    quad({{x, 0, 0}, {x, 0, kHeightM}, {to, 0, kHeightM}, {to, 0, 0}});
+    quad({{x, kDepthM, 0}, {to, kDepthM, 0}, {to, kDepthM, kHeightM}, {x, kDepthM, kHeightM}});
+  }
+  quad({{0, 0, 0}, {0, kDepthM, 0}, {0, kDepthM, kHeightM}, {0, 0, kHeightM}});
+  quad({{kLengthM, 0, 0}, {kLengthM, 0, kHeightM}, {kLengthM, kDepthM, kHeightM}, {kLengthM, kDepthM, 0}});
+  folder_.Write("room.obj", hall.str());
+  Session session;
+  session.path = "session.toml";
+  session.scene = MeshScene(folder_.Path("room.obj"));
+  const LoadedMesh mesh = LoadMesh(session);
+  EXPECT_GT(CountPatches(mesh.scene, {}).elements, 1e6);
+  const Scene merged = WithTrianglesMerged(mesh.scene);
+  EXPECT_EQ(merged.facets.size(), 6U);
+  double area_m2 = 0;
+  for (const Facet& facet : merged.facets) area_m2 += facet.AreaM2();
+  EXPECT_NEAR(area_m2, 2 * (kLengthM * kDepthM + kDepthM * kHeightM + kHeightM * kLengthM), 0.01);
 }
 
 // A crowd of triangles in the air, far more than patches of a laptop's form factors: those of one part of space that face

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "apps/text/formats/csv_text.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -48,6 +49,16 @@ TEST_F(CsvTableTest, ToleratesByteOrderMarkCrlfQuotesAndOptionalColumns) {
   EXPECT_TRUE(HasColumn(table, "iso"));
   EXPECT_EQ(CsvText(table, table.rows[0], "id"), "a, \"b\"");
   EXPECT_EQ(CsvText(table, table.rows[0], "iso"), "100");
+}
+
+// A spreadsheet runs a text that begins with =, so luxfit writes it with an apostrophe.
+TEST_F(CsvTableTest, TextsThatLookLikeFormulasKeepTheirNames) {
+  for (const std::string name : {"=1+1", "@sum", "-x", "+b", "=A1,\"b\""}) {
+    EXPECT_THAT(CsvField(name), HasSubstr("'" + name.substr(0, 2))) << name;
+    const CsvTable table = Read("id,x_m,lux\n" + CsvField(name) + ",1,2\n");
+    EXPECT_EQ(CsvText(table, table.rows[0], "id"), name);
+  }
+  for (const std::string name : {"-1.5", "+2", "L1", "'quoted", "a=b"}) EXPECT_EQ(CsvField(name), name);
 }
 
 // Spreadsheets and old systems save such tables.

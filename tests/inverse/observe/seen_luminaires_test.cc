@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -170,6 +171,25 @@ TEST_F(SeenLuminaires, MirrorImagesLieOutsideTheRoom) {
   EXPECT_LT(places[0].sigma_m, 0.014);
 }
 
+// The white paper of a tag on a table saturates as a lamp does, in every state in which that lamp is on.
+TEST_F(SeenLuminaires, PaperOfASurveyedTagIsNoLuminaire) {
+  const LuminousRectangle lamp{{4.2, 2.6, 2.79}, {0.3, 0.3}, 100}, paper{{2.8, 1.5, 0.741}, {0.1, 0.1}, 100};
+  const auto photos = SeenByAll({{lamp, paper}, {}, {}});
+  const auto near = [](const std::vector<SeenPlace>& places, const Eigen::Vector3d& center) {
+    return std::count_if(places.begin(), places.end(),
+                         [&](const SeenPlace& p) { return (p.position - center).norm() < 0.1; });
+  };
+  EXPECT_GE(near(Find(photos), paper.center), 1);
+  SeenLuminairesOptions options;
+  options.tags = {{7, 0.2, {2.8, 1.5, 0.74}, {0, 0, 1}, {0, 1, 0}}};
+  const auto places = FindSeenLuminaires(*room_, cameras_, views_, photos, options);
+  EXPECT_EQ(near(places, paper.center), 0);
+  EXPECT_EQ(near(places, lamp.center), near(Find(photos), lamp.center));
+  // A lamp above the same tag stays.
+  options.tags[0].center_in_world.z() = 0.5;
+  EXPECT_GE(near(FindSeenLuminaires(*room_, cameras_, views_, photos, options), paper.center), 1);
+}
+
 // Two views were exposed so long that a lit part of the table is washed out; three show that it is no lamp.
 TEST_F(SeenLuminaires, AWashedOutSurfaceIsNotOneInShorterExposures) {
   const LampScene scene{{}, {}, {{{2.8, 1.5, 0.741}, {0.2, 0.2}, 3.5}}};
@@ -193,6 +213,29 @@ TEST_F(SeenLuminaires, StatesOfOnePlaceAreCollected) {
     const bool is_a = place.position.x() < 3;
     EXPECT_EQ(place.states, (std::vector<int>{is_a ? 0 : 1, 2}));
   }
+}
+
+// A wall near a lamp is washed out where that lamp is on alone. With all on, exposures are shorter, and it is not.
+TEST_F(SeenLuminaires, APlaceThatIsDarkWhereALuminaireIsOnIsNotIts) {
+  const LampScene scene{{}, {}, {{{2.8, 1.5, 0.741}, {0.2, 0.2}, 3.5}}};
+  std::vector<PhotoBlobs> photos;
+  for (int v = 0; v < 5; ++v) {
+    photos.push_back(Seen(scene, v, 0, 0.5));
+    photos.push_back(Seen(scene, v, 1, 0.1));
+  }
+  const auto places = Find(photos);
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].states, std::vector<int>{0});
+  EXPECT_EQ(places[0].dark_states, std::vector<int>{1});
+  const auto may_be = [&](double in_0, double in_1) {
+    return MayBePlaceOf(places[0], {Eigen::VectorXd::Constant(1, in_0), Eigen::VectorXd::Constant(1, in_1)},
+                        0);
+  };
+  EXPECT_FALSE(may_be(1, 1));
+  EXPECT_FALSE(may_be(0.3, 1));
+  EXPECT_FALSE(may_be(0, 1));
+  EXPECT_TRUE(may_be(1, 0.3));  // a dimmed luminaire may be too weak for the exposure
+  EXPECT_TRUE(may_be(1, 0));
 }
 
 TEST_F(SeenLuminaires, NothingBrightIsNoPlace) {

@@ -23,15 +23,11 @@ std::vector<SparseSource> HeldSources(const LuminaireGroup& group, const KnownPo
   return held;
 }
 
-// Returns indices of the places that are bright in states of the group and in none where it is off.
 std::vector<int> SeenOf(const LuminaireGroup& group, const LightData& data,
                         const std::vector<SeenPlace>& seen) {
   std::vector<int> own;
   for (size_t i = 0; i < seen.size(); ++i) {
-    const bool always_on = std::all_of(seen[i].states.begin(), seen[i].states.end(), [&](int state) {
-      return data.dimming[static_cast<size_t>(state)][group.luminaires[0]] > 0;
-    });
-    if (always_on) own.push_back(static_cast<int>(i));
+    if (MayBePlaceOf(seen[i], data.dimming, group.luminaires[0])) own.push_back(static_cast<int>(i));
   }
   return own;
 }
