@@ -1,5 +1,6 @@
 luxfit_test(calib/luminance image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance raw_photo_test LINK luxfit::calib)
+luxfit_test(calib/luminance heif_photo_test LINK luxfit::calib exiv2lib PkgConfig::LIBHEIF)
 luxfit_test(calib/luminance luminance_test LINK luxfit::calib)
 luxfit_test(calib/luminance median_test LINK luxfit::calib)
 luxfit_test(calib/luminance bracket_test LINK luxfit::calib)

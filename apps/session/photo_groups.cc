@@ -82,6 +82,7 @@ std::vector<LightGroup> GroupsOf(const std::vector<PhotoLook>& photos, const std
       is_doubtful[members[k]] = states[k].is_doubtful;
     }
     std::vector<LightGroup*> of_this_view;
+    of_this_view.reserve(by_state.size());
     for (auto& [state, group] : by_state) of_this_view.push_back(&group);
     MeasureTagLight(photos, of_this_view);
     for (auto& [state, group] : by_state) groups.push_back(std::move(group));
@@ -117,6 +118,7 @@ bool AdoptFolders(std::vector<NamedPhoto>& photos, std::string NamedPhoto::*memb
 std::vector<int> CamerasOf(const std::vector<PhotoLook>& photos) {
   std::map<std::pair<std::string, std::pair<int, int>>, int> number;
   std::vector<int> cameras;
+  cameras.reserve(photos.size());
   for (const PhotoLook& photo : photos)
     cameras.push_back(
         number

@@ -135,7 +135,7 @@ bool IsDoubtful(const NamedPhoto& photo) { return photo.note.rfind("CHECK", 0) =
 PhotoNames GuessViewsAndStates(const std::vector<std::string>& files) {
   PhotoNames names{ByFolder(files), "the folder names the state, the file the view"};
   if (DoFoldersNameViews(names.photos)) {
-    const PhotoNames turned{ByFolderOfView(names.photos), "the folder names the view, the file the state"};
+    PhotoNames turned{ByFolderOfView(names.photos), "the folder names the view, the file the state"};
     if (IsOfSharedViews(turned.photos, Brackets::kAllowed)) return turned;
   }
   if (IsOfSharedViews(names.photos)) return names;

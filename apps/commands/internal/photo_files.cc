@@ -23,11 +23,6 @@ struct OtherFiles {
 // Kinds of files that people take for photos, with what makes photos of them.
 const std::vector<OtherFiles>& KindsOfOtherFiles() {
   static const std::vector<OtherFiles> kinds = {
-      {"HEIC or HEIF",
-       "convert them with their metadata: heif-convert IMG.HEIC IMG.jpg (package libheif-examples), or let "
-       "the phone "
-       "take JPEG or RAW",
-       {".heic", ".heif", ".hif"}},
       {"AVIF, WebP or JPEG XL",
        "convert them to PNG or JPEG: convert IMG.webp IMG.png",
        {".avif", ".webp", ".jxl"}},
@@ -40,12 +35,12 @@ const std::vector<OtherFiles>& KindsOfOtherFiles() {
        {".gif", ".bmp", ".psd", ".pdf"}},
       {"archives", "unpack them: unzip FILE -d photos", {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar"}},
       {"RAW of a kind that is not read",
-       "convert them to DNG, linear and uncompressed or mosaiced",
-       {".crw", ".srw", ".x3f", ".3fr", ".iiq", ".mrw", ".erf", ".nrw", ".gpr"}}};
+       "convert them to DNG, or develop them linearly to 16-bit TIFF",
+       {".x3f", ".mrw", ".erf", ".gpr", ".rwl", ".raw"}}};
   return kinds;
 }
 
-// Says what lies in the folder: "HEIC or HEIF: 2 (IMG_1.HEIC, ...)", with remedies.
+// Says what lies in the folder: "movies: 2 (IMG_1.MOV, ...)", with remedies.
 std::string WhatLiesThere(const std::vector<std::string>& files) {
   if (files.empty()) return "found no files at all; give the folder that holds the photos";
   std::map<size_t, std::vector<std::string>> by_kind;
@@ -70,18 +65,20 @@ std::string WhatLiesThere(const std::vector<std::string>& files) {
 }  // namespace
 
 std::vector<std::string> PhotoFilesIn(const std::string& folder) {
-  const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".dng", ".cr2",
-                                         ".cr3", ".nef", ".arw",  ".raf", ".orf", ".rw2",  ".pef"};
+  const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".heic", ".heif",
+                                         ".hif", ".dng", ".cr2",  ".cr3", ".crw", ".nef",  ".nrw",  ".arw",
+                                         ".sr2", ".raf", ".orf",  ".rw2", ".pef", ".srw",  ".iiq",  ".3fr"};
   std::vector<std::string> photos, others;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
+    // Systems leave files of their own beside photos: .DS_Store, ._IMG_1234.jpg.
+    if (!entry.is_regular_file() || entry.path().filename().string()[0] == '.') continue;
     const bool is_photo = endings.count(ExtensionOf(entry.path().string())) > 0;
     (is_photo ? photos : others).push_back(fs::relative(entry.path(), folder).string());
   }
   std::sort(photos.begin(), photos.end());
   std::sort(others.begin(), others.end());
   if (photos.empty())
-    throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, RAW), " +
+    throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, HEIC, RAW), " +
                              WhatLiesThere(others));
   return photos;
 }

@@ -166,6 +166,7 @@ std::vector<GuessedState> NameStates(const std::vector<PhotoLook>& photos,
                                      const std::vector<int>& state_of_group) {
   const std::vector<Pictures> pictures = PicturesOfStates(photos, groups, state_of_group);
   std::vector<double> share;
+  share.reserve(pictures.size());
   for (const Pictures& state : pictures) share.push_back(ShareOf(state, pictures));
   const std::vector<bool> is_mix = FindMixes(pictures, share);
   std::vector<GuessedState> states(pictures.size());
