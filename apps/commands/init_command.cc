@@ -1,7 +1,6 @@
 #include "apps/commands/init_command.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/commands/internal/photo_draft.h"
 #include "apps/session/session.h"
 #include "apps/session/session_draft.h"
 #include "apps/session/session_files.h"
@@ -19,8 +19,6 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
-#include "calib/targets/tags.h"
 #include "forward/room/mesh_check.h"
 #include "forward/room/outline.h"
 #include "forward/room/scene.h"
@@ -29,22 +27,6 @@ namespace luxfit {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr size_t kPhotosForTags = 8;  // number searched for tags
-
-std::vector<std::string> PhotosIn(const std::string& folder) {
-  const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".dng", ".cr2",
-                                         ".cr3", ".nef", ".arw",  ".raf", ".orf", ".rw2",  ".pef"};
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && endings.count(ExtensionOf(entry.path().string())) > 0)
-      files.push_back(fs::relative(entry.path(), folder).string());
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty())
-    throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, RAW), found none");
-  return files;
-}
 
 void AddAreas(const Scene& scene, double scale, SessionDraft& draft) {
   for (const Facet& facet : scene.facets)
@@ -141,28 +123,6 @@ void LookAtRoom(const InitCommandOptions& options, SessionDraft& draft) {
   AddAreas(SceneFrom(OutlineOfBox(draft.size_m)), 1, draft);
 }
 
-void LookAtPhotos(const InitCommandOptions& options, SessionDraft& draft) {
-  const PhotoNames names = GuessViewsAndStates(PhotosIn(options.photos));
-  draft.names_because = names.because;
-  draft.states = GuessStates(names);
-  draft.photos.resize(names.photos.size());
-  tbb::parallel_for(size_t{0}, names.photos.size(), [&](size_t i) {
-    const std::string path = (fs::path(options.photos) / names.photos[i].file).string();
-    const Photo photo = ReadPhoto(path);
-    draft.photos[i] = {names.photos[i],   ReadExposureMetadata(path), photo.width_px(),
-                       photo.height_px(), photo.bits_per_channel,     0};
-    draft.photos[i].name.file = fs::relative(path, options.out).string();
-  });
-  std::vector<std::pair<int, int>> sizes;
-  for (DraftPhoto& photo : draft.photos) {
-    const std::pair<int, int> size(photo.width_px, photo.height_px);
-    const auto known = std::find(sizes.begin(), sizes.end(), size);
-    photo.camera = static_cast<int>(known - sizes.begin());
-    if (known == sizes.end()) sizes.push_back(size);
-  }
-  draft.cameras = static_cast<int>(sizes.size());
-}
-
 // Finds files of intrinsics beside the photos, the mesh or the session, of the photos' size.
 void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
   std::set<fs::path> folders = {fs::absolute(options.photos).lexically_normal(),
@@ -185,31 +145,6 @@ void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
       }
     }
   }
-}
-
-void LookForTags(const InitCommandOptions& options, SessionDraft& draft) {
-  std::set<int> seen;
-  draft.family = "tag36h11";
-  draft.family_because = "what `luxfit board tags` prints";
-  std::vector<std::string> files;
-  std::set<std::string> views;
-  for (const DraftPhoto& photo : draft.photos) {
-    if (files.size() < kPhotosForTags && views.insert(photo.name.view).second)
-      files.push_back((fs::path(options.out) / photo.name.file).string());
-  }
-  for (const std::string family : {"tag36h11", "tagStandard41h12", "tag25h9", "tag16h5"}) {
-    for (const std::string& file : files) {
-      DetectTagsOptions detect;
-      detect.family = family;
-      for (const TagDetection& tag : DetectTags(ReadPhoto(file).rgb_counts[1], detect)) seen.insert(tag.id);
-    }
-    if (seen.empty()) continue;
-    draft.family = family;
-    draft.family_because =
-        fmt::format("{} of them are seen in {} photos that were looked at", seen.size(), files.size());
-    break;
-  }
-  draft.seen_tags.assign(seen.begin(), seen.end());
 }
 
 void ExpectNew(const std::string& folder) {
@@ -235,9 +170,8 @@ int InitCommand(const InitCommandOptions& options) {
     draft.name = fs::absolute(options.out).lexically_normal().parent_path().filename().string();
   draft.mesh = options.mesh.empty() ? "" : fs::relative(options.mesh, options.out).string();
   draft.tags = options.tags.empty() ? "" : fs::relative(options.tags, options.out).string();
-  LookAtPhotos(options, draft);
+  DraftPhotos(options.photos, options.out, draft);
   LookForIntrinsics(options, draft);
-  LookForTags(options, draft);
   const fs::path folder(options.out);
   WriteText((folder / "photos.csv").string(), PhotoTable(draft));
   WriteText((folder / "luxmeter.csv").string(), ReadingsTemplate());

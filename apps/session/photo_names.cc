@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "apps/text/suggest.h"
@@ -49,16 +50,26 @@ bool IsNumber(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Tells whether at least half of the photos share their view with another, and no two share both view and
+// Tells the running numbers and times of cameras: 0001, 0001a, 123456789.MP. States have no such names.
+bool IsCameraNumber(const std::string& text) {
+  constexpr size_t kDigits = 4;
+  return IsNumber(text) || text.find_first_not_of("0123456789") >= kDigits;
+}
+
+enum class Brackets { kNone, kAllowed };
+
+// Tells whether at least half of the photos share their view with another. Without brackets, no two share both view and
 // state.
-bool IsOfSharedViews(const std::vector<NamedPhoto>& photos) {
+bool IsOfSharedViews(const std::vector<NamedPhoto>& photos, Brackets brackets = Brackets::kNone) {
   std::map<std::string, size_t> of_view;
   std::set<std::pair<std::string, std::string>> pairs;
   for (const NamedPhoto& photo : photos) {
-    if (photo.state.empty() || IsNumber(photo.state)) return false;
+    if (photo.state.empty() || IsCameraNumber(photo.state)) return false;
     ++of_view[photo.view];
-    if (!pairs.insert({photo.view, photo.state}).second) return false;
+    if (!pairs.insert({photo.view, photo.state}).second && brackets == Brackets::kNone) return false;
   }
+  // With all of one view and state, the names tell neither: 20240501_HDR_1, 20240501_HDR_2.
+  if (brackets == Brackets::kAllowed && pairs.size() < 2) return false;
   size_t sharing = 0;
   for (const auto& [view, count] : of_view) sharing += count > 1 ? count : 0;
   return 2 * sharing >= photos.size() && sharing > 0;
@@ -72,11 +83,41 @@ std::vector<NamedPhoto> ByFolder(const std::vector<std::string>& files) {
   return photos;
 }
 
-std::vector<NamedPhoto> ByName(const std::vector<std::string>& files) {
+// Tells whether the folders are called as views are, or the files as states.
+bool DoFoldersNameViews(const std::vector<NamedPhoto>& by_folder) {
+  const std::regex view(R"((v|view|pose|pos|position|place|tripod)?[ _-]?[0-9]+)");
+  const std::regex of_camera("[0-9]{3}|^(img|dsc|pxl|photo|foto|image|frame)", std::regex::icase);
+  bool are_views = true, are_files_states = false, are_folders_states = false;
+  for (const NamedPhoto& photo : by_folder) {
+    are_views = are_views && std::regex_match(Lowercase(photo.state), view) &&
+                !std::regex_search(photo.view, of_camera);
+    are_files_states = are_files_states || IsEverything(photo.view) || IsNothing(photo.view);
+    are_folders_states = are_folders_states || IsEverything(photo.state) || IsNothing(photo.state);
+  }
+  return are_views || (are_files_states && !are_folders_states);
+}
+
+// Returns the name without the number of an exposure: "v00_A" of "v00_A_1". Numbers of cameras have more digits.
+std::string WithoutExposure(const std::string& stem) {
+  constexpr size_t kMostDigits = 2;
+  const Split split = SplitName(stem);
+  return IsNumber(split.last) && split.last.size() <= kMostDigits ? split.first : stem;
+}
+
+std::vector<NamedPhoto> ByFolderOfView(std::vector<NamedPhoto> by_folder) {
+  for (NamedPhoto& photo : by_folder) {
+    std::swap(photo.view, photo.state);
+    photo.state = WithoutExposure(photo.state);
+  }
+  return by_folder;
+}
+
+std::vector<NamedPhoto> ByName(const std::vector<std::string>& files, Brackets brackets) {
   std::vector<NamedPhoto> photos;
   bool is_state_first = true;
   for (const std::string& file : files) {
-    const Split split = SplitName(StemOf(file));
+    const std::string stem = StemOf(file);
+    const Split split = SplitName(brackets == Brackets::kAllowed ? WithoutExposure(stem) : stem);
     photos.push_back({file, split.first, split.last});
   }
   is_state_first = std::any_of(photos.begin(), photos.end(),
@@ -89,12 +130,20 @@ std::vector<NamedPhoto> ByName(const std::vector<std::string>& files) {
 
 }  // namespace
 
+bool IsDoubtful(const NamedPhoto& photo) { return photo.note.rfind("CHECK", 0) == 0; }
+
 PhotoNames GuessViewsAndStates(const std::vector<std::string>& files) {
   PhotoNames names{ByFolder(files), "the folder names the state, the file the view"};
+  if (DoFoldersNameViews(names.photos)) {
+    PhotoNames turned{ByFolderOfView(names.photos), "the folder names the view, the file the state"};
+    if (IsOfSharedViews(turned.photos, Brackets::kAllowed)) return turned;
+  }
   if (IsOfSharedViews(names.photos)) return names;
-  names = {ByName(files), "names are VIEW_STATE"};
+  names = {ByName(files, Brackets::kNone), "names are VIEW_STATE"};
   if (IsOfSharedViews(names.photos)) return names;
-  names = {{}, "nothing in the names tells views from states: each photo a view, all in one state"};
+  names = {ByName(files, Brackets::kAllowed), "names are VIEW_STATE_EXPOSURE"};
+  if (IsOfSharedViews(names.photos, Brackets::kAllowed)) return names;
+  names = {{}, "nothing in the names tells views from states: each photo a view, all in one state", false};
   names.photos.reserve(files.size());
   for (const std::string& file : files) names.photos.push_back({file, StemOf(file), "all"});
   return names;

@@ -93,11 +93,20 @@ std::string StatesText(const SessionDraft& draft) {
   std::string text = "# What was on in each state, with its dimming from 0 to 1.\n[states]\n";
   for (const GuessedState& state : draft.states) {
     std::string on;
-    for (const std::string& luminaire : state.luminaires)
-      on += fmt::format("{}{} = 1.0", on.empty() ? "" : ", ", Quoted(luminaire));
-    text += fmt::format("{} = {{ {} }}   # GUESS: by its name\n", Quoted(state.id), on);
+    for (size_t k = 0; k < state.luminaires.size(); ++k)
+      on += fmt::format("{}{} = {:#.2g}", on.empty() ? "" : ", ", Quoted(state.luminaires[k]),
+                        state.dimming.empty() ? 1.0 : state.dimming[k]);
+    text += fmt::format("{} = {{ {} }}   # GUESS: {}\n", Quoted(state.id), on, state.because);
   }
   return text + "\n";
+}
+
+std::vector<std::string> DoubtfulPhotos(const SessionDraft& draft) {
+  std::vector<std::string> files;
+  for (const DraftPhoto& photo : draft.photos) {
+    if (IsDoubtful(photo.name)) files.push_back(photo.name.file);
+  }
+  return files;
 }
 
 }  // namespace
@@ -110,6 +119,9 @@ std::string SessionText(const SessionDraft& draft) {
       std::string("session.toml` what is still missing.\n\nname = ") + Quoted(draft.name) + "\n\n" +
       SceneText(draft) + TagsText(draft);
   for (int camera = 0; camera < draft.cameras; ++camera) text += CameraText(draft, camera);
+  const std::vector<std::string> doubtful = DoubtfulPhotos(draft);
+  if (!doubtful.empty())
+    text += fmt::format("# Doubtful, see their notes in photos.csv: {}.\n", fmt::join(doubtful, ", "));
   text += "[photos]\ntable = \"photos.csv\"   # GUESS: views and states, " + draft.names_because + "\n\n";
   text += StatesText(draft);
   return text +
@@ -123,14 +135,21 @@ std::string SessionText(const SessionDraft& draft) {
 }
 
 std::string PhotoTable(const SessionDraft& draft) {
-  std::string text = "file,camera,view,state,exposure_s,aperture,iso\n";
+  const bool has_notes = std::any_of(draft.photos.begin(), draft.photos.end(),
+                                     [](const DraftPhoto& photo) { return !photo.name.note.empty(); });
+  std::string text =
+      std::string("file,camera,view,state,exposure_s,aperture,iso") + (has_notes ? ",note" : "") + "\n";
   const auto field = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.6g}", *value) : "";
   };
-  for (const DraftPhoto& photo : draft.photos)
-    text += CsvLine({CsvField(photo.name.file), fmt::format("cam{}", photo.camera), CsvField(photo.name.view),
-                     CsvField(photo.name.state), field(photo.exposure.exposure_s),
-                     field(photo.exposure.f_number), field(photo.exposure.iso)});
+  for (const DraftPhoto& photo : draft.photos) {
+    std::vector<std::string> fields = {CsvField(photo.name.file),        fmt::format("cam{}", photo.camera),
+                                       CsvField(photo.name.view),        CsvField(photo.name.state),
+                                       field(photo.exposure.exposure_s), field(photo.exposure.f_number),
+                                       field(photo.exposure.iso)};
+    if (has_notes) fields.push_back(CsvField(photo.name.note));
+    text += CsvLine(fields);
+  }
   return text;
 }
 
@@ -144,6 +163,10 @@ std::vector<std::string> ToDo(const SessionDraft& draft) {
                                    [](const DraftPhoto& photo) { return !photo.exposure.exposure_s; });
   if (count > 0)
     list.push_back(fmt::format("photos.csv: exposure_s of {} photos: their metadata lacks it", count));
+  const size_t doubtful = DoubtfulPhotos(draft).size();
+  if (doubtful > 0)
+    list.push_back(
+        fmt::format("photos.csv: view and state of {} photos, whose notes begin with CHECK", doubtful));
   if (draft.tags.empty())
     list.push_back(
         "[tags]: survey where the tags hang, and give the map: without it the scene's frame is not known");

@@ -17,7 +17,7 @@ struct DraftPhoto {
   ExposureMetadata exposure;
   int width_px = 0, height_px = 0;
   int bits_per_channel = 16;
-  int camera = 0;  // photos of one size are of one camera
+  int camera = 0;
 };
 
 struct SessionDraft {

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "calib/luminance/internal/heif_photo.h"
 #include "calib/luminance/internal/radiance_header.h"
 #include "calib/luminance/internal/raw_photo.h"
 #include "calib/luminance/internal/tiff_compression.h"
@@ -26,7 +27,7 @@ cv::Mat ReadFile(const std::string& path) {
   if (image.empty()) {
     throw std::runtime_error(path +
                              ": cannot read the photo, expected PNG or TIFF (8 or 16 bit), EXR, TIFF, PFM or "
-                             "Radiance HDR (float), RAW or JPEG" +
+                             "Radiance HDR (float), RAW, JPEG or HEIC" +
                              detail);
   }
   return image;
@@ -74,6 +75,7 @@ Photo ReadPhoto(const std::string& path) {
     throw std::runtime_error(path + ": cannot read the photo, expected an existing file that may be read");
   }
   if (IsRawName(path)) return ReadRawPhoto(path);
+  if (IsHeifName(path)) return ReadHeifPhoto(path);
   const auto radiance = ReadRadianceHeader(path);
   const cv::Mat image = ReadFile(path);
   const int channels = image.channels();

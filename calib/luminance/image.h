@@ -35,7 +35,7 @@ struct Photo {
 };
 
 // Reads RAW (DNG, CR2, NEF, ARW, ...), PNG and TIFF (8 or 16 bit), EXR, TIFF, PFM and Radiance HDR (float),
-// JPEG.
+// JPEG, HEIC and HEIF.
 Photo ReadPhoto(const std::string& path);
 
 // Writes three float planes of one size as an OpenEXR picture, whole or not at all. Throws

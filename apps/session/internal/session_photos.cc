@@ -95,7 +95,7 @@ void ExpectNoRepeats(const CsvTable& table, const std::vector<SessionPhoto>& pho
 CsvTable ReadPhotoTable(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"table"});
   const std::string path = FindFile(section.Require("table", "the table of photos (CSV)"), folder);
-  return ReadCsvTable(path, {{"file", "camera", "view", "state", "exposure_s"}, {"aperture", "iso"}});
+  return ReadCsvTable(path, {{"file", "camera", "view", "state", "exposure_s"}, {"aperture", "iso", "note"}});
 }
 
 std::vector<SessionPhoto> PhotosOf(const CsvTable& table, const std::string& folder,

@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "calib/luminance/internal/heif_photo.h"
+
 namespace luxfit {
 
 Exiv2::ExifData ReadExif(const std::string& path) {
@@ -13,6 +15,13 @@ Exiv2::ExifData ReadExif(const std::string& path) {
   }();
   static_cast<void>(is_set_up);
   try {
+    if (IsHeifName(path)) {
+      // Exiv2 reads this container in some builds only.
+      const std::vector<std::uint8_t> bytes = ReadHeifExifBytes(path);
+      Exiv2::ExifData exif;
+      if (!bytes.empty()) Exiv2::ExifParser::decode(exif, bytes.data(), static_cast<uint32_t>(bytes.size()));
+      return exif;
+    }
     const auto image = Exiv2::ImageFactory::open(path);
     image->readMetadata();
     return image->exifData();

@@ -26,6 +26,39 @@ TEST(PhotoNamesTest, FoldersOfStates) {
   EXPECT_EQ(names.photos[2].state, "B");
 }
 
+TEST(PhotoNamesTest, FoldersOfViews) {
+  for (const char* all : {"all", "B"}) {
+    const PhotoNames names =
+        GuessViewsAndStates({"v00/A.png", std::string("v00/") + all + ".png", "v01/A.png"});
+    EXPECT_EQ(names.photos[0].view, "v00");
+    EXPECT_EQ(names.photos[1].state, all);
+  }
+  const PhotoNames brackets = GuessViewsAndStates({"1/A_1.jpg", "1/A_2.jpg", "2/A_1.jpg", "2/B_1.jpg"});
+  EXPECT_EQ(brackets.photos[1].view, "1");
+  EXPECT_EQ(brackets.photos[1].state, "A");
+  // The same camera numbers under two numbered folders say nothing of states.
+  EXPECT_FALSE(GuessViewsAndStates({"1/IMG_1234.jpg", "2/IMG_1234.jpg"}).do_names_tell);
+  EXPECT_EQ(GuessViewsAndStates({"v1/IMG_1.jpg", "v2/IMG_1.jpg"}).photos[0].state, "v1");
+}
+
+TEST(PhotoNamesTest, NumbersOfExposures) {
+  const PhotoNames names =
+      GuessViewsAndStates({"v00_A_1.jpg", "v00_A_2.jpg", "v00_all.jpg", "v01_A_1.jpg", "v01_all_1.jpg"});
+  EXPECT_TRUE(names.do_names_tell);
+  EXPECT_EQ(names.photos[1].view, "v00");
+  EXPECT_EQ(names.photos[1].state, "A");
+  EXPECT_EQ(names.photos[2].state, "all");
+}
+
+TEST(PhotoNamesTest, NamesOfPhonesTellNothing) {
+  for (const std::vector<std::string>& files : std::vector<std::vector<std::string>>{
+           {"PXL_20240501_100000123.jpg", "PXL_20240501_100010456.MP.jpg", "PXL_20240501_100020789.MP.jpg"},
+           {"20240101_123456.jpg", "20240101_123501.jpg"},
+           {"20240501_HDR_1.jpg", "20240501_HDR_2.jpg"},
+           {"IMG_1234.HEIC", "IMG_1235.JPG", "DSC_0001.JPG"}})
+    EXPECT_FALSE(GuessViewsAndStates(files).do_names_tell) << files[0];
+}
+
 TEST(PhotoNamesTest, CameraNumbersAreNoStates) {
   const PhotoNames names = GuessViewsAndStates({"DSC_0001.jpg", "IMG_17.jpg", "x.jpg"});
   EXPECT_EQ(names.photos[0].view, "DSC_0001");
