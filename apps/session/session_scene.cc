@@ -1,9 +1,10 @@
 #include "apps/session/session_scene.h"
 
+#include <array>
 #include <filesystem>
-#include <map>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "apps/session/internal/session_outline.h"
@@ -27,24 +28,21 @@ Eigen::Vector3d ReadAlbedo(const TomlCursor& value) {
   return albedo_rgb;
 }
 
-const std::map<std::string, double>& Units() {
-  static const std::map<std::string, double> metres{
-      {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
-  return metres;
-}
+constexpr std::array<std::pair<const char*, double>, 5> kMetresPerUnit = {
+    {{"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}}};
 
 std::vector<std::string> UnitNames() {
   std::vector<std::string> names;
-  for (const auto& [name, metres] : Units()) names.push_back(name);
+  for (const auto& [name, metres] : kMetresPerUnit) names.emplace_back(name);
   return names;
 }
 
 }  // namespace
 
 double MetresPerUnit(const std::string& unit, const std::string& key) {
-  const auto known = Units().find(unit);
-  if (known == Units().end()) throw std::runtime_error(key + ": " + ExpectedOneOf(UnitNames(), unit));
-  return known->second;
+  for (const auto& [name, metres] : kMetresPerUnit)
+    if (name == unit) return metres;
+  throw std::runtime_error(key + ": " + ExpectedOneOf(UnitNames(), unit));
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
@@ -52,7 +50,7 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
   SessionScene scene;
   if (const auto unit = section.Find("unit")) {
     scene.unit = unit->OneOf(UnitNames());
-    scene.metres_per_unit = Units().at(scene.unit);
+    scene.metres_per_unit = MetresPerUnit(scene.unit, "scene.unit");
   }
   scene.outline = ReadOutline(section, scene.metres_per_unit);
   if (const auto mesh = section.Find("mesh")) scene.mesh = AbsolutePath(FindFile(*mesh, folder));

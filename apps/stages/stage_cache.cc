@@ -1,7 +1,5 @@
 #include "apps/stages/stage_cache.h"
 
-#include <fmt/format.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -22,20 +20,27 @@ std::string PathOf(const std::string& out, const std::string& stage) {
   return out + "/stages/" + stage + ".cbor";
 }
 
-// A file is its format, a line end, the hash of what follows, a line end, and CBOR.
+std::string HashBytes(const std::vector<uint8_t>& bytes) { return HashText({bytes.begin(), bytes.end()}); }
+
+// A file holds its format, its content as CBOR, and the hash of that.
 std::optional<json> ReadKept(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string format, hash;
-  if (!std::getline(file, format) || format != kFormat || !std::getline(file, hash)) return std::nullopt;
-  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (HashText(bytes) != hash) return std::nullopt;
-  return json::from_cbor(bytes);
+  if (!file) return std::nullopt;
+  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const json kept = json::from_cbor(bytes, true, false);
+  if (!kept.is_object() || !kept.contains("format") || kept.at("format") != kFormat) return std::nullopt;
+  if (!kept.contains("hash") || !kept.contains("content") || !kept.at("content").is_binary())
+    return std::nullopt;
+  const std::vector<uint8_t>& content = kept.at("content").get_binary();
+  if (kept.at("hash") != HashBytes(content)) return std::nullopt;
+  return json::from_cbor(content);
 }
 
 void Write(const std::string& path, const json& kept) {
-  const std::vector<uint8_t> cbor = json::to_cbor(kept);
-  const std::string bytes(cbor.begin(), cbor.end());
-  WriteText(path, fmt::format("{}\n{}\n{}", kFormat, HashText(bytes), bytes));
+  const std::vector<uint8_t> content = json::to_cbor(kept);
+  const std::vector<uint8_t> bytes = json::to_cbor(
+      json{{"format", kFormat}, {"hash", HashBytes(content)}, {"content", json::binary(content)}});
+  WriteText(path, std::string(bytes.begin(), bytes.end()));
 }
 
 json Sayings(const RunContext& context, const StageMark& mark) {

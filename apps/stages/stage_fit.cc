@@ -12,6 +12,7 @@
 #include "apps/stages/session_light.h"
 #include "apps/stages/stages.h"
 #include "inverse/model/fit_uncertainty.h"
+#include "inverse/observe/state_conflicts.h"
 
 namespace luxfit {
 namespace {
@@ -45,6 +46,25 @@ void WriteArtifact(const RoomFit& room_fit, const RunContext& context) {
 
 std::string TimeLeft(const RunContext& context) {
   return context.stop ? fmt::format(", at most {:.0f} s to go", context.stop->LeftS()) : "";
+}
+
+// Warns where photos show a luminaire otherwise than [states] says.
+void WarnOfStates(const Session& session, const RoomFit& fit, const RoomObservations& given,
+                  RunContext& context) {
+  const std::vector<Luminaire>& luminaires = fit.fit.state.luminaires;
+  for (const StateConflict& conflict : FindStateConflicts(given.seen, luminaires, given.dimming)) {
+    const auto k = static_cast<size_t>(conflict.luminaire);
+    if (!fit.luminaire_found[k]) continue;
+    const std::string& id = luminaires[k].id;
+    const std::string& state = session.states[static_cast<size_t>(conflict.state)].id;
+    context.warnings.push_back(
+        {"state_contradicted",
+         conflict.is_bright
+             ? fmt::format("photos show {} shining in state {}, in which [states] has it off", id, state)
+             : fmt::format("most photos of state {} show {} dark, which [states] has on in it", state, id),
+         fmt::format("correct {} of {} in [states], or see whether photos of {} are in another state", id,
+                     state, state)});
+  }
 }
 
 }  // namespace
@@ -89,8 +109,10 @@ RoomFit FitSession(const Session& session, const LinearizedSession& linearized, 
     if (is_choosing) Say(context, fmt::format("{} rounds of its fits{}", ++rounds, TimeLeft(context)));
     return context.stop ? context.stop->Reason() : "";
   };
-  RoomFit fit = FitRoom(room, RoomObservationsOf(session, linearized, room, observed), options);
+  const RoomObservations given = RoomObservationsOf(session, linearized, room, observed);
+  RoomFit fit = FitRoom(room, given, options);
   context.Add(fit.findings);
+  WarnOfStates(session, fit, given, context);
   WriteArtifact(fit, context);
   return fit;
 }

@@ -16,7 +16,8 @@ std::vector<std::string> FilesOfMesh(const std::string& path) {
   if (fs::path(path).extension() != ".gltf") return files;
   std::ifstream file(path, std::ios::binary);
   const nlohmann::json document = nlohmann::json::parse(file, nullptr, false);
-  if (!document.is_object() || !document.contains("buffers") || !document.at("buffers").is_array()) return files;
+  if (!document.is_object() || !document.contains("buffers") || !document.at("buffers").is_array())
+    return files;
   for (const nlohmann::json& buffer : document.at("buffers")) {
     if (!buffer.is_object() || !buffer.contains("uri") || !buffer.at("uri").is_string()) continue;
     const std::string uri = buffer.at("uri");

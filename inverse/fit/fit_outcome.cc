@@ -81,7 +81,12 @@ double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuant
 
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
   if (!fit.absolute || (!fit.TellsDirectLight() && fit.fit.state.free[luminaire].flux)) return false;
-  return !(SigmaOf(fit, ParameterKind::kLogFlux, static_cast<int>(luminaire)) >= kLeastKnownFlux);
+  const int index = static_cast<int>(luminaire);
+  const bool is_at_bound =
+      std::any_of(fit.fit.at_bound.begin(), fit.fit.at_bound.end(), [&](const ParameterId& id) {
+        return id.kind == ParameterKind::kLogFlux && id.owner == fit.fit.state.luminaires[luminaire].id;
+      });
+  return !is_at_bound && !(SigmaOf(fit, ParameterKind::kLogFlux, index) >= kLeastKnownFlux);
 }
 
 std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit) {

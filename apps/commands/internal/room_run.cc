@@ -107,6 +107,7 @@ double MakeReport(const RunContext& context, const std::function<FittedRoom()>& 
 RunContext MakeContext(const SessionCommandOptions& options, const Session& session) {
   RunContext context;
   context.out = std::filesystem::absolute(options.out).lexically_normal().string();
+  ExpectOwnFolders(context.out);
   context.provenance = {options.command_line, session.input_files};
   context.expected_s = LastTimes(context.out);
   return context;

@@ -62,6 +62,7 @@ int ExportCommand(const ExportCommandOptions& options) {
       std::filesystem::absolute(options.folder.empty() ? fitted.out + "/export" : options.folder)
           .lexically_normal()
           .string();
+  ExpectOwnFolders(fitted.out);
   RunContext context;
   context.out = folder;
   context.is_quiet = true;

@@ -49,6 +49,18 @@ nlohmann::json ProvenanceJson(const std::string& format, const Provenance& prove
   return opening;
 }
 
+void ExpectOwnFolders(const std::string& out) {
+  std::error_code error;
+  for (const char* name : {"stages", "luminaires", "export"}) {
+    const std::filesystem::path folder = std::filesystem::path(out) / name;
+    if (std::filesystem::is_symlink(folder, error))
+      throw std::runtime_error(
+          folder.string() +
+          ": expected a folder that luxfit made, got a symbolic link; remove it, or name "
+          "another folder by --out");
+  }
+}
+
 void WriteText(const std::string& path, const std::string& text) {
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);

@@ -22,6 +22,9 @@ struct Provenance {
 
 nlohmann::json ProvenanceJson(const std::string& format, const Provenance& provenance);
 
+// Refuses an output folder in which one of luxfit's own folders is a symbolic link: files would land elsewhere.
+void ExpectOwnFolders(const std::string& out);
+
 // Returns the hash of a file's bytes in hexadecimal.
 std::string HashFile(const std::string& path);
 std::string HashText(const std::string& text);

@@ -81,12 +81,16 @@ TEST(FluxOfALuminaire, IsUnknownWhereItMayBeThreeTimesAsLarge) {
   RoomFit fit;
   fit.absolute = true;
   fit.fit.state.luminaires.resize(1);
+  fit.fit.state.luminaires[0].id = "A";
   fit.fit.state.free.resize(1);
   fit.fit.parameters.push_back({ParameterKind::kLogFlux, 0, {}, -50, 50, "A"});
   fit.fit.covariance = Eigen::MatrixXd::Constant(1, 1, 0.81);
   EXPECT_TRUE(IsFluxKnown(fit, 0));
   fit.fit.covariance(0, 0) = 1.21;
   EXPECT_FALSE(IsFluxKnown(fit, 0));
+  fit.fit.covariance(0, 0) = 0.01;
+  fit.fit.at_bound = {{ParameterKind::kLogFlux, "A"}};
+  EXPECT_FALSE(IsFluxKnown(fit, 0)) << "it stopped at a bound";
 }
 
 }  // namespace
