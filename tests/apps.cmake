@@ -80,6 +80,8 @@ luxfit_test(apps/stages run_test SLOW WHOLE LINK luxfit_apps truth_comparison nl
 add_dependencies(apps_run_test luxfit)
 luxfit_test(apps/stages scanned_office_test SLOW WHOLE LINK luxfit_apps truth_comparison nlohmann_json::nlohmann_json)
 add_dependencies(apps_scanned_office_test luxfit)
+luxfit_test(apps/stages phone_office_test SLOW WHOLE LINK luxfit_apps truth_comparison nlohmann_json::nlohmann_json exiv2lib opencv_core opencv_imgcodecs)
+add_dependencies(apps_phone_office_test luxfit)
 luxfit_test(apps/commands room_commands_test SLOW WHOLE LINK luxfit::forward nlohmann_json::nlohmann_json)
 add_dependencies(apps_room_commands_test luxfit)
 luxfit_test(apps/commands stability_test SLOW LINK nlohmann_json::nlohmann_json)

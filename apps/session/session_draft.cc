@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "apps/text/formats/csv_text.h"
 #include "apps/text/suggest.h"
@@ -62,6 +64,28 @@ bool HasEightBits(const SessionDraft& draft, int camera) {
   });
 }
 
+// Returns whether three photos or more of one view and state are of the camera: a bracket tells its tone curve.
+bool HasBrackets(const SessionDraft& draft, int camera) {
+  constexpr int kFewestExposures = 3;
+  std::map<std::pair<std::string, std::string>, int> exposures;
+  for (const DraftPhoto& photo : draft.photos) {
+    if (photo.camera == camera && ++exposures[{photo.name.view, photo.name.state}] >= kFewestExposures)
+      return true;
+  }
+  return false;
+}
+
+std::string ResponseText(const SessionDraft& draft, int camera) {
+  if (!HasEightBits(draft, camera))
+    return "response = \"linear\"   # GUESS: 16-bit, float or RAW photos, developed without a tone curve\n";
+  if (HasBrackets(draft, camera))
+    return "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; three exposures of a view "
+           "tell it\n";
+  return "response = \"srgb\"   # GUESS: 8-bit photos have a tone curve; without three exposures of a view, "
+         "that of "
+         "sRGB is assumed\n";
+}
+
 std::string CameraText(const SessionDraft& draft, int camera) {
   std::string text = fmt::format("[[camera]]\nid = \"cam{}\"\n", camera);
   const auto file = draft.intrinsics.find(camera);
@@ -76,12 +100,7 @@ std::string CameraText(const SessionDraft& draft, int camera) {
         "file:\n"
         "# calibration_images = \"board/*.png\"\n# intrinsics = \"cam0.yaml\"\n";
   }
-  text +=
-      HasEightBits(draft, camera)
-          ? "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; three exposures of a view "
-            "tell it\n"
-          : "response = \"linear\"   # GUESS: 16-bit, float or RAW photos, developed without a tone curve\n";
-  return text +
+  return text + ResponseText(draft, camera) +
          "vignetting = \"estimate\"   # GUESS: from surfaces seen at several places of the pictures\n"
          "black_level = 0   # GUESS: counts of a black photo; RAW files state their own\n\n";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -101,6 +102,9 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   LinearizedSession linearized = LinearizeKept(session, inputs, context);
   const SessionCheck check = CheckSession(session, room.rays);
   context.warnings.insert(context.warnings.end(), check.warnings.begin(), check.warnings.end());
+  // Said at once, too: who sees it may stop the run and correct the table.
+  for (const Warning& warning : check.warnings)
+    if (!context.is_quiet) std::fprintf(stderr, "%-9s %s\n", "check", warning.message.c_str());
   LeaveOutReadings(check.readings.lines, linearized.readings);
   context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);

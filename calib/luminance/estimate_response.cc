@@ -15,10 +15,10 @@ namespace luxfit {
 namespace {
 
 // Returns one curve for all channels, from shares of full scale to shares of full exposure.
-CameraResponse FixedResponse(const ResponseOptions& options, double (*decoded)(double)) {
+CameraResponse FixedResponse(double full_scale_counts, double (*decoded)(double)) {
   const Eigen::VectorXd share = Eigen::VectorXd::LinSpaced(kResponseLevels, 0, 1);
   const Eigen::VectorXd curve = share.unaryExpr(decoded);
-  return {options.full_scale_counts * share, {curve, curve, curve}};
+  return {full_scale_counts * share, {curve, curve, curve}};
 }
 
 double LinearDecoded(double share) { return share; }
@@ -31,8 +31,8 @@ double SrgbDecoded(double share) {
 // Returns the candidates, from the one that assumes most to the one that assumes least.
 std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOptions& options) {
   std::vector<std::pair<std::string, ResponseSolver>> candidates{
-      {"linear", [&options](const auto&) { return FixedResponse(options, LinearDecoded); }},
-      {"sRGB", [&options](const auto&) { return FixedResponse(options, SrgbDecoded); }}};
+      {"linear", [&options](const auto&) { return FixedResponse(options.full_scale_counts, LinearDecoded); }},
+      {"sRGB", [&options](const auto&) { return FixedResponse(options.full_scale_counts, SrgbDecoded); }}};
   for (const double smoothing : {1e3, 1.0, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4}) {
     candidates.push_back({fmt::format("debevec, smoothing {:g}", smoothing),
                           [&options, smoothing](const std::vector<BracketSamples>& training) {
@@ -67,6 +67,13 @@ std::string Lack(const std::vector<BracketSamples>& brackets, const ResponseOpti
 }
 
 }  // namespace
+
+CameraResponse SrgbResponse(double full_scale_counts) {
+  constexpr double kSigma = 0.05;
+  const CameraResponse response = FixedResponse(full_scale_counts, SrgbDecoded);
+  const Eigen::VectorXd sigma = Eigen::VectorXd::Constant(response.counts().size(), kSigma);
+  return response.WithRelativeSigma({sigma, sigma, sigma});
+}
 
 ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
                                   const ResponseOptions& options) {

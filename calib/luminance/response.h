@@ -76,6 +76,10 @@ class CameraResponse {
   std::array<Eigen::VectorXd, 3> exposure_, relative_sigma_;
 };
 
+// Returns the decoding of sRGB (IEC 61966-2-1) for counts up to full scale, which photos without brackets are taken to
+// have. Makers lift shadows and bend highlights: ln X is taken to err by 5 % (1 sigma).
+CameraResponse SrgbResponse(double full_scale_counts);
+
 // Holds some pixels of one bracket.
 struct BracketSamples {
   Eigen::VectorXd exposure_s;             // relative exposures, any order

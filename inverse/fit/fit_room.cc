@@ -418,8 +418,9 @@ class RoomFitter {
       result_.findings.AddUndetermined(
           {"scale_undetermined",
            "the fluxes of all luminaires and the camera's scale are known only up to one common factor",
-           "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm with its "
-           "sigma"});
+           "name one reading in luxmeter.scale, at a place in the room, or give camera.cdm2_per_count_s or "
+           "one "
+           "flux_lm with its sigma"});
     }
     if (light_.used_readings > 0 && state.camera_scale_free)
       state = WithMatchedScale(room_, given_, result_.data, std::move(state));

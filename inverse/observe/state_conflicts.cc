@@ -58,8 +58,8 @@ std::vector<StateConflict> FindStateConflicts(const std::vector<SeenPlace>& seen
   std::vector<StateConflict> found;
   for (int k = 0; k < static_cast<int>(luminaires.size()); ++k) {
     // The place that most views saw; FindSeenLuminaires lists it first.
-    const auto own =
-        std::find_if(seen.begin(), seen.end(), [&](const SeenPlace& place) { return search.IsNear(place, k); });
+    const auto own = std::find_if(seen.begin(), seen.end(),
+                                  [&](const SeenPlace& place) { return search.IsNear(place, k); });
     if (own != seen.end()) search.Add(*own, k, found);
   }
   return found;

@@ -1,9 +1,11 @@
 #include "apps/session/internal/session_camera.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "apps/session/internal/session_board.h"
 #include "apps/session/session_files.h"
+#include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {
@@ -25,18 +27,19 @@ Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
   return weights;
 }
 
-// Holds `none`, "estimate" or the name of a file, and the absolute path of that file.
+// Holds a word, or the name of a file and its absolute path.
 struct NameOrFile {
   std::string name, path;
 };
-NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key, const std::string& none,
-                          const std::string& folder) {
+// Reads one of the words, of which the first is the default, or a file.
+NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key,
+                          const std::vector<std::string>& words, const std::string& folder) {
   const auto value = table.Find(key);
-  if (!value) return {none, ""};
-  const std::string name = value->Text("\"" + none + "\", \"estimate\" or a file");
-  if (name == none || name == "estimate") return {name, ""};
+  if (!value) return {words.front(), ""};
+  const std::string name = value->Text(ListQuoted(words) + " or a file");
+  if (std::find(words.begin(), words.end(), name) != words.end()) return {name, ""};
   // A word without an extension is a misspelt name, not a missing file.
-  if (ExtensionOf(name).empty()) value->OneOf({none, "estimate"});
+  if (ExtensionOf(name).empty()) value->OneOf(words);
   return {name, AbsolutePath(FindFile(*value, folder))};
 }
 
@@ -63,10 +66,10 @@ SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
   if (const auto size = table.Find("image_size")) camera.image_size_px = ReadImageSize(*size);
   if (const auto intrinsics = table.Find("intrinsics"))
     camera.intrinsics = ReadIntrinsics(*intrinsics, folder);
-  const NameOrFile response = ReadNameOrFile(table, "response", "linear", folder);
+  const NameOrFile response = ReadNameOrFile(table, "response", {"linear", "srgb", "estimate"}, folder);
   camera.response = response.name;
   camera.response_path = response.path;
-  const NameOrFile vignetting = ReadNameOrFile(table, "vignetting", "none", folder);
+  const NameOrFile vignetting = ReadNameOrFile(table, "vignetting", {"none", "estimate"}, folder);
   camera.vignetting = vignetting.name;
   camera.vignetting_path = vignetting.path;
   camera.line = table.place().line;

@@ -89,6 +89,15 @@ CameraResponse EstimateForCamera(const LinearizedPhotos& photos, const Session& 
   return *estimate.response;
 }
 
+void WarnOfSrgb(const SessionCamera& camera, RunContext& context) {
+  context.warnings.push_back({"response_assumed",
+                              fmt::format("photos of camera {} are taken to have the curve of sRGB; most "
+                                          "makers bend theirs, by 5 % and more",
+                                          camera.id),
+                              "take RAW, or three exposures or more of one view and state, one stop apart, "
+                              "with response = \"estimate\""});
+}
+
 }  // namespace
 
 CameraResponse ReadResponse(const std::string& path) {
@@ -149,6 +158,9 @@ LinearizedPhotos WithResponses(LinearizedPhotos photos, const Session& session, 
       }
       if (given.response == "estimate") {
         camera.response = EstimateForCamera(photos, session, c, context, entry);
+      } else if (given.response == "srgb") {
+        camera.response = SrgbResponse(camera.full_scale_counts);
+        WarnOfSrgb(given, context);
       } else if (given.response != "linear") {
         camera.response = ReadResponse(given.response_path);
       }

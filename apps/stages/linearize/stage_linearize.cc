@@ -21,7 +21,8 @@ Photo ReadCounts(const LinearizedCamera& camera, const std::string& file) {
         "{}: expected linear counts (camera \"{}\" has response = \"linear\"), got an 8-bit "
         "photo: 8-bit files are "
         "gamma-encoded (sRGB); give 16-bit PNG/TIFF or EXR developed linearly from RAW, or response = "
-        "\"estimate\" with brackets of three exposures or more",
+        "\"estimate\" with brackets of three exposures or more, or response = \"srgb\", which is less "
+        "accurate",
         file, settings.id));
   }
   if (counts.is_black_subtracted && settings.black_level_counts > 0) {

@@ -51,7 +51,7 @@ StatedRadiometry StatedBy(const Session& session, const LinearizedPhotos& photos
   }
   for (const LinearizedCamera& camera : photos.cameras) {
     stated.open.vignetting.push_back(!camera.vignetting);
-    stated.open.response.push_back(!camera.response);
+    stated.open.response.push_back(!camera.response || camera.given.response == "srgb");
     stated.open.gain_is_stated.push_back(LuminancePerUnit(camera).has_value());
     stated.vignetting.push_back(VignettingOf(camera.given));
   }
@@ -80,7 +80,8 @@ std::string HeldBy(const LinearizedPhotos& photos) {
   std::string held;
   for (const LinearizedCamera& camera : photos.cameras) {
     if (camera.vignetting) held += fmt::format("; vignetting of {} is its flat field's", camera.given.id);
-    if (camera.response) held += fmt::format("; response of {} is its curve's", camera.given.id);
+    if (camera.response && camera.given.response != "srgb")
+      held += fmt::format("; response of {} is its curve's", camera.given.id);
   }
   return held;
 }

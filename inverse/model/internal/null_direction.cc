@@ -91,7 +91,9 @@ void Describe(const Parties& parties, NullDirection& direction) {
   } else if (!parties.has_geometry && parties.has_scale) {
     direction.meaning = "the flux of " + Listed(parties.fluxes) +
                         " and the camera's scale are known only up to one common factor";
-    direction.remedy = "name one reading in luxmeter.scale, or give camera.cdm2_per_count_s or one flux_lm";
+    direction.remedy =
+        "name one reading in luxmeter.scale, at a place in the room, or give camera.cdm2_per_count_s or one "
+        "flux_lm";
   } else if (!parties.has_geometry && parties.fluxes.size() > 1) {
     direction.meaning = "the fluxes of " + Listed(parties.fluxes) + " are known only together";
     direction.remedy =

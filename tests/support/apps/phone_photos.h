@@ -53,6 +53,7 @@ struct PhoneShot {
   double stops = 0;  // of exposure, more than the office's photo has
   int taken_s = 0;   // after ten o'clock
   bool has_exif = true;
+  double bend = 1;  // power of the light before the curve of sRGB, as makers bend theirs
 };
 
 // Names files in the ways of four makers. Each counts on with the number.
@@ -75,13 +76,13 @@ inline std::string PhoneName(size_t number) {
   return name;
 }
 
-inline cv::Mat WithSrgbCurve(const cv::Mat& counts, double stops) {
+inline cv::Mat WithSrgbCurve(const cv::Mat& counts, double stops, double bend) {
   cv::Mat bytes(counts.rows, counts.cols, CV_8UC3);
   const double scale = std::exp2(stops) / 65535;
   for (int v = 0; v < counts.rows; ++v) {
     for (int u = 0; u < counts.cols; ++u) {
       for (int c = 0; c < 3; ++c) {
-        const double x = std::min(1.0, scale * counts.at<cv::Vec3w>(v, u)[c]);
+        const double x = std::pow(std::min(1.0, scale * counts.at<cv::Vec3w>(v, u)[c]), bend);
         const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
         bytes.at<cv::Vec3b>(v, u)[c] = static_cast<unsigned char>(std::lround(255 * y));
       }
@@ -93,7 +94,8 @@ inline cv::Mat WithSrgbCurve(const cv::Mat& counts, double stops) {
 inline void WritePhoneShot(const std::string& path, const PhoneShot& shot) {
   const cv::Mat counts = cv::imread(shot.of.png, cv::IMREAD_UNCHANGED);
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  ASSERT_TRUE(cv::imwrite(path, WithSrgbCurve(counts, shot.stops), {cv::IMWRITE_JPEG_QUALITY, 92}));
+  ASSERT_TRUE(
+      cv::imwrite(path, WithSrgbCurve(counts, shot.stops, shot.bend), {cv::IMWRITE_JPEG_QUALITY, 92}));
   if (!shot.has_exif) return;
   const auto image = Exiv2::ImageFactory::open(path);
   Exiv2::ExifData& exif = image->exifData();
