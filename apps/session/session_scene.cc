@@ -33,6 +33,7 @@ constexpr std::array<std::pair<const char*, double>, 5> kMetresPerUnit = {
 
 std::vector<std::string> UnitNames() {
   std::vector<std::string> names;
+  names.reserve(kMetresPerUnit.size());
   for (const auto& [name, metres] : kMetresPerUnit) names.emplace_back(name);
   return names;
 }

@@ -300,9 +300,8 @@ Scene WithTrianglesMerged(const Scene& mesh) {
   exact.largest_hole_m = 0;
   exact.most_planes = static_cast<int>(mesh.facets.size());
   OnPlanes laid = LayOnPlanes(mesh, exact);
-  const bool is_much_less =
-      kMuchFewer * CountPatches(laid.scene, {}).patches <= CountPatches(mesh, {}).patches;
-  return is_much_less ? std::move(laid.scene) : mesh;
+  if (kMuchFewer * CountPatches(laid.scene, {}).patches > CountPatches(mesh, {}).patches) return mesh;
+  return std::move(laid.scene);
 }
 
 bool IsFinerThanPatches(const Scene& mesh, const PatchesOptions& options) {

@@ -19,7 +19,7 @@ bool IsFormula(const std::string& text) {
 std::string CsvField(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 std::string CsvField(const std::string& given) {
-  const std::string text = (IsFormula(given) ? "'" : "") + given;
+  std::string text = (IsFormula(given) ? "'" : "") + given;
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

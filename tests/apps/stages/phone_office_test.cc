@@ -51,8 +51,8 @@ PhoneRun RunPhoneOffice(double bend) {
   for (const json& warning : result["warnings"]) phone.codes.push_back(warning["code"]);
   phone.errors = CompareWithTruth(result, json::parse(std::ifstream((fixture / "truth.json").string())));
   phone.readings_percent = result["summary"]["mean_abs_error_percent"];
-  std::printf("worst position %.2f mm, worst flux %.2f %%, readings %.2f %%\n", phone.errors.worst_position_mm,
-              phone.errors.worst_flux_percent, phone.readings_percent);
+  std::printf("worst position %.2f mm, worst flux %.2f %%, readings %.2f %%\n",
+              phone.errors.worst_position_mm, phone.errors.worst_flux_percent, phone.readings_percent);
   EXPECT_EQ(phone.errors.luminaires_missing, 0);
   EXPECT_THAT(phone.codes, testing::Contains("response_assumed"));
   return phone;
@@ -68,9 +68,9 @@ TEST(PhoneOffice, JpegsWithTheCurveOfSrgbAreEnough) {
 TEST(PhoneOffice, ABentCurveIsFoundAndCorrected) {
   const PhoneRun phone = RunPhoneOffice(1.1);
   EXPECT_THAT(phone.codes, testing::Contains("response_not_linear"));
-  EXPECT_LT(phone.errors.worst_position_mm, 6.5);   // 4.33 mm
-  EXPECT_LT(phone.errors.worst_flux_percent, 2);    // 1.29 %
-  EXPECT_LT(phone.readings_percent, 1.6);           // 1.05 %
+  EXPECT_LT(phone.errors.worst_position_mm, 6.5);  // 4.33 mm
+  EXPECT_LT(phone.errors.worst_flux_percent, 2);   // 1.29 %
+  EXPECT_LT(phone.readings_percent, 1.6);          // 1.05 %
 }
 
 }  // namespace
