@@ -1,11 +1,12 @@
 #include "apps/session/internal/session_camera.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
 #include "apps/session/internal/session_board.h"
 #include "apps/session/session_files.h"
-#include "apps/text/suggest.h"
 
 namespace luxfit {
 namespace {
@@ -36,7 +37,7 @@ NameOrFile ReadNameOrFile(const TomlCursor& table, const std::string& key,
                           const std::vector<std::string>& words, const std::string& folder) {
   const auto value = table.Find(key);
   if (!value) return {words.front(), ""};
-  const std::string name = value->Text(ListQuoted(words) + " or a file");
+  const std::string name = value->Text(fmt::format("\"{}\" or a file", fmt::join(words, "\", \"")));
   if (std::find(words.begin(), words.end(), name) != words.end()) return {name, ""};
   // A word without an extension is a misspelt name, not a missing file.
   if (ExtensionOf(name).empty()) value->OneOf(words);

@@ -426,7 +426,7 @@ TEST_F(SessionErrorsTest, ResponseAndVignettingAreNamesOrFiles) {
   EXPECT_EQ(ErrorAfter("response = \"linear\"", "response = \"estimate\""), "");
   EXPECT_EQ(ErrorAfter("\"none\"", "\"estimate\""), "");
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = 1"),
-              HasSubstr("camera[0].response: expected \"linear\", \"estimate\" or a file, got 1"));
+              HasSubstr("camera[0].response: expected \"linear\", \"srgb\", \"estimate\" or a file, got 1"));
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"curve.csv\""),
               HasSubstr(At("response") + "camera[0].response: expected an existing file, got \"curve.csv\""));
   EXPECT_THAT(ErrorAfter("response = \"linear\"", "response = \"estimat\""), HasSubstr("mean \"estimate\"?"));
