@@ -22,6 +22,8 @@ constexpr double kLastStepSigmas = 0.1;  // of a step that ends the outer loop
 // steps by unsettled weights would lead away, and back over ten rounds.
 constexpr int kMostWeighings = 20;
 constexpr double kSettledWeights = 0.01;  // relative change of f
+constexpr int kMostDesignEffects = 5;
+constexpr double kSettledDesignEffect = 0.9;  // of the one before
 
 class OuterLoop {
  public:
@@ -48,14 +50,26 @@ class OuterLoop {
       return fit_;
     }
     fit_.photo_design_effect = std::max(1.0, options_.photo_design_effect);
+    const bool is_unknown =
+        options_.covariance && options_.photo_design_effect == 0 && !data_.observations.empty();
+    // Photos that know less than they seem to would move luminaires away from their outlines, where robust weights keep
+    // them.
+    if (is_unknown && options_.start_is_near && HasOtherKnowledge())
+      fit_.photo_design_effect = PhotoDesignEffect();
     bool settled = Settle(options_.start_is_near);
     if (ExchangesTexturedLight()) settled = Settle(true);
     double design_effect = fit_.photo_design_effect;
-    if (options_.covariance && options_.photo_design_effect == 0 && !data_.observations.empty()) {
+    if (is_unknown) {
       design_effect = PhotoDesignEffect();
-      if (HasOtherKnowledge()) {
-        fit_.photo_design_effect = design_effect;
+      // Away from the photos' own optimum their residuals resemble one another more, so the estimate is repeated while it
+      // falls. It is not followed upwards: weaker photos bend a smooth table less, which leaves residuals more alike.
+      for (int i = 0; i < kMostDesignEffects && HasOtherKnowledge(); ++i) {
+        const double before = design_effect;
+        fit_.photo_design_effect = before;
         settled = Settle(true);
+        design_effect = PhotoDesignEffect();
+        fit_.photo_design_effect = before;
+        if (design_effect > kSettledDesignEffect * before) break;
       }
     }
     fit_.parameters = Recentred(fit_.parameters, fit_.state);
@@ -125,6 +139,7 @@ class OuterLoop {
 
   // Residuals of photos resemble one another: facets whose rows all err alike know less than they seem to.
   double PhotoDesignEffect() {
+    fit_.photo_design_effect = 1;  // it is that of rows weighed as if they were independent
     fit_.parameters = Recentred(fit_.parameters, fit_.state);
     Refresh(true);
     WeightedRows rows = RowsAtState();

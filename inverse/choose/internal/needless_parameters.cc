@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "inverse/observe/internal/angle.h"
 
 namespace luxfit {
 namespace {
 
-constexpr std::array<double, 3> kChi2Of95{0, 3.841, 5.991};  // by degrees of freedom
+constexpr std::array<double, 7> kChi2Of95{0,     3.841,  5.991, 7.815,
+                                          9.488, 11.070, 12.592};  // by degrees of freedom
 
 bool IsOneOf(const Parameter& p, int luminaire, const std::vector<LuminaireQuantity>& quantities) {
   return p.kind == ParameterKind::kLuminaire && p.index == luminaire &&
@@ -46,72 +49,94 @@ Distance DistanceTo(const LightState& simpler, const LuminaireFit& fit, int lumi
           std::sqrt(covariance.diagonal().maxCoeff())};
 }
 
-// Holds the exponent at 1 where the fit does not tell it from that.
-std::optional<NeedlessParameter> HoldExponent(const LuminaireFit& fit, int luminaire, LightState& state) {
-  const size_t k = static_cast<size_t>(luminaire);
-  if (fit.state.luminaires[k].distribution != Distribution::kCosinePower) return std::nullopt;
-  LightState simpler = fit.state;
-  simpler.luminaires[k].cosine_exponent = 1;
-  const Distance distance = DistanceTo(simpler, fit, luminaire, {LuminaireQuantity::kExponent});
-  if (!distance.is_needless) return std::nullopt;
-  const double exponent = fit.state.luminaires[k].cosine_exponent;
-  state.luminaires[k].distribution = Distribution::kLambertian;
-  state.luminaires[k].cosine_exponent = 1;
-  state.free[k].exponent = false;
-  return NeedlessParameter{luminaire, NeedlessKind::kExponent, exponent, exponent * distance.sigma};
-}
+// Simplifies one luminaire of a fit, one quantity after another.
+class Simplifier {
+ public:
+  // Keeps references. `state`: takes the simplest values.
+  Simplifier(const LuminaireFit& fit, int luminaire, LightState& state)
+      : fit_(fit),
+        luminaire_(luminaire),
+        fitted_(fit.state.luminaires[static_cast<size_t>(luminaire)]),
+        own_(state.luminaires[static_cast<size_t>(luminaire)]),
+        free_(state.free[static_cast<size_t>(luminaire)]),
+        state_(state) {}
 
-std::optional<NeedlessParameter> HoldAim(const LuminaireFit& fit, int luminaire, const Eigen::Vector3d& aim,
-                                         LightState& state) {
-  const size_t k = static_cast<size_t>(luminaire);
-  const Eigen::Vector3d& fitted = fit.state.luminaires[k].aim;
-  // Beyond a right angle there is no tilt to compare.
-  if (!fit.state.free[k].tilt || !(fitted.dot(aim) > 0)) return std::nullopt;
-  LightState simpler = fit.state;
-  simpler.luminaires[k].aim = aim;
-  const Distance distance =
-      DistanceTo(simpler, fit, luminaire, {LuminaireQuantity::kTiltAlong, LuminaireQuantity::kTiltAcross});
-  if (!distance.is_needless) return std::nullopt;
-  state.luminaires[k].aim = aim;
-  state.free[k].tilt = false;
-  return NeedlessParameter{luminaire, NeedlessKind::kTilt, AngleBetween(fitted, aim), distance.sigma};
-}
+  // Holds the exponent at 1 where the fit does not tell it from that.
+  std::optional<NeedlessParameter> HoldExponent() {
+    if (fitted_.distribution != Distribution::kCosinePower) return std::nullopt;
+    const auto sigma = Set([](Luminaire& l) { l.cosine_exponent = 1; }, {LuminaireQuantity::kExponent});
+    if (!sigma) return std::nullopt;
+    own_.distribution = Distribution::kLambertian;
+    free_.exponent = false;
+    const double exponent = fitted_.cosine_exponent;
+    return NeedlessParameter{luminaire_, NeedlessKind::kExponent, exponent, exponent * *sigma};
+  }
 
-std::optional<NeedlessParameter> HoldHeading(const LuminaireFit& fit, int luminaire,
-                                             const Eigen::Vector3d& heading, LightState& state) {
-  const size_t k = static_cast<size_t>(luminaire);
-  const Luminaire& fitted = fit.state.luminaires[k];
-  if (!fit.state.free[k].heading || fitted.shape != LuminaireShape::kRectangle) return std::nullopt;
-  Luminaire straight = fitted;
-  straight.heading = heading;
-  const LuminaireAxes axes = AxesOf(straight);
-  const Eigen::Vector3d along = AxesOf(fitted).along;
-  const double angle = std::atan2(along.dot(axes.across), along.dot(axes.along));
-  const double turn = M_PI / 2 * std::round(angle / (M_PI / 2));
-  LightState simpler = fit.state;
-  simpler.luminaires[k].heading = std::cos(turn) * axes.along + std::sin(turn) * axes.across;
-  const Distance distance = DistanceTo(simpler, fit, luminaire, {LuminaireQuantity::kHeading});
-  if (!distance.is_needless) return std::nullopt;
-  state.luminaires[k].heading = simpler.luminaires[k].heading;
-  state.free[k].heading = false;
-  return NeedlessParameter{luminaire, NeedlessKind::kHeading, std::abs(angle - turn), distance.sigma};
-}
+  std::optional<NeedlessParameter> HoldAim(const Eigen::Vector3d& aim) {
+    // Beyond a right angle there is no tilt to compare.
+    if (!free_.tilt || !(fitted_.aim.dot(aim) > 0)) return std::nullopt;
+    const auto sigma = Set([&](Luminaire& l) { l.aim = aim; },
+                           {LuminaireQuantity::kTiltAlong, LuminaireQuantity::kTiltAcross});
+    if (!sigma) return std::nullopt;
+    free_.tilt = false;
+    return NeedlessParameter{luminaire_, NeedlessKind::kTilt, AngleBetween(fitted_.aim, aim), *sigma};
+  }
 
-// Turns a disc or rectangle into a point where the fit does not tell its sides from nothing.
-std::optional<NeedlessParameter> HoldSize(const LuminaireFit& fit, int luminaire, LightState& state) {
-  const size_t k = static_cast<size_t>(luminaire);
-  const Luminaire& fitted = fit.state.luminaires[k];
-  if (!fit.state.free[k].size || fitted.emission.size() > 0) return std::nullopt;
-  LightState simpler = fit.state;
-  simpler.luminaires[k].size_m.setZero();
-  const Distance distance =
-      DistanceTo(simpler, fit, luminaire, {LuminaireQuantity::kSizeAlong, LuminaireQuantity::kSizeAcross});
-  if (!distance.is_needless) return std::nullopt;
-  state.luminaires[k].shape = LuminaireShape::kPoint;
-  state.luminaires[k].size_m.setZero();
-  state.free[k].size = state.free[k].heading = false;
-  return NeedlessParameter{luminaire, NeedlessKind::kSize, fitted.size_m.maxCoeff(), distance.sigma};
-}
+  std::optional<NeedlessParameter> HoldHeading(const Eigen::Vector3d& heading) {
+    if (!free_.heading || fitted_.shape != LuminaireShape::kRectangle) return std::nullopt;
+    Luminaire straight = fitted_;
+    straight.heading = heading;
+    const LuminaireAxes axes = AxesOf(straight);
+    const Eigen::Vector3d along = AxesOf(fitted_).along;
+    const double angle = std::atan2(along.dot(axes.across), along.dot(axes.along));
+    const double turn = M_PI / 2 * std::round(angle / (M_PI / 2));
+    const Eigen::Vector3d simplest = std::cos(turn) * axes.along + std::sin(turn) * axes.across;
+    const auto sigma = Set([&](Luminaire& l) { l.heading = simplest; }, {LuminaireQuantity::kHeading});
+    if (!sigma) return std::nullopt;
+    free_.heading = false;
+    return NeedlessParameter{luminaire_, NeedlessKind::kHeading, std::abs(angle - turn), *sigma};
+  }
+
+  // Turns a disc or rectangle into a point where the fit does not tell its sides from nothing.
+  std::optional<NeedlessParameter> HoldSize() {
+    if (!free_.size || fitted_.emission.size() > 0) return std::nullopt;
+    const auto sigma = Set([](Luminaire& l) { l.size_m.setZero(); },
+                           {LuminaireQuantity::kSizeAlong, LuminaireQuantity::kSizeAcross});
+    if (!sigma) return std::nullopt;
+    own_.shape = LuminaireShape::kPoint;
+    free_.size = free_.heading = false;
+    return NeedlessParameter{luminaire_, NeedlessKind::kSize, fitted_.size_m.maxCoeff(), *sigma};
+  }
+
+ private:
+  // Sets quantities to their simplest values where the fit tells neither them, nor them and those that were set before,
+  // from these. Two may be needless each by itself that are not together: a wide opening spreads light as a small
+  // exponent does. Returns the largest sigma of the quantities where they were set.
+  std::optional<double> Set(const std::function<void(Luminaire&)>& simplify,
+                            const std::vector<LuminaireQuantity>& quantities) {
+    const auto k = static_cast<size_t>(luminaire_);
+    LightState alone = fit_.state;
+    simplify(alone.luminaires[k]);
+    const Distance distance = DistanceTo(alone, fit_, luminaire_, quantities);
+    if (!distance.is_needless) return std::nullopt;
+    LightState together = state_;
+    simplify(together.luminaires[k]);
+    std::vector<LuminaireQuantity> all = set_;
+    all.insert(all.end(), quantities.begin(), quantities.end());
+    if (!DistanceTo(together, fit_, luminaire_, all).is_needless) return std::nullopt;
+    simplify(own_);
+    set_ = std::move(all);
+    return distance.sigma;
+  }
+
+  const LuminaireFit& fit_;
+  const int luminaire_;
+  const Luminaire& fitted_;
+  Luminaire& own_;
+  FreeQuantities& free_;
+  LightState& state_;
+  std::vector<LuminaireQuantity> set_;
+};
 
 }  // namespace
 
@@ -120,24 +145,15 @@ SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::ve
   SimplifiedState result{fit.state, {}};
   if (!fit.IsUsable() || fit.covariance.size() == 0) return result;
   for (size_t k = 0; k < open.size(); ++k) {
-    const auto luminaire = static_cast<int>(k);
-    if (open[k].distribution) {
-      if (const auto found = HoldExponent(fit, luminaire, result.state)) result.needless.push_back(*found);
-    }
-    if (open[k].shape) {
-      if (const auto found = HoldSize(fit, luminaire, result.state)) {
-        result.needless.push_back(*found);
-        continue;  // the rest was estimated with the size
-      }
-    }
-    if (open[k].aim) {
-      if (const auto found = HoldAim(fit, luminaire, held[k].aim, result.state))
-        result.needless.push_back(*found);
-    }
-    if (open[k].heading) {
-      if (const auto found = HoldHeading(fit, luminaire, held[k].heading, result.state))
-        result.needless.push_back(*found);
-    }
+    Simplifier simplifier(fit, static_cast<int>(k), result.state);
+    const auto keep = [&](const std::optional<NeedlessParameter>& found) {
+      if (found) result.needless.push_back(*found);
+      return found.has_value();
+    };
+    if (open[k].distribution) keep(simplifier.HoldExponent());
+    if (open[k].shape && keep(simplifier.HoldSize())) continue;  // the rest was estimated with the size
+    if (open[k].aim) keep(simplifier.HoldAim(held[k].aim));
+    if (open[k].heading) keep(simplifier.HoldHeading(held[k].heading));
   }
   result.state = WithLikeTypes(std::move(result.state));
   return result;

@@ -4,7 +4,8 @@
 //
 // x: the parameters of one refinement as fitted, C: their covariance, x0: the simplest value: an exponent of 1
 // (a Lambertian luminaire), the aim that was held before, the heading of a rectangle that was held before or a
-// quarter turn from it, no size (a point). Models are chosen luminaire by luminaire on data left
+// quarter turn from it, no size (a point). The same holds for all parameters of a luminaire that are simplified,
+// taken together. Models are chosen luminaire by luminaire on data left
 // out, which shows what is repeatable. Errors that all data share (mesh, poses, reflectances) are repeatable
 // too; the whole fit knows them, so it has the last word.
 //

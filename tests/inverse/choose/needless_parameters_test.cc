@@ -197,6 +197,29 @@ TEST_F(NeedlessParameters, ASizeThatTheFitDoesNotTellFromNothingIsAPoint) {
   EXPECT_TRUE(WithoutNeedlessParameters(fit_, open, std::vector<HeldDirections>(2)).needless.empty());
 }
 
+// An exponent of 3 is 1.1 sigma of its logarithm from 1, and sides of 0.6 m and 0.3 m are 1.2 sigma from nothing. Where
+// a smaller opening asks for a larger exponent, both cannot be at their simplest values at once.
+TEST_F(NeedlessParameters, QuantitiesThatAreNotNeedlessTogetherAreSimplifiedOneAtATime) {
+  fit_.state.free[0].size = true;
+  fit_.parameters = FreeParameters(MakeRoom(Scene{}), fit_.state);
+  fit_.covariance = 1e-4 * Eigen::MatrixXd::Identity(Count(), Count());
+  SetExponent(0, 3, 3);
+  const Eigen::Index exponent = IndexOf(0, LuminaireQuantity::kExponent),
+                     along = IndexOf(0, LuminaireQuantity::kSizeAlong),
+                     across = IndexOf(0, LuminaireQuantity::kSizeAcross);
+  fit_.covariance(along, along) = fit_.covariance(across, across) = 0.25;
+  std::vector<OpenChoice> open(2);
+  for (OpenChoice& o : open) o.aim = o.heading = false;
+  open[1].distribution = open[1].shape = false;
+  const auto needless = [&] {
+    return WithoutNeedlessParameters(fit_, open, std::vector<HeldDirections>(2)).needless;
+  };
+  EXPECT_EQ(needless().size(), 2u);
+  fit_.covariance(exponent, along) = fit_.covariance(along, exponent) = -0.95 * 0.5;
+  ASSERT_EQ(needless().size(), 1u);
+  EXPECT_EQ(needless()[0].kind, NeedlessKind::kExponent);
+}
+
 TEST_F(NeedlessParameters, WhatIsNotOpenIsNotTouched) {
   SetTilt(0, Eigen::Vector2d(0.07, 0.07) * kDegree, 0.08 * kDegree);
   SetExponent(0, 1.009, 0.02);

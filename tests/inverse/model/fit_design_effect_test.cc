@@ -96,5 +96,20 @@ TEST_F(SharedErrors, DoNotOverwhelmAPrior) {
   EXPECT_LT(rms_z, 1.3);
 }
 
+// The design effect is that of rows that count as if they were independent, however they counted in the fit. A fit from a
+// near start weighs them by it from its first step.
+TEST_F(SharedErrors, AreTheSameFromNearAndFar) {
+  Photograph();
+  const std::vector<ParameterPrior> priors{{ParameterKind::kLogFlux, 0, {}, 0, 0.002}};
+  const LuminaireFit far = FitLuminaires(room_, data_, start_, priors);
+  ASSERT_TRUE(far.IsUsable()) << far.message;
+  EXPECT_GT(far.photo_design_effect, 10);
+  FitLuminairesOptions options;
+  options.start_is_near = true;
+  const LuminaireFit near = FitLuminaires(room_, data_, far.state, priors, options);
+  ASSERT_TRUE(near.IsUsable()) << near.message;
+  EXPECT_NEAR(near.photo_design_effect, far.photo_design_effect, 0.1 * far.photo_design_effect);
+}
+
 }  // namespace
 }  // namespace luxfit
