@@ -58,8 +58,9 @@ class RoomFitter {
         "fit", fmt::format("{} observations, {} readings to fit or scale, {} luminaires",
                            result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
     LuminaireFit fit = FitInTime();
-    RecordAmbiguity();
     const bool is_whole = !result_.stopped;
+    if (is_whole && fit.IsUsable()) CompareStartsAgain(fit);
+    RecordAmbiguity();
     if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, Priors());
       RecordDirectShare(*result_.direct_share, result_.findings);
@@ -212,6 +213,36 @@ class RoomFitter {
       c.luminaire = static_cast<int>(named(static_cast<size_t>(c.luminaire)));
     const std::vector<std::optional<SeenPlace>> seen = start_.seen;
     for (size_t k = 0; k < seen.size(); ++k) start_.seen[static_cast<size_t>(named(k))] = seen[k];
+  }
+
+  // Compares places that explained a luminaire's light equally once more, now with its final model and with what its type
+  // has in common: a lobe of any width may imitate at one place what a known one shows to lie at another.
+  void CompareStartsAgain(const LuminaireFit& fit) {
+    LightState state = fit.state;
+    for (const std::vector<int>& type : TypesOf(state)) {
+      for (const int k : type) {
+        if (type.size() < 2) continue;
+        FreeQuantities& free = state.free[static_cast<size_t>(k)];
+        free.exponent = free.size = false;
+        free.table_sigma = free.emission_sigma = 0;
+      }
+    }
+    std::vector<std::vector<Luminaire>> rivals(state.luminaires.size());
+    for (const StartComparison& c : starts_) {
+      if (is_seen_.count(c.luminaire) > 0) continue;
+      for (const int rival : c.rivals)
+        rivals[static_cast<size_t>(c.luminaire)].push_back(c.end[static_cast<size_t>(rival)]);
+    }
+    const bool has_any = std::any_of(rivals.begin(), rivals.end(), [](const auto& r) { return !r.empty(); });
+    if (!has_any || result_.data.observations.empty()) return;
+    const LightData data =
+        WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
+    SeveralStarts again = FitFromSeveralStarts(room_, data, state, rivals, Priors());
+    for (StartComparison& c : again.comparisons) {
+      const auto before = std::find_if(starts_.begin(), starts_.end(),
+                                       [&](const StartComparison& s) { return s.luminaire == c.luminaire; });
+      if (c.chosen == 0) *before = std::move(c);
+    }
   }
 
   // Records where several places explain a luminaire's light, and which of them no photo settles.

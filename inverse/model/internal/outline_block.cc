@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "inverse/model/internal/outline_distance.h"
@@ -111,25 +110,21 @@ Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
   return derivative;
 }
 
-Eigen::MatrixXd OutlineBlock::RootOfViews(ViewErrors views) const {
-  std::map<int, int> camera_of;  // by view
-  int view_count = static_cast<int>(data_.pose_root.rows()) / kPose, camera_count = 0;
-  for (const LuminaireOutline& outline : data_.outlines) {
-    camera_of[outline.seen.view] = outline.seen.camera;
-    view_count = std::max(view_count, outline.seen.view + 1);
-    camera_count = std::max(camera_count, outline.seen.camera + 1);
-  }
+Eigen::MatrixXd OutlineBlock::RootOfErrors(ViewErrors views) const {
   const bool is_joint = views == ViewErrors::kJoint;
   const Eigen::MatrixXd pose = is_joint ? data_.pose_root : ViewByView(data_.pose_root);
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(Eigen::Index{view_count} * (kPose + 1),
-                                               pose.cols() + (is_joint ? camera_count : view_count));
-  for (int v = 0; v < view_count; ++v) {
-    const Eigen::Index first = Eigen::Index{v} * (kPose + 1);
-    if ((v + 1) * kPose <= pose.rows())
-      root.block(first, 0, kPose, pose.cols()) = pose.middleRows(Eigen::Index{v} * kPose, kPose);
-    const auto camera = camera_of.find(v);
-    if (camera != camera_of.end())
-      root(first + kPose, pose.cols() + (is_joint ? camera->second : v)) = kOutlineGrowthPx;
+  const auto outlines = static_cast<Eigen::Index>(data_.outlines.size());
+  const auto sharer_of = [&](const SeenOutline& seen) { return is_joint ? seen.camera : seen.view; };
+  int sharers = 0;
+  for (const LuminaireOutline& outline : data_.outlines)
+    sharers = std::max(sharers, sharer_of(outline.seen) + 1);
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(outlines * (kPose + 1), pose.cols() + sharers + outlines);
+  for (Eigen::Index o = 0; o < outlines; ++o) {
+    const SeenOutline& seen = data_.outlines[static_cast<size_t>(o)].seen;
+    const Eigen::Index first = o * (kPose + 1), view = Eigen::Index{seen.view} * kPose;
+    if (view + kPose <= pose.rows()) root.block(first, 0, kPose, pose.cols()) = pose.middleRows(view, kPose);
+    root(first + kPose, pose.cols() + sharer_of(seen)) = kGrowthPx;
+    root(first + kPose, pose.cols() + sharers + o) = kGrowthPx;
   }
   return root;
 }
@@ -141,8 +136,8 @@ RowErrors OutlineBlock::SharedErrorsOf(const LightState& state, ViewErrors views
   errors.effect.leftCols(kPose) = PoseDerivativeOf(state);
   errors.effect.rightCols(1).setOnes();  // a grown outline lies outside the model's
   errors.owner.reserve(rays_.size());
-  for (int row = 0; row < row_count(); ++row) errors.owner.push_back(Of(row).seen.view);
-  errors.root = RootOfViews(views);
+  for (const auto& [outline, ray] : rays_) errors.owner.push_back(outline);
+  errors.root = RootOfErrors(views);
   return errors;
 }
 

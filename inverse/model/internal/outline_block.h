@@ -8,8 +8,10 @@
 // quarter of a pixel.
 //
 // Rows share errors, which the fit eliminates (inverse/model/internal/row_weights.h): those of one view its pose, those of
-// one camera the growth of its outlines, 0 +- kOutlineGrowthPx all round. A lens' blur, charge that runs over and pixels
-// that a luminaire covers in part let it look larger. Its distance from several views tells its size from the growth.
+// one camera the growth of its outlines, those of one outline a growth of its own, each 0 +- kGrowthPx all round: a
+// uniform error of one pixel. A lens' blur, charge that runs over and pixels that a luminaire covers in part let all look
+// larger; where edges fall in the grid of pixels belongs to each outline. Distances from several views tell sizes from the
+// growth, the better the more outlines there are.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 
@@ -21,7 +23,7 @@
 namespace luxfit {
 
 constexpr double kOutlineSigmaPx = 1;
-constexpr double kOutlineGrowthPx = 1;
+constexpr double kGrowthPx = 0.29;
 
 class OutlineBlock : public RowBlock {
  public:
@@ -42,13 +44,13 @@ class OutlineBlock : public RowBlock {
   Eigen::VectorXd BiasOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Zero(row_count());
   }
-  // Quantities of a view: its pose as in LightData::pose_root, and the growth of its camera's outlines (px).
+  // Quantities of an outline: the pose of its view as in LightData::pose_root, and its growth (px).
   RowErrors SharedErrorsOf(const LightState& state, ViewErrors views) const override;
 
  private:
   Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const;
-  // Returns the root of the covariance of all views' quantities.
-  Eigen::MatrixXd RootOfViews(ViewErrors views) const;
+  // Returns the root of the covariance of all outlines' quantities.
+  Eigen::MatrixXd RootOfErrors(ViewErrors views) const;
   const LuminaireOutline& Of(int row) const {
     return data_.outlines[static_cast<size_t>(rays_[static_cast<size_t>(row)].first)];
   }
