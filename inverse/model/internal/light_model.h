@@ -83,6 +83,7 @@ class LightModel {
   const RowBlock& BlockOf(int row) const {
     return *blocks_[static_cast<size_t>(rows_[static_cast<size_t>(row)].block)];
   }
+  const Eigen::MatrixXd& pose_root() const { return data_.pose_root; }
   int block_index(int row) const { return rows_[static_cast<size_t>(row)].block; }
   int PlaceInBlock(int row) const { return rows_[static_cast<size_t>(row)].place; }
 

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "inverse/model/internal/superposed_light.h"
+
 namespace luxfit {
 namespace {
 
@@ -22,15 +24,18 @@ Eigen::MatrixXf PatchLuminance(const Room& room, const LightData& data) {
   const auto patches = static_cast<Eigen::Index>(room.patches.patches.size());
   std::map<std::pair<int, int>, AreaMean> of_facet, of_material, of_patch;
   std::vector<AreaMean> of_all(data.dimming.size());
-  for (const Observation& o : data.observations) {
-    const Element& element = room.patches.elements[static_cast<size_t>(o.element)];
+  const auto add = [&](int index, int state, double relative_luminance) {
+    const Element& element = room.patches.elements[static_cast<size_t>(index)];
     const Patch& patch = room.patches.patches[static_cast<size_t>(element.patch)];
-    if (element.area_m2 <= 0) continue;
-    for (AreaMean* mean : {&of_patch[{element.patch, o.state}], &of_facet[{patch.facet, o.state}],
-                           &of_material[{patch.material, o.state}], &of_all[static_cast<size_t>(o.state)]}) {
-      mean->Add(o.relative_luminance, element.area_m2);
-    }
-  }
+    if (element.area_m2 <= 0) return;
+    for (AreaMean* mean : {&of_patch[{element.patch, state}], &of_facet[{patch.facet, state}],
+                           &of_material[{patch.material, state}], &of_all[static_cast<size_t>(state)]})
+      mean->Add(relative_luminance, element.area_m2);
+  };
+  for (const Observation& o : data.observations) add(o.element, o.state, o.relative_luminance);
+  // The brightest part of a surface reflects most, and is what a photo overexposes.
+  for (const SuperposedLight& light : SuperposeStates(data))
+    add(light.element, light.state, light.relative_luminance);
   Eigen::MatrixXf luminance = Eigen::MatrixXf::Zero(patches, states);
   for (int p = 0; p < static_cast<int>(patches); ++p) {
     const Patch& patch = room.patches.patches[static_cast<size_t>(p)];

@@ -2,8 +2,6 @@
 
 #include <ceres/jet.h>
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <stdexcept>
 
 #include "inverse/model/internal/outline_distance.h"
@@ -44,20 +42,6 @@ Outline<double> OutlineOf(const Luminaire& luminaire) {
   return {luminaire.position, luminaire.aim, axes.along, axes.across, 0.5 * luminaire.size_m};
 }
 
-constexpr int kPose = 6;  // quantities of a view's pose
-
-// Returns the root of the views' covariances without what they share.
-Eigen::MatrixXd ViewByView(const Eigen::MatrixXd& joint) {
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(joint.rows(), joint.rows());
-  for (Eigen::Index v = 0; v + kPose <= joint.rows(); v += kPose) {
-    const auto own = joint.middleRows(v, kPose);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(own * own.transpose());
-    root.block(v, v, kPose, kPose) =
-        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  }
-  return root;
-}
-
 }  // namespace
 
 OutlineBlock::OutlineBlock(const LightData& data) : data_(data) {
@@ -89,11 +73,11 @@ double OutlineBlock::OwnDerivative(const LightState& state, const Parameter& par
 }
 
 Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
-  using PoseJet = ceres::Jet<double, kPose>;
+  using PoseJet = ceres::Jet<double, 6>;
   using Vector = Eigen::Matrix<PoseJet, 3, 1>;
   Vector turn, shift;
   for (int i = 0; i < 3; ++i) turn[i] = PoseJet(0, i), shift[i] = PoseJet(0, 3 + i);
-  Eigen::MatrixXd derivative(row_count(), kPose);
+  Eigen::MatrixXd derivative(row_count(), 6);
   for (int row = 0; row < row_count(); ++row) {
     const Luminaire& luminaire = state.luminaires[static_cast<size_t>(Of(row).luminaire)];
     const Outline<double> at = OutlineOf(luminaire);
@@ -108,37 +92,6 @@ Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
     derivative.row(row) = ray.px_per_rad * distance.v.transpose();
   }
   return derivative;
-}
-
-Eigen::MatrixXd OutlineBlock::RootOfErrors(ViewErrors views) const {
-  const bool is_joint = views == ViewErrors::kJoint;
-  const Eigen::MatrixXd pose = is_joint ? data_.pose_root : ViewByView(data_.pose_root);
-  const auto outlines = static_cast<Eigen::Index>(data_.outlines.size());
-  const auto sharer_of = [&](const SeenOutline& seen) { return is_joint ? seen.camera : seen.view; };
-  int sharers = 0;
-  for (const LuminaireOutline& outline : data_.outlines)
-    sharers = std::max(sharers, sharer_of(outline.seen) + 1);
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(outlines * (kPose + 1), pose.cols() + sharers + outlines);
-  for (Eigen::Index o = 0; o < outlines; ++o) {
-    const SeenOutline& seen = data_.outlines[static_cast<size_t>(o)].seen;
-    const Eigen::Index first = o * (kPose + 1), view = Eigen::Index{seen.view} * kPose;
-    if (view + kPose <= pose.rows()) root.block(first, 0, kPose, pose.cols()) = pose.middleRows(view, kPose);
-    root(first + kPose, pose.cols() + sharer_of(seen)) = kGrowthPx;
-    root(first + kPose, pose.cols() + sharers + o) = kGrowthPx;
-  }
-  return root;
-}
-
-RowErrors OutlineBlock::SharedErrorsOf(const LightState& state, ViewErrors views) const {
-  if (rays_.empty() || views == ViewErrors::kHeld) return {};
-  RowErrors errors;
-  errors.effect.resize(row_count(), kPose + 1);
-  errors.effect.leftCols(kPose) = PoseDerivativeOf(state);
-  errors.effect.rightCols(1).setOnes();  // a grown outline lies outside the model's
-  errors.owner.reserve(rays_.size());
-  for (const auto& [outline, ray] : rays_) errors.owner.push_back(outline);
-  errors.root = RootOfErrors(views);
-  return errors;
 }
 
 std::optional<std::pair<int, int>> OutlineBlock::ClusterOf(int row) const {

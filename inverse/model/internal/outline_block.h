@@ -5,13 +5,11 @@
 // d_i: angle from the model's outline to ray i of the seen one (outline_distance.h), s: the photo's scale there.
 // The points of one outline are not independent: what the contour does not follow (blur, halos, its threshold) moves
 // several alike. Each therefore has a sigma of 1 px, which lets the 32 points of an outline tell its centre to a
-// quarter of a pixel.
+// quarter of a pixel. Rows of one view share the error of its pose, which the fit eliminates
+// (inverse/model/internal/row_weights.h).
 //
-// Rows share errors, which the fit eliminates (inverse/model/internal/row_weights.h): those of one view its pose, those of
-// one camera the growth of its outlines, those of one outline a growth of its own, each 0 +- kGrowthPx all round: a
-// uniform error of one pixel. A lens' blur, charge that runs over and pixels that a luminaire covers in part let all look
-// larger; where edges fall in the grid of pixels belongs to each outline. Distances from several views tell sizes from the
-// growth, the better the more outlines there are.
+// A lens' blur, and charge that runs over, let luminaires look larger: kOutlineGrowthPx all round is an error
+// that all rows share.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 
@@ -23,7 +21,7 @@
 namespace luxfit {
 
 constexpr double kOutlineSigmaPx = 1;
-constexpr double kGrowthPx = 0.29;
+constexpr double kOutlineGrowthPx = 0.5;
 
 class OutlineBlock : public RowBlock {
  public:
@@ -44,13 +42,14 @@ class OutlineBlock : public RowBlock {
   Eigen::VectorXd BiasOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Zero(row_count());
   }
-  // Quantities of an outline: the pose of its view as in LightData::pose_root, and its growth (px).
-  RowErrors SharedErrorsOf(const LightState& state, ViewErrors views) const override;
+  Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const override {
+    return Eigen::VectorXd::Constant(row_count(), kOutlineGrowthPx);
+  }
+
+  Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const override;
+  int ViewOf(int row) const override { return Of(row).seen.view; }
 
  private:
-  Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const;
-  // Returns the root of the covariance of all outlines' quantities.
-  Eigen::MatrixXd RootOfErrors(ViewErrors views) const;
   const LuminaireOutline& Of(int row) const {
     return data_.outlines[static_cast<size_t>(rays_[static_cast<size_t>(row)].first)];
   }

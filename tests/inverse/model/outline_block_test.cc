@@ -260,9 +260,9 @@ TEST_F(OutlineRows, PoseDerivativesAreCentralDifferences) {
     };
     data_.outlines = seen;
     const OutlineBlock block(data_);
-    const Eigen::MatrixXd derivative = block.SharedErrorsOf(state_, ViewErrors::kJoint).effect;
+    const Eigen::MatrixXd derivative = block.PoseDerivativeOf(state_);
     ASSERT_EQ(derivative.rows(), block.row_count());
-    ASSERT_EQ(derivative.cols(), 7);
+    ASSERT_EQ(derivative.cols(), 6);
     for (Eigen::Index quantity = 0; quantity < 6; ++quantity) {
       constexpr double kStep = 1e-5;
       const Eigen::VectorXd numeric = (values(quantity, kStep) - values(quantity, -kStep)) / (2 * kStep);
@@ -274,34 +274,14 @@ TEST_F(OutlineRows, PoseDerivativesAreCentralDifferences) {
   }
 }
 
-TEST_F(OutlineRows, RowsShareTheErrorsOfTheirOutline) {
+TEST_F(OutlineRows, ARowKnowsItsView) {
   const Luminaire luminaire = FlatLuminaire(LuminaireShape::kDisc);
   data_.outlines = {{0, support::OutlineFrom({1.5, 0.5, 0.9}, luminaire, {2})},
                     {0, support::OutlineFrom({-1.2, 1.1, 0.8}, luminaire, {0})}};
   const OutlineBlock block(data_);
   const int of_first = static_cast<int>(data_.outlines[0].seen.rays.size());
   ASSERT_GT(block.row_count(), of_first);
-  const RowErrors errors = block.SharedErrorsOf(state_, ViewErrors::kJoint);
-  for (int row = 0; row < block.row_count(); ++row)
-    EXPECT_EQ(errors.owner[static_cast<size_t>(row)], row < of_first ? 0 : 1);
-  EXPECT_EQ(block.SharedErrorsOf(state_, ViewErrors::kHeld).effect.size(), 0);
-}
-
-TEST_F(OutlineRows, OutlinesOfOneCameraGrowNearlyAlike) {
-  const Luminaire luminaire = FlatLuminaire(LuminaireShape::kDisc);
-  data_.outlines = {{0, support::OutlineFrom({1.5, 0.5, 0.9}, luminaire, {0})},
-                    {0, support::OutlineFrom({-1.2, 1.1, 0.8}, luminaire, {1})},
-                    {0, support::OutlineFrom({0.2, -1.9, 1}, luminaire, {2})}};
-  data_.outlines[2].seen.camera = 1;
-  const OutlineBlock block(data_);
-  const auto covariance = [&](ViewErrors views, int a, int b) {
-    const Eigen::MatrixXd root = block.SharedErrorsOf(state_, views).root;
-    return root.row(7 * a + 6).dot(root.row(7 * b + 6));
-  };
-  EXPECT_GT(covariance(ViewErrors::kJoint, 0, 1), 0);
-  EXPECT_GT(covariance(ViewErrors::kJoint, 0, 0), covariance(ViewErrors::kJoint, 0, 1));
-  EXPECT_EQ(covariance(ViewErrors::kJoint, 0, 2), 0);
-  EXPECT_EQ(covariance(ViewErrors::kViewByView, 0, 1), 0);
+  for (int row = 0; row < block.row_count(); ++row) EXPECT_EQ(block.ViewOf(row), row < of_first ? 2 : 0);
 }
 
 TEST_F(OutlineRows, AnOutlineOfNoLuminaireIsRefused) {

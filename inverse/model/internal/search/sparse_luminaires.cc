@@ -47,6 +47,21 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
+// Leaves out lobes that are not aimed down and leave no less than two thirds of the squares of the best that is: at a place
+// that is known, most luminaires shine down, and what the mesh lacks may favour any other axis by a little.
+std::vector<Tried> MostlyDown(std::vector<Tried> tried) {
+  const auto is_down = [](const Tried& t) {
+    return t.lobe.distribution == Distribution::kIsotropic || t.lobe.aim.z() < -0.99;
+  };
+  double down = std::numeric_limits<double>::infinity();
+  for (const Tried& t : tried)
+    if (is_down(t)) down = std::min(down, t.cost);
+  tried.erase(std::remove_if(tried.begin(), tried.end(),
+                             [&](const Tried& t) { return !is_down(t) && kRival * t.cost >= down; }),
+              tried.end());
+  return tried;
+}
+
 // Searches the sources of one group with one set of lobes. It holds the sources so far, each with its column.
 class GroupSearch {
  public:
@@ -67,7 +82,8 @@ class GroupSearch {
     tried.position = source.luminaire.position;
     tried.lobe = source.is_held ? SimpleLobes().front() : LobeOf(source.luminaire);
     if (source.is_held) {
-      const std::vector<Tried> lobes = Sorted(trials_.BestOfBins(lobes_, Others(sources_.size()), here));
+      const std::vector<Tried> lobes =
+          Sorted(MostlyDown(trials_.BestOfBins(lobes_, Others(sources_.size()), here)));
       if (!lobes.empty()) tried.lobe = TurnedInPlace(lobes.front(), Others(sources_.size())).lobe;
     }
     tried.column = LobeColumns(equations_.Weighted(here.light[0]), {tried.lobe}).cast<double>();
@@ -85,7 +101,7 @@ class GroupSearch {
     const auto is_free = [&](const Eigen::Vector3d& p) {
       return std::none_of(sources_.begin(), sources_.end(), [&](const Tried& t) { return t.position == p; });
     };
-    for (Tried& at_seen : trials_.BestOfBins(lobes_, rest, seen, is_free))
+    for (Tried& at_seen : MostlyDown(trials_.BestOfBins(lobes_, rest, seen, is_free)))
       lobes.push_back(TurnedInPlace(at_seen, rest));
     const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
     if (best == lobes.end() || !(best->cost < before)) return false;
@@ -102,6 +118,17 @@ class GroupSearch {
     for (int sweep = 0; sweep < kSweeps && MoveEach(0, std::min(kCoarse, refinements_)); ++sweep) {
     }
     MoveEach(std::min(kCoarse, refinements_), refinements_);
+  }
+
+  // Chooses the lobe of each source anew, at its place, now that the others explain their light.
+  void TurnAll() {
+    for (size_t j = 0; j < sources_.size() && sources_.size() > 1; ++j) {
+      if (stays(j)) continue;
+      const Eigen::MatrixXd rest = Others(j);
+      const std::vector<Tried> lobes =
+          Sorted(MostlyDown(trials_.BestOfBins(lobes_, rest, Lit(room_, places_, {sources_[j].position}))));
+      if (!lobes.empty()) sources_[j] = TurnedInPlace(lobes.front(), rest);
+    }
   }
 
   // Returns other places for one source that explain the light nearly as well, best first.
@@ -347,6 +374,7 @@ class GroupFinder {
     for (const SparseSource& source : start) search->Start(source);
     while (static_cast<int>(search->sources().size()) < count_ && search->AddOne(grid, at_seen_))
       search->MoveAll();
+    if (refinements == 0) search->TurnAll();
     return search;
   }
 
