@@ -41,7 +41,8 @@ std::map<int, std::map<int, double>> MeanOfViews(const LightData& data) {
 
 std::vector<SuperposedLight> SuperposeStates(const LightData& data) {
   const auto states = static_cast<int>(data.dimming.size());
-  std::map<std::pair<std::vector<int>, int>, Eigen::VectorXd> known;  // weights, by observed states and the missing one
+  std::map<std::pair<std::vector<int>, int>, Eigen::VectorXd>
+      known;  // weights, by observed states and the missing one
   std::vector<SuperposedLight> superposed;
   for (const auto& [element, shown] : MeanOfViews(data)) {
     if (static_cast<int>(shown.size()) == states) continue;
