@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "inverse/model/internal/fit_covariance.h"
 #include "inverse/model/internal/frozen_problem.h"
@@ -72,7 +74,7 @@ class OuterLoop {
         if (design_effect > kSettledDesignEffect * before) break;
       }
     }
-    fit_.parameters = Recentred(fit_.parameters, fit_.state);
+    Recentre();
     Refresh(options_.covariance);
     if (options_.covariance && options_.subtracts_discretisation && !fit_.parameters.empty())
       SubtractDiscretisation();
@@ -89,21 +91,21 @@ class OuterLoop {
   // Takes outer iterations until nothing moves. Returns whether that was reached.
   bool Settle(bool start_is_near) {
     bool settled = false;
-    model_.ReflectDerivatives(!options_.steps_by_direct_light);
+    ReflectDerivatives(!options_.steps_by_direct_light);
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
       if (data_.checkpoint) data_.checkpoint();
       ++fit_.outer_iterations;
       const LightState before = fit_.state;
-      fit_.parameters = Recentred(fit_.parameters, before);
+      Recentre();
       Refresh(true);
       const FrozenProblem problem{model_, before, fit_.parameters, weights_, priors_, smoothness_, at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
       bool is_near = start_is_near || outer >= 2;
-      SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      solved_ = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
       if (is_near && !IsNear(before, WithParameters(before, fit_.parameters, x))) {
         is_near = false;
         x = PackParameters(before, fit_.parameters);
-        SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+        solved_ = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
       }
       fit_.state = WithParameters(before, fit_.parameters, x);
       if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
@@ -113,8 +115,23 @@ class OuterLoop {
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
     }
-    model_.ReflectDerivatives(true);
+    ReflectDerivatives(true);
     return settled;
+  }
+
+  // Lets turns count from where the luminaires point now.
+  void Recentre() {
+    std::vector<Parameter> recentred = Recentred(fit_.parameters, fit_.state);
+    const auto is_alike = [](const Parameter& a, const Parameter& b) {
+      return a.frame.along == b.frame.along && a.frame.across == b.frame.across;
+    };
+    if (!std::equal(recentred.begin(), recentred.end(), fit_.parameters.begin(), is_alike)) solved_.reset();
+    fit_.parameters = std::move(recentred);
+  }
+
+  void ReflectDerivatives(bool reflects) {
+    if (options_.steps_by_direct_light) solved_.reset();
+    model_.ReflectDerivatives(reflects);
   }
 
   // Lets patches reflect as their elements' texture says. Returns whether that matters.
@@ -125,6 +142,7 @@ class OuterLoop {
     if (fit_.patch_factor.size() == 0) return false;
     model_.SetPatchFactor(fit_.patch_factor);
     model_.FreezeReflected(fit_.state);
+    solved_.reset();
     return true;
   }
 
@@ -140,7 +158,7 @@ class OuterLoop {
   // Residuals of photos resemble one another: facets whose rows all err alike know less than they seem to.
   double PhotoDesignEffect() {
     fit_.photo_design_effect = 1;  // it is that of rows weighed as if they were independent
-    fit_.parameters = Recentred(fit_.parameters, fit_.state);
+    Recentre();
     Refresh(true);
     WeightedRows rows = RowsAtState();
     for (size_t i = data_.observations.size(); i < rows.cluster.size(); ++i) rows.cluster[i] = -1;
@@ -164,9 +182,10 @@ class OuterLoop {
   void Refresh(bool with_jacobian) {
     // Shadow edges move about as far as the luminaires; rows at an edge are left out anyway.
     constexpr double kStillM = 2e-3;
-    model_.RefreezeVisibility(fit_.state, options_.visibility_order, kStillM);
+    if (model_.RefreezeVisibility(fit_.state, options_.visibility_order, kStillM)) solved_.reset();
     const std::vector<bool> penumbra = model_.InPenumbra();
-    at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
+    at_state_ = solved_ ? *std::move(solved_) : model_.Predict(fit_.state, fit_.parameters, with_jacobian);
+    solved_.reset();
     const bool is_first = weights_.root_weight.size() == 0;
     for (int left = is_first && options_.start_is_near ? kMostWeighings : 1; left > 0; --left) {
       relative_sigma_before_ = fit_.relative_sigma;
@@ -216,7 +235,7 @@ class OuterLoop {
       x[i] = std::clamp(x[i], p.lower, p.upper);
     }
     fit_.state = WithParameters(fit_.state, fit_.parameters, x);
-    fit_.parameters = Recentred(fit_.parameters, fit_.state);
+    Recentre();
     at_state_ = model_.Predict(fit_.state, fit_.parameters, true);
   }
 
@@ -372,6 +391,7 @@ class OuterLoop {
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
   Prediction at_state_;
+  std::optional<Prediction> solved_;  // of the last solve's end, as long as the model stays the same
   double relative_sigma_before_ = 0;
 };
 

@@ -20,7 +20,8 @@ LuminaireFit FitWith(BodyPresence presence, const Room& room, const LightData& d
   state.bodies = presence;
   FitLuminairesOptions options;
   options.covariance = false;
-  options.start_is_near = true;
+  options.max_outer_iterations = 1;  // from a converged fit; PredictLeftOut goes the rest of the way
+  options.start_is_near = options.steps_by_direct_light = true;
   options.initial_relative_sigma = fit.relative_sigma;
   options.visibility = fit.visibility;
   options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`

@@ -1,6 +1,6 @@
 // Chooses when the bodies of luminaires that hang close below a surface are there.
 //
-// The fit is repeated from where it is with bodies that are there where the luminaire is on, and with bodies
+// The fit goes on from where it is, by one round, with bodies that are there where the luminaire is on, and with bodies
 // that are always there. Data left out decide (inverse/choose/internal/left_out.h), by the rule of
 // inverse/select/one_standard_error.h.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_BODIES_H_

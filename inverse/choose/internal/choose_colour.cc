@@ -31,8 +31,9 @@ ColourChoice ChooseColour(const Room& room, const LightData& data, const Luminai
   state.tint = TintOf(data.luminance_weights, albedo_rgb);
   if (state.tint.size() == 0) return choice;
   FitLuminairesOptions options;
-  options.start_is_near = true;
-  options.subtracts_discretisation = false;
+  options.covariance = false;
+  options.start_is_near = options.steps_by_direct_light = true;
+  options.visibility = fit.visibility;
   options.photo_design_effect = fit.photo_design_effect;
   options.initial_relative_sigma = fit.relative_sigma;
   options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`

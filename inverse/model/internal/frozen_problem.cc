@@ -70,15 +70,19 @@ void AddPriors(const IndexedPriors& priors, const std::vector<SmoothnessRow>& sm
   }
 }
 
-void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x) {
+std::optional<Prediction> SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options,
+                                      Eigen::VectorXd& x) {
   const Eigen::VectorXd start = x;
+  std::optional<Prediction> last;
+  Eigen::VectorXd last_at;
   CondensedProblem condensed;
   condensed.equations = [&](const Eigen::VectorXd& at) -> std::optional<NormalEquations> {
     if (at == start) return EquationsOf(problem, problem.at_base, at);
-    const Prediction prediction =
+    last =
         problem.model.Predict(WithParameters(problem.base, problem.parameters, at), problem.parameters, true);
-    if (!prediction.value.allFinite()) return std::nullopt;
-    return EquationsOf(problem, prediction, at);
+    last_at = at;
+    if (!last->value.allFinite()) return std::nullopt;
+    return EquationsOf(problem, *last, at);
   };
   condensed.lower.resize(x.size());
   condensed.upper.resize(x.size());
@@ -87,6 +91,8 @@ void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options,
     condensed.upper[i] = problem.parameters[static_cast<size_t>(i)].upper;
   }
   SolveCondensed(condensed, options, x);
+  if (last && last_at != x) last.reset();
+  return last;
 }
 
 }  // namespace luxfit

@@ -10,6 +10,7 @@
 #define LUXFIT_INVERSE_MODEL_INTERNAL_FROZEN_PROBLEM_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,8 +41,9 @@ struct FrozenProblem {
   const Prediction& at_base;  // with its Jacobian
 };
 
-// `x`: the start, at `base`; then the solution.
-void SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options, Eigen::VectorXd& x);
+// `x`: the start, at `base`; then the solution. Returns the prediction there, with its Jacobian, if it was made last.
+std::optional<Prediction> SolveFrozen(const FrozenProblem& problem, const InnerSolveOptions& options,
+                                      Eigen::VectorXd& x);
 
 }  // namespace luxfit
 

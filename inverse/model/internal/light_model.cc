@@ -20,55 +20,86 @@ int IndexOf(const Sensor& sensor, std::vector<Sensor>& sensors) {
   return index;
 }
 
-// Computes gain dE / dp at one receiver.
+// Computes gain dE / dp at receivers. Of each state, only parameters of light that is on have terms:
+//   dE_r / dp = sum_t weight_t columns(r, t)
 class ReceiverDerivative {
  public:
+  // `dimming`: luminaires' of each state; `of_groups`: states x groups.
   ReceiverDerivative(const LightState& state, const std::vector<Parameter>& parameters,
-                     const Illuminance& light, const DerivativeColumns& columns, bool is_direct)
-      : state_(state),
-        light_(light),
-        whole_(columns.request().reflected ? light.total : light.direct),
-        columns_(columns),
-        is_direct_(is_direct) {
-    for (const Parameter& p : parameters) share_.push_back(IsPart(p) ? ReferenceShare(state, p) : 0);
+                     const Illuminance& light, const DerivativeColumns& columns,
+                     const std::vector<Eigen::VectorXd>& dimming, const Eigen::MatrixXd& of_groups,
+                     bool is_direct) {
+    if (parameters.empty()) return;
+    const Eigen::MatrixXf& whole = columns.request().reflected ? light.total : light.direct;
+    const Eigen::Index lamps = light.total.cols(), numbers = light.d_luminaire.cols();
+    columns_.resize(light.total.rows(), 2 * lamps + numbers + (is_direct ? 0 : light.d_albedo.cols()));
+    columns_.leftCols(lamps) = light.total;
+    columns_.middleCols(lamps, lamps) = whole;
+    columns_.middleCols(2 * lamps, numbers) = light.d_luminaire;
+    if (!is_direct) columns_.rightCols(light.d_albedo.cols()) = light.d_albedo;
+    const Eigen::VectorXd flux = FluxesLm(state.luminaires);
+    terms_.resize(dimming.size());
+    for (size_t s = 0; s < dimming.size(); ++s) {
+      const Eigen::VectorXd lumens = dimming[s].cwiseProduct(flux);
+      const Eigen::VectorXd groups = of_groups.row(static_cast<Eigen::Index>(s));
+      for (size_t p = 0; p < parameters.size(); ++p) {
+        const Parameter& parameter = parameters[p];
+        const auto at = static_cast<Eigen::Index>(p);
+        if (parameter.kind == ParameterKind::kLogFlux)
+          Add(s, {at, parameter.index, lumens[parameter.index]});
+        else if (parameter.kind == ParameterKind::kAlbedo && !is_direct)
+          AddSum(s, at, 2 * lamps + numbers, 1, columns.Of(p), groups);
+        else if (parameter.kind == ParameterKind::kLuminaire)
+          AddLuminaire(s, at, parameter, state, lamps, columns.Of(p), groups, lumens);
+      }
+    }
   }
 
-  // `lumens`: of each luminaire in the row's state; `dimming`: of each group.
-  double Of(const Parameter& parameter, size_t p, Eigen::Index r, double gain, const Eigen::VectorXd& lumens,
-            const Eigen::VectorXd& dimming) const {
-    const Eigen::Index k = parameter.index;
-    if (parameter.kind == ParameterKind::kLogFlux) return gain * lumens[k] * light_.total(r, k);
-    if (parameter.kind == ParameterKind::kAlbedo)
-      return is_direct_ ? 0 : gain * Sum(light_.d_albedo, r, columns_.Of(p), dimming);
-    if (parameter.kind != ParameterKind::kLuminaire) return 0;
-    double sum = Sum(light_.d_luminaire, r, columns_.Of(p), dimming);
-    if (IsPart(parameter)) {
-      // Light of the whole, reflected or not as that of its parts.
-      sum -= lumens[k] * whole_(r, k);
-      for (const int j : parameter.tied) sum -= lumens[j] * whole_(r, j);
-      return gain * share_[p] * sum;
-    }
-    // The parameter is the exponent's logarithm.
-    const bool is_exponent = parameter.quantity == LuminaireQuantity::kExponent;
-    return gain * sum * (is_exponent ? state_.luminaires[static_cast<size_t>(k)].cosine_exponent : 1);
+  template <typename Row>
+  void AddTo(int state, Eigen::Index receiver, double gain, Row&& row) const {
+    for (const Term& term : terms_[static_cast<size_t>(state)])
+      row[term.parameter] += gain * term.weight * static_cast<double>(columns_(receiver, term.column));
   }
 
  private:
-  static double Sum(const Eigen::MatrixXf& columns, Eigen::Index r,
-                    const std::vector<DerivativeColumns::Term>& terms, const Eigen::VectorXd& dimming) {
-    double sum = 0;
-    for (const DerivativeColumns::Term& term : terms)
-      sum += dimming[term.group] * static_cast<double>(columns(r, term.column));
-    return sum;
+  struct Term {
+    Eigen::Index parameter = 0, column = 0;
+    double weight = 0;
+  };
+
+  void Add(size_t state, const Term& term) {
+    if (term.weight != 0) terms_[state].push_back(term);
   }
 
-  const LightState& state_;
-  const Illuminance& light_;
-  const Eigen::MatrixXf& whole_;
-  const DerivativeColumns& columns_;
-  const bool is_direct_;
-  std::vector<double> share_;  // of parts
+  void AddSum(size_t state, Eigen::Index p, Eigen::Index first, double factor,
+              const std::vector<DerivativeColumns::Term>& sum, const Eigen::VectorXd& groups) {
+    for (const DerivativeColumns::Term& term : sum)
+      Add(state, {p, first + term.column, factor * groups[term.group]});
+  }
+
+  void AddLuminaire(size_t s, Eigen::Index p, const Parameter& parameter, const LightState& state,
+                    Eigen::Index lamps, const std::vector<DerivativeColumns::Term>& sum,
+                    const Eigen::VectorXd& groups, const Eigen::VectorXd& lumens) {
+    const auto k = static_cast<size_t>(parameter.index);
+    // The parameter is the exponent's logarithm.
+    const bool is_exponent = parameter.quantity == LuminaireQuantity::kExponent;
+    const double share = IsPart(parameter) ? ReferenceShare(state, parameter) : 1;
+    AddSum(s, p, 2 * lamps, share * (is_exponent ? state.luminaires[k].cosine_exponent : 1), sum, groups);
+    if (!IsPart(parameter)) return;
+    // Light of the whole, reflected or not as that of its parts.
+    Add(s, {p, lamps + parameter.index, -share * lumens[parameter.index]});
+    for (const int j : parameter.tied) Add(s, {p, lamps + j, -share * lumens[j]});
+  }
+
+  // Of luminaires, of those as their parts have them, by their numbers and by reflectances, one after the other.
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns_;
+  std::vector<std::vector<Term>> terms_;  // by state
 };
+
+// Says whether gains and offsets of rows that receive light may depend on the parameter.
+bool ConcernsResponse(const Parameter& parameter) {
+  return parameter.kind != ParameterKind::kLuminaire && parameter.kind != ParameterKind::kLogFlux;
+}
 
 }  // namespace
 
@@ -113,9 +144,11 @@ void LightModel::FreezeVisibility(const LightState& state, int order) {
   FreezeReflected(state);
 }
 
-void LightModel::RefreezeVisibility(const LightState& state, int order, double still_m) {
-  if (frozen_.size() != state.luminaires.size() || frozen_order_ != order)
-    return FreezeVisibility(state, order);
+bool LightModel::RefreezeVisibility(const LightState& state, int order, double still_m) {
+  if (frozen_.size() != state.luminaires.size() || frozen_order_ != order) {
+    FreezeVisibility(state, order);
+    return true;
+  }
   std::vector<int> moved;
   for (size_t k = 0; k < frozen_.size(); ++k) {
     if (!(MoveOf(frozen_[k], state.luminaires[k]) > still_m)) continue;
@@ -123,7 +156,20 @@ void LightModel::RefreezeVisibility(const LightState& state, int order, double s
     frozen_[k] = state.luminaires[k];
   }
   if (!moved.empty()) UpdateVisibility(room_, receivers_, state.luminaires, order, moved, visibility_);
-  if (!moved.empty() || !reflected_is_frozen_) FreezeReflected(state);
+  const bool is_stale = IsReflectedStale(state, still_m);
+  if (is_stale) FreezeReflected(state);
+  return is_stale || !moved.empty();
+}
+
+bool LightModel::IsReflectedStale(const LightState& state, double still_m) const {
+  constexpr double kTimesStill = 5, kStillAlbedo = 0.01;
+  if (!reflected_at_ || (reflected_at_->albedo - state.albedo).cwiseAbs().maxCoeff() > kStillAlbedo)
+    return true;
+  const std::vector<Luminaire>& before = reflected_at_->luminaires;
+  for (size_t k = 0; k < before.size(); ++k) {
+    if (!(MoveOf(before[k], state.luminaires[k]) <= kTimesStill * still_m)) return true;
+  }
+  return false;
 }
 
 void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
@@ -132,12 +178,12 @@ void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
   frozen_order_ = frozen.order;
   visibility_.elements = frozen.elements;
   FillReceivers(room_, receivers_, frozen_, visibility_);
-  reflected_is_frozen_ = false;
+  reflected_at_.reset();
 }
 
 void LightModel::FreezeReflected(const LightState& state) {
   hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
-  reflected_is_frozen_ = true;
+  reflected_at_ = {state.luminaires, state.albedo};
   if (data_.indirect_is_held || room_.sparse) return;
   const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0;
   if (!departs && state.bodies == BodyPresence::kNone) return;
@@ -239,7 +285,8 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
   const std::vector<Parameter> asked = with_jacobian ? parameters : std::vector<Parameter>();
   const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_);
   const Illuminance light = Light(state, columns.request());
-  const ReceiverDerivative derivative(state, asked, light, columns, data_.indirect_is_held);
+  const ReceiverDerivative derivative(state, asked, light, columns, data_.dimming, groups_.dimming,
+                                      data_.indirect_is_held);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
 
   Prediction prediction;
@@ -252,7 +299,6 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const RowBlock& block = *blocks_[static_cast<size_t>(row.block)];
     const Eigen::VectorXd lumens = data_.dimming[static_cast<size_t>(row.state)].cwiseProduct(flux);
     const RowResponse response = block.ResponseOf(state, row.place);
-    const Eigen::VectorXd dimming = groups_.dimming.row(row.state);
     if (row.receiver < 0) {
       prediction.value[i] = response.offset;
       for (size_t p = 0; with_jacobian && p < parameters.size(); ++p)
@@ -267,9 +313,11 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     if (hidden_.size() > 0) prediction.d_body[i] = response.gain * colour * unhidden_lx * reflected_[i];
     prediction.value[i] = response.gain * illuminance_lx + response.offset;
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
-    for (size_t p = 0; with_jacobian && p < parameters.size(); ++p) {
-      prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
-          derivative.Of(parameters[p], p, row.receiver, left * response.gain, lumens, dimming) +
+    if (!with_jacobian) return;
+    derivative.AddTo(row.state, row.receiver, left * response.gain, prediction.jacobian.row(i));
+    for (size_t p = 0; p < parameters.size(); ++p) {
+      if (!ConcernsResponse(parameters[p])) continue;
+      prediction.jacobian(i, static_cast<Eigen::Index>(p)) +=
           block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
     }
   });

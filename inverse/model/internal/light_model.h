@@ -54,9 +54,9 @@ class LightModel {
   // Computes the visible shares that Predict uses, and what bodies hide, for the luminaires where `state` has
   // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
-  // Does the same for those luminaires of which a point has moved by more than `still_m` since. Where none has, nothing
-  // changes.
-  void RefreezeVisibility(const LightState& state, int order, double still_m);
+  // Does the same for those luminaires of which a point has moved by more than `still_m` since; what bodies and colours
+  // do to reflected light changes slowly, and follows after five times that. Returns whether anything changed.
+  bool RefreezeVisibility(const LightState& state, int order, double still_m);
   // Takes visible shares over from a model of the same room: RefreezeVisibility then counts from there.
   void TakeVisibility(const FrozenVisibility& frozen);
   FrozenVisibility frozen() const { return {frozen_, frozen_order_, visibility_.elements}; }
@@ -94,6 +94,8 @@ class LightModel {
   };
   // Computes what the bodies of `state` hide of each row's light. `total`: without them, per lumen.
   void FreezeBodies(const LightState& state, const Eigen::MatrixXf& total);
+  // Returns whether luminaires or reflectances have changed so much that reflected light is due anew.
+  bool IsReflectedStale(const LightState& state, double still_m) const;
   // Returns the transports of the three channels, or of grey surfaces.
   std::vector<Transport> ChannelsOf(const LightState& state) const;
   // Computes what coloured and textured surfaces add to each row's light. `totals`: of plain grey surfaces, then
@@ -113,9 +115,13 @@ class LightModel {
   LuminaireVisibility visibility_;
   std::vector<Luminaire> frozen_;  // those of `visibility_`
   int frozen_order_ = 0;
-  bool reflected_is_frozen_ = false;
-  Eigen::VectorXd hidden_, reflected_;  // a and b; empty: no body hides anything
-  Eigen::VectorXd colour_;              // k; empty: the surfaces are grey
+  struct Reflectors {
+    std::vector<Luminaire> luminaires;
+    Eigen::VectorXd albedo;
+  };
+  std::optional<Reflectors> reflected_at_;  // of `hidden_`, `reflected_` and `colour_`
+  Eigen::VectorXd hidden_, reflected_;      // a and b; empty: no body hides anything
+  Eigen::VectorXd colour_;                  // k; empty: the surfaces are grey
   bool reflects_derivatives_ = true;
   Eigen::VectorXd patch_factor_;
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.

@@ -56,7 +56,8 @@ class RowBlock {
     return Eigen::Vector3d::Zero();
   }
   virtual RowResponse ResponseOf(const LightState& state, int row) const = 0;
-  // Returns the derivative by way of gain and offset, with the illuminance held.
+  // Returns the derivative by way of gain and offset, with the illuminance held. 0 by luminaires' numbers and fluxes,
+  // which are not asked for, where the row receives light.
   virtual double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
                                int row) const = 0;
 
