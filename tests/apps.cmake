@@ -1,6 +1,7 @@
 find_package(nlohmann_json 3.11 REQUIRED)
 
 luxfit_test(apps/stages calibration_sets_test LINK luxfit_apps)
+luxfit_test(apps/stages board_text_test LINK luxfit_apps)
 luxfit_test(apps/stages colmap_run_test LINK luxfit_apps opencv_core opencv_calib3d)
 luxfit_test(apps/text csv_table_test LINK luxfit_apps)
 luxfit_test(apps/text units_test LINK luxfit_apps)
@@ -62,6 +63,8 @@ luxfit_test(apps/commands formfactors_test SLOW LINK nlohmann_json::nlohmann_jso
 add_dependencies(apps_formfactors_test luxfit)
 luxfit_test(apps/stages calibrate_test LINK luxfit::calib opencv_core opencv_calib3d nlohmann_json::nlohmann_json)
 add_dependencies(apps_calibrate_test luxfit)
+luxfit_test(apps/commands calibrate_photos_test LINK luxfit::calib opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)
+add_dependencies(apps_calibrate_photos_test luxfit)
 luxfit_test(apps/commands chart_test SLOW LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_chart_test luxfit)
 luxfit_test(apps/export luminaire_files_test LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)

@@ -14,12 +14,10 @@ struct Added {
   std::shared_ptr<Options> options;
 };
 
+// Adds what all commands on a session have beside their inputs.
 template <typename Options>
-Added<Options> AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string& name,
-                                 const std::string& help, int (*run)(const Options&)) {
-  CLI::App* const command = app.add_subcommand(name, help);
-  const auto options = std::make_shared<Options>();
-  command->add_option("SESSION", options->session, "the session file (TOML)")->required();
+void AddSessionOptions(CLI::App* command, Invocation& invocation, const std::shared_ptr<Options>& options,
+                       int (*run)(const Options&)) {
   command->add_option("-o,--out", options->out, "folder for the results; nothing is written outside it")
       ->required();
   AddJson(*command, options->json);
@@ -28,6 +26,15 @@ Added<Options> AddSessionCommand(CLI::App& app, Invocation& invocation, const st
     options->command_line = invocation.command_line;
     invocation.run = [options, run] { return run(*options); };
   });
+}
+
+template <typename Options>
+Added<Options> AddSessionCommand(CLI::App& app, Invocation& invocation, const std::string& name,
+                                 const std::string& help, int (*run)(const Options&)) {
+  CLI::App* const command = app.add_subcommand(name, help);
+  const auto options = std::make_shared<Options>();
+  command->add_option("SESSION", options->session, "the session file (TOML)")->required();
+  AddSessionOptions(command, invocation, options, run);
   return {command, options};
 }
 
@@ -78,16 +85,29 @@ void AddRun(CLI::App& app, Invocation& invocation) {
 }
 
 void AddCalibrate(CLI::App& app, Invocation& invocation) {
-  const auto calibrate = AddSessionCommand(
-      app, invocation, "calibrate",
-      "intrinsics of cameras and rigs, from images of a board or of the room's tags", CalibrateCommand);
-  AddExample(*calibrate.command,
-             "luxfit calibrate mine/session.toml -o out   # a session whose cameras name images of a board",
-             "session stereo: done\n"
-             "13 images, opencv4: RMS per axis 0.120 px, held out 0.120 px, 0.1 % outliers\n"
-             "  left     f 534.03 534.16 px (± 0.43), c 341.60 234.28; direction uncertain by 0.12 px in the "
-             "middle\n"
-             "...");
+  CLI::App* const command = app.add_subcommand(
+      "calibrate", "intrinsics of cameras and rigs, from photos of a board or of the room's tags");
+  const auto options = std::make_shared<CalibrateCommandOptions>();
+  command
+      ->add_option("INPUT", options->inputs,
+                   "photos of a board, or folders of them: each folder is a camera; or a session file (TOML)")
+      ->required();
+  command->add_option("--board", options->board,
+                      "what photos show: chessboard:COLUMNSxROWS:SQUARE_M (inner corners), "
+                      "charuco:COLUMNSxROWS:SQUARE_M[:MARKER_M[:DICTIONARY]] (squares) or "
+                      "aprilgrid:COLUMNSxROWS:TAG_M[:GAP_IN_TAGS[:FAMILY]]");
+  command->add_option(
+      "--rig", options->rig,
+      "which photos of several cameras were taken together: auto, names, numbers, order or none");
+  AddSessionOptions(command, invocation, options, CalibrateCommand);
+  AddExample(*command, "luxfit calibrate left/*.jpg right/*.jpg --board chessboard:9x6:0.025 -o out",
+             "session left, right: done\n"
+             "photos of left: 13, in left\n"
+             "photos of right: 13, in right\n"
+             "sets of left, right: 13, by numbers, left01.jpg with right01.jpg and so on\n"
+             "26 images, opencv4: RMS per axis 0.130 px, held out 0.131 px, 0.4 % outliers\n"
+             "...\n"
+             "  left to right: baseline 0.083138 ± 0.000035 m, rotation 0.435 ± 0.047 degrees");
 }
 
 void AddLinearize(CLI::App& app, Invocation& invocation) {

@@ -11,15 +11,16 @@
 
 #include "apps/print/board_sheets.h"
 #include "apps/session/session_files.h"
+#include "apps/stages/calibrate/board_text.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "calib/targets/board.h"
+#include "calib/targets/board_search.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kStepM = 0.0005;  // chosen sizes are multiples of this
-constexpr double kMarkerShare = 0.7;
 
 BoardType TypeFrom(const std::string& name) {
   if (name == "aprilgrid") return BoardType::kAprilGrid;
@@ -71,7 +72,8 @@ Board BoardFrom(const BoardCommandOptions& options) {
 void SetScale(double size_m, const BoardCommandOptions& options, Board& board) {
   (board.type == BoardType::kAprilGrid ? board.tag_size_m : board.square_size_m) = size_m;
   if (board.type != BoardType::kCharuco) return;
-  board.tag_size_m = options.marker_size_m > 0 ? options.marker_size_m : RoundedDown(kMarkerShare * size_m);
+  board.tag_size_m =
+      options.marker_size_m > 0 ? options.marker_size_m : RoundedDown(kPrintedMarkerShare * size_m);
 }
 
 // Returns the largest size with which `needed_mm` fits on the paper. `needed_mm` grows with the size.
@@ -85,27 +87,6 @@ double LargestSizeM(const Paper& paper, const std::function<Eigen::Vector2d(doub
     throw std::runtime_error("--paper: expected room for the board, got " + paper.name +
                              "; give a larger one");
   return low;
-}
-
-std::string BoardLine(const Board& board) {
-  const std::string counts = fmt::format("columns = {}, rows = {}", board.columns, board.rows);
-  const std::string first = board.first_id > 0 ? fmt::format(", first_id = {}", board.first_id) : "";
-  switch (board.type) {
-    case BoardType::kAprilGrid:
-      return fmt::format("board = {{ type = \"aprilgrid\", {}, tag_size_m = {:g}, spacing = {:g}{}{} }}",
-                         counts, board.tag_size_m, board.spacing,
-                         board.family == "tag36h11" ? "" : fmt::format(", family = \"{}\"", board.family),
-                         first);
-    case BoardType::kChessboard:
-      return fmt::format("board = {{ type = \"chessboard\", {}, square_size_m = {:g} }}", counts,
-                         board.square_size_m);
-    case BoardType::kCharuco:
-      break;
-  }
-  return fmt::format(
-      "board = {{ type = \"charuco\", {}, square_size_m = {:g}, marker_size_m = {:g}, dictionary = \"{}\"{} "
-      "}}",
-      counts, board.square_size_m, board.tag_size_m, board.dictionary, first);
 }
 
 // Parses "0-11,20" into a list.

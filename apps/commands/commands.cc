@@ -1,14 +1,18 @@
 #include "apps/commands/commands.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
+#include "apps/commands/internal/photo_session.h"
 #include "apps/commands/internal/room_run.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/albedo/stage_stereo.h"
+#include "apps/stages/calibrate/calibration_table.h"
 #include "apps/stages/calibrate/stage_calibrate.h"
 #include "apps/stages/check_report.h"
 #include "apps/stages/prepared_session.h"
@@ -26,6 +30,20 @@ Session ReadRoomSession(const SessionCommandOptions& options) {
     throw InputError({session.path, session.lights->line}, "lights",
                      "expected the session of a room, got one of an object; run luxfit albedo on it");
   return session;
+}
+
+// Reads the session of `luxfit calibrate`, or makes one of photos.
+Session SessionToCalibrate(const CalibrateCommandOptions& options) {
+  if (!IsSessionFile(options.inputs, options.board))
+    return SessionOfPhotos(options.inputs, options.board, options.rig);
+  if (!options.board.empty() || !options.rig.empty())
+    throw std::runtime_error(
+        fmt::format("{}: expected photos, got a session; write {} there, or name photos instead",
+                    options.board.empty() ? "--rig" : "--board",
+                    options.board.empty() ? "[calibration] rig" : "the camera's board"));
+  SessionCommandOptions of_session = options;
+  of_session.session = options.inputs.front();
+  return ReadRoomSession(of_session);
 }
 
 // Charts the stability of a session's fit. Returns exit status 1 where the undegraded session has no fit.
@@ -115,8 +133,8 @@ int LinearizeCommand(const SessionCommandOptions& options) {
   return 0;
 }
 
-int CalibrateCommand(const SessionCommandOptions& options) {
-  const Session session = ReadRoomSession(options);
+int CalibrateCommand(const CalibrateCommandOptions& options) {
+  const Session session = SessionToCalibrate(options);
   RunContext context = MakeContext(options, session);
   const nlohmann::json artifact = CalibrateSession(session, context);
   PrintText(options.json ? JsonText(artifact) : CalibrationTable(artifact));

@@ -7,6 +7,7 @@
 #define LUXFIT_APPS_COMMANDS_COMMANDS_H_
 
 #include <string>
+#include <vector>
 
 #include "apps/commands/study/stage_fit_chart.h"
 #include "apps/commands/study/stage_stability.h"
@@ -57,9 +58,15 @@ int ChartCommand(const ChartCommandOptions& options);
 
 // Converts pixels to luminance by exposures, response and vignetting; writes OUT/stages/linearize.json.
 int LinearizeCommand(const SessionCommandOptions& options);
+struct CalibrateCommandOptions : SessionCommandOptions {
+  std::vector<std::string>
+      inputs;         // one session file; or photos of a board and folders of them, `session` being empty
+  std::string board;  // what photos show, as apps/stages/calibrate/board_text.h has it
+  std::string rig;    // how photos pair up: one of RigRules; empty: auto
+};
 // Calibrates cameras from images of boards or of the room's tags; writes OUT/stages/calibrate.json and files
 // of intrinsics (apps/stages/calibrate/stage_calibrate.h).
-int CalibrateCommand(const SessionCommandOptions& options);
+int CalibrateCommand(const CalibrateCommandOptions& options);
 int RegisterCommand(const SessionCommandOptions& options);
 
 struct AlbedoCommandOptions : SessionCommandOptions {

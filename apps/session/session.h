@@ -157,9 +157,11 @@ struct SessionLuxmeter {
 struct SessionCalibration {
   std::optional<LensKind> lens;    // absent: chosen
   std::string back_end = "mrcal";  // mrcal | opencv
-  std::string rig = "auto";        // auto | numbers | order | none: how images form sets
+  std::string rig = "auto";        // auto | names | numbers | order | none: how images form sets
   double focal_start_px = 0;       // 0: scanned
 };
+// Returns the values that `rig` may have.
+std::vector<std::string> RigRules();
 
 struct Session {
   std::string name;

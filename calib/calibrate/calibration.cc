@@ -187,7 +187,7 @@ class ResultWriter {
     camera.id = given.id;
     camera.camera = CameraOf(fit_.state.lens, fit_.state.intrinsics[c], given.width_px, given.height_px);
     camera.cam_from_rig = fit_.state.cam_from_rig[c];
-    camera.cam_from_rig_sigma = covariance.cam_from_rig_sigma[c];
+    camera.cam_from_rig_covariance = covariance.cam_from_rig[c];
     camera.uncertainty = covariance.cameras[c];
     camera.coverage = CoverageOf(problem_.input->target, given, CoveringImages(static_cast<int>(c)));
     const Eigen::MatrixXd sigma_px = ProjectionSigmaMap(camera.camera, camera.uncertainty, kMapColumns,

@@ -88,8 +88,9 @@ struct CalibratedCamera {
   std::string id;
   Camera camera;
   Eigen::Isometry3d cam_from_rig = Eigen::Isometry3d::Identity();  // the first camera is the rig's frame
-  // Rotation vector (rad) and translation (m) in the camera's axes; zero for the first camera.
-  Eigen::Matrix<double, 6, 1> cam_from_rig_sigma = Eigen::Matrix<double, 6, 1>::Zero();
+  // Of a small rotation vector (rad) and the translation (m), in the camera's axes. Zero for the first camera; NaN
+  // where unknowns are undetermined.
+  Eigen::Matrix<double, 6, 6> cam_from_rig_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   ProjectionCovariance uncertainty;
   CalibrationCoverage coverage;
   double uncertain_share = 1;    // share of the image where the sigma of a direction exceeds the gate

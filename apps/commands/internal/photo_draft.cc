@@ -103,7 +103,7 @@ void DraftByContent(const std::string& folder, const std::vector<std::string>& f
 }  // namespace
 
 void DraftPhotos(const std::string& photos, const std::string& out, SessionDraft& draft) {
-  const std::vector<std::string> files = PhotoFilesIn(photos);
+  const std::vector<std::string> files = PhotoFilesIn(photos, "--photos");
   const PhotoNames names = GuessViewsAndStates(files);
   if (names.do_names_tell || files.size() == 1) {
     DraftByNames(photos, names, draft);

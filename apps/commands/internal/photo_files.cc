@@ -64,21 +64,25 @@ std::string WhatLiesThere(const std::vector<std::string>& files) {
 
 }  // namespace
 
-std::vector<std::string> PhotoFilesIn(const std::string& folder) {
-  const std::set<std::string> endings = {".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".heic", ".heif",
-                                         ".hif", ".dng", ".cr2",  ".cr3", ".crw", ".nef",  ".nrw",  ".arw",
-                                         ".sr2", ".raf", ".orf",  ".rw2", ".pef", ".srw",  ".iiq",  ".3fr"};
+bool IsPhotoName(const std::string& path) {
+  static const std::set<std::string> endings = {
+      ".png", ".tif", ".tiff", ".exr", ".jpg", ".jpeg", ".heic", ".heif", ".hif", ".dng", ".cr2", ".cr3",
+      ".crw", ".nef", ".nrw",  ".arw", ".sr2", ".raf",  ".orf",  ".rw2",  ".pef", ".srw", ".iiq", ".3fr"};
+  return endings.count(ExtensionOf(path)) > 0;
+}
+
+std::vector<std::string> PhotoFilesIn(const std::string& folder, const std::string& flag) {
   std::vector<std::string> photos, others;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     // Systems leave files of their own beside photos: .DS_Store, ._IMG_1234.jpg.
     if (!entry.is_regular_file() || entry.path().filename().string()[0] == '.') continue;
-    const bool is_photo = endings.count(ExtensionOf(entry.path().string())) > 0;
-    (is_photo ? photos : others).push_back(fs::relative(entry.path(), folder).string());
+    (IsPhotoName(entry.path().string()) ? photos : others)
+        .push_back(fs::relative(entry.path(), folder).string());
   }
   std::sort(photos.begin(), photos.end());
   std::sort(others.begin(), others.end());
   if (photos.empty())
-    throw std::runtime_error(folder + ": --photos: expected photos (PNG, TIFF, EXR, JPEG, HEIC, RAW), " +
+    throw std::runtime_error(folder + ": " + flag + ": expected photos (PNG, TIFF, EXR, JPEG, HEIC, RAW), " +
                              WhatLiesThere(others));
   return photos;
 }

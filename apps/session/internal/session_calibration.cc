@@ -4,6 +4,8 @@
 
 namespace luxfit {
 
+std::vector<std::string> RigRules() { return {"auto", "names", "numbers", "order", "none"}; }
+
 SessionCalibration ReadCalibrationSection(const TomlCursor& section) {
   section.ExpectKeys({"lens", "back_end", "rig", "focal_start_px"});
   SessionCalibration calibration;
@@ -21,8 +23,7 @@ SessionCalibration ReadCalibrationSection(const TomlCursor& section) {
     calibration.back_end = back_end->OneOf({"mrcal", "opencv"});
   if (calibration.back_end == "opencv" && calibration.lens && !OpsOf(calibration.lens->lens).is_in_opencv)
     throw section.Error("expected back_end = \"mrcal\" with a splined lens, got \"opencv\"");
-  if (const auto rig = section.Find("rig"))
-    calibration.rig = rig->OneOf({"auto", "numbers", "order", "none"});
+  if (const auto rig = section.Find("rig")) calibration.rig = rig->OneOf(RigRules());
   if (const auto focal = section.Find("focal_start_px"))
     calibration.focal_start_px = focal->NumberAbove(0, "px");
   return calibration;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "apps/text/file_stem.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/json_vectors.h"
+#include "calib/calibrate/rig_pose.h"
 #include "calib/lens/camera_file.h"
 #include "calib/lens/lens_family.h"
 #include "calib/targets/board.h"
@@ -95,8 +97,15 @@ json CameraJson(const CalibratedCamera& camera) {
     rotation.push_back(VectorJson(camera.cam_from_rig.linear().row(row).eval()));
   out["R_camera_from_rig"] = rotation;
   out["t_camera_from_rig_m"] = VectorJson(camera.cam_from_rig.translation().eval());
-  out["camera_from_rig_sigma"] = {{"rotation_rad", VectorJson(camera.cam_from_rig_sigma.head<3>().eval())},
-                                  {"translation_m", VectorJson(camera.cam_from_rig_sigma.tail<3>().eval())}};
+  const Eigen::VectorXd sigma = camera.cam_from_rig_covariance.diagonal().cwiseSqrt();
+  out["camera_from_rig_sigma"] = {{"rotation_rad", VectorJson(sigma.head<3>())},
+                                  {"translation_m", VectorJson(sigma.tail<3>())}};
+  constexpr double kDegPerRad = 180 / M_PI;
+  const RigPose pose = RigPoseOf(camera);
+  out["baseline_m"] = pose.baseline_m;
+  out["baseline_sigma_m"] = NumberOrNull(pose.baseline_sigma_m);
+  out["rotation_deg"] = kDegPerRad * pose.angle_rad;
+  out["rotation_sigma_deg"] = NumberOrNull(kDegPerRad * pose.angle_sigma_rad);
   out["uncertainty"] = {
       {"middle_px", NumberOrNull(ProjectionSigmaPx(c, camera.uncertainty, middle, infinity))},
       {"median_px", NumberOrNull(camera.median_sigma_px)},

@@ -11,6 +11,7 @@
 
 #include "apps/stages/calibrate/calibration_sets.h"
 #include "apps/text/file_stem.h"
+#include "calib/calibrate/rig_strain.h"
 #include "calib/luminance/image.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
@@ -39,11 +40,6 @@ std::vector<std::string> FilesOf(const OwnPhotos& photos, int camera) {
     if (of.first == camera) files.push_back(file);
   }
   return files;
-}
-
-ImagePlane GreyOf(const Photo& photo, const Eigen::Vector3d& weights) {
-  const Eigen::Vector3f w = weights.cast<float>();
-  return w[0] * photo.rgb_counts[0] + w[1] * photo.rgb_counts[1] + w[2] * photo.rgb_counts[2];
 }
 
 // Returns the tags of an image as corners of the survey. A tag seen twice is left out as ambiguous.
@@ -151,18 +147,25 @@ bool IsSameBoard(const std::optional<Board>& a, const std::optional<Board>& b) {
          a->first_id == b->first_id && a->family == b->family && a->dictionary == b->dictionary;
 }
 
+// Tells whether so few corners were found that another photo would be better. Boards that hide some corners, or reach
+// out of the photo, are as good as whole ones.
+bool IsPoor(const BoardDetection& found, std::size_t corners_of_board) {
+  return !found.message.empty() && 2 * found.corners.size() < corners_of_board;
+}
+
 CalibrationGroup GroupOf(const Session& session, const std::vector<int>& cameras,
                          const std::vector<CameraImages>& images, const ImageSets& sets) {
   CalibrationGroup group;
   group.cameras = cameras;
   group.is_rig = sets.is_rig;
+  group.pairing = sets.rule;
   group.input.target = TargetFor(session, session.cameras[static_cast<std::size_t>(cameras.front())]);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const SessionCamera& camera = session.cameras[static_cast<std::size_t>(cameras[c])];
     group.input.cameras.push_back({camera.id, images[c].size_px.x(), images[c].size_px.y()});
     for (std::size_t i = 0; i < images[c].files.size(); ++i) {
       const BoardDetection& found = images[c].found[i];
-      if (!found.message.empty())
+      if (IsPoor(found, group.input.target.points.size()))
         group.messages.push_back(FileName(images[c].files[i]) + ": " + found.message);
       group.input.images.push_back({images[c].files[i], static_cast<int>(c), sets.sets[c][i], found.corners});
     }
@@ -181,10 +184,15 @@ void AddGroups(const Session& session, const std::vector<int>& alike, const std:
     return;
   }
   for (std::size_t c = 0; c < alike.size(); ++c)
-    groups.push_back(GroupOf(session, {alike[c]}, {images[c]}, {false, {sets.sets[c]}}));
+    groups.push_back(GroupOf(session, {alike[c]}, {images[c]}, {false, {sets.sets[c]}, "none"}));
 }
 
 }  // namespace
+
+ImagePlane GreyOf(const Photo& photo, const Eigen::Vector3d& weights) {
+  const Eigen::Vector3f w = weights.cast<float>();
+  return w[0] * photo.rgb_counts[0] + w[1] * photo.rgb_counts[1] + w[2] * photo.rgb_counts[2];
+}
 
 bool CanBeCalibrated(const Session& session, const SessionCamera& camera) {
   if (camera.board) return !camera.calibration_images.empty() || !camera.calibration_corners.empty();
@@ -233,13 +241,7 @@ std::vector<CalibrationGroup> SplitRig(const CalibrationGroup& rig) {
   for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
     CalibrationGroup group;
     group.cameras = {rig.cameras[c]};
-    group.input.target = rig.input.target;
-    group.input.cameras = {rig.input.cameras[c]};
-    for (CalibrationImage image : rig.input.images) {
-      if (image.camera != static_cast<int>(c)) continue;
-      image.camera = 0;
-      group.input.images.push_back(std::move(image));
-    }
+    group.input = InputOfCamera(rig.input, static_cast<int>(c));
     groups.push_back(std::move(group));
   }
   return groups;

@@ -16,6 +16,7 @@
 #include "apps/session/session.h"
 #include "calib/calibrate/calibration_input.h"
 #include "calib/lens/camera.h"
+#include "calib/luminance/image.h"
 
 namespace luxfit {
 
@@ -23,13 +24,17 @@ namespace luxfit {
 struct CalibrationGroup {
   std::vector<int> cameras;  // indices into the session's
   bool is_rig = false;
-  CalibrationInput input;             // images are named by their path as the session has it
-  std::vector<std::string> messages;  // for images in which something was not found
+  std::string pairing = "none";  // the rule by which images of several cameras form sets (calibration_sets.h)
+  CalibrationInput input;        // images are named by their path as the session has it
+  std::vector<std::string> messages;  // for images that show less than half of the target
 };
 
 // Holds the file of the first photo by camera (index into the session's) and view. The others show the same
 // tags from the same place.
 using OwnPhotos = std::map<std::pair<int, std::string>, std::string>;
+
+// Returns the weighted sum of the photo's channels, as boards and tags are searched for in.
+ImagePlane GreyOf(const Photo& photo, const Eigen::Vector3d& weights);
 
 // Tells whether the session has something from which the camera can be calibrated.
 bool CanBeCalibrated(const Session& session, const SessionCamera& camera);

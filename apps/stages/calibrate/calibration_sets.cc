@@ -4,7 +4,11 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
+
+#include "apps/text/file_stem.h"
 
 namespace luxfit {
 namespace {
@@ -24,6 +28,13 @@ std::string NumberIn(const std::string& file) {
   return first == std::string::npos ? "0" : digits.substr(first);
 }
 
+// Holds a rule by which images of equal key were taken together.
+struct KeyRule {
+  const char* name;
+  std::string (*key_of)(const std::string& file);  // "": the image has no key
+};
+constexpr KeyRule kNames = {"names", FileName}, kNumbers = {"numbers", NumberIn};
+
 ImageSets Alone(const std::vector<std::vector<std::string>>& files) {
   ImageSets out;
   int next = 0;
@@ -40,8 +51,44 @@ ImageSets ByOrder(const std::vector<std::vector<std::string>>& files) {
     out.sets.emplace_back();
     for (std::size_t i = 0; i < images.size(); ++i) out.sets.back().push_back(static_cast<int>(i));
   }
-  out.is_rig = files.size() > 1;
+  out.is_rig = true;
+  out.rule = "order";
   return out;
+}
+
+struct KeyedSets {
+  ImageSets sets;
+  std::size_t pairs = 0;           // keys that several cameras have
+  bool tells_images_apart = true;  // every image of a camera has a key of its own
+};
+
+KeyedSets ByKey(const std::vector<std::vector<std::string>>& files, const KeyRule& rule) {
+  KeyedSets out{Alone(files)};
+  std::map<std::string, int> set_of_key;
+  std::map<std::string, std::size_t> cameras_of_key;
+  for (std::size_t c = 0; c < files.size(); ++c) {
+    std::set<std::string> own;
+    for (std::size_t i = 0; i < files[c].size(); ++i) {
+      const std::string key = rule.key_of(files[c][i]);
+      // A key that a camera has twice, or a missing one, pairs no images.
+      if (key.empty() || !own.insert(key).second) continue;
+      out.sets.sets[c][i] = set_of_key.emplace(key, out.sets.sets[c][i]).first->second;
+      ++cameras_of_key[key];
+    }
+    out.tells_images_apart = out.tells_images_apart && own.size() == files[c].size();
+  }
+  out.pairs = static_cast<std::size_t>(
+      std::count_if(cameras_of_key.begin(), cameras_of_key.end(),
+                    [](const std::pair<const std::string, std::size_t>& k) { return k.second > 1; }));
+  out.sets.is_rig = true;
+  out.sets.rule = rule.name;
+  return out;
+}
+
+// Returns the sets of a rule that the user gave, which one pair suffices for.
+ImageSets ByGivenKey(const std::vector<std::vector<std::string>>& files, const KeyRule& rule) {
+  KeyedSets found = ByKey(files, rule);
+  return found.pairs > 0 ? std::move(found.sets) : Alone(files);
 }
 
 }  // namespace
@@ -49,26 +96,13 @@ ImageSets ByOrder(const std::vector<std::vector<std::string>>& files) {
 ImageSets PairImages(const std::vector<std::vector<std::string>>& files, const std::string& rule) {
   if (rule == "none" || files.size() < 2) return Alone(files);
   if (rule == "order") return ByOrder(files);
-  ImageSets out = Alone(files);
-  std::map<std::string, int> set_of_number;
-  std::map<std::string, std::size_t> cameras_of_number;
-  for (std::size_t c = 0; c < files.size(); ++c) {
-    std::set<std::string> own;
-    for (std::size_t i = 0; i < files[c].size(); ++i) {
-      const std::string number = NumberIn(files[c][i]);
-      // A number that a camera has twice, or a missing number, pairs no images.
-      if (number == kNoNumber || !own.insert(number).second) continue;
-      out.sets[c][i] = set_of_number.emplace(number, out.sets[c][i]).first->second;
-      ++cameras_of_number[number];
-    }
-    if (rule == "auto" && own.size() != files[c].size()) return Alone(files);
+  if (rule == "names") return ByGivenKey(files, kNames);
+  if (rule == "numbers") return ByGivenKey(files, kNumbers);
+  for (const KeyRule& key : {kNames, kNumbers}) {
+    KeyedSets found = ByKey(files, key);
+    if (found.tells_images_apart && found.pairs >= kLeastPairs) return std::move(found.sets);
   }
-  const auto pairs = static_cast<std::size_t>(
-      std::count_if(cameras_of_number.begin(), cameras_of_number.end(),
-                    [](const std::pair<const std::string, std::size_t>& n) { return n.second > 1; }));
-  if (pairs < (rule == "auto" ? kLeastPairs : 1)) return Alone(files);
-  out.is_rig = true;
-  return out;
+  return Alone(files);
 }
 
 }  // namespace luxfit

@@ -8,7 +8,11 @@
 
 #include "apps/stages/calibrate/calibration_files.h"
 #include "apps/stages/calibrate/calibration_images.h"
+#include "apps/stages/calibrate/image_grouping.h"
+#include "apps/stages/calibrate/shown_board.h"
+#include "apps/text/file_stem.h"
 #include "apps/text/input_error.h"
+#include "calib/calibrate/rig_strain.h"
 #include "calib/lens/camera_file.h"
 #include "calib/lens/lens_family.h"
 
@@ -36,6 +40,20 @@ std::string Ids(const CalibrationGroup& group) {
 
 bool IsBorneOut(const Calibration& rig) { return rig.converged && rig.outlier_share < kRigOutliers; }
 
+void WarnOfStrain(const CalibrationGroup& group, const RigStrain& strain, RunContext& context) {
+  if (!strain.IsStrained()) return;
+  std::vector<std::string> worst;
+  for (const int image : strain.worst_images)
+    worst.push_back(FileName(group.input.images[static_cast<std::size_t>(image)].name));
+  context.warnings.push_back(
+      {"rig_strained",
+       fmt::format("{}: as a rig they miss the corners by {:.3f} px, each alone by {:.3f} px; worst in {}",
+                   Ids(group), strain.together_px, strain.alone_px, fmt::join(worst, " and ")),
+       "take photos of a set at one moment, or hold the board still; tighten the cameras to each other; "
+       "compare how photos "
+       "were paired, and say it by --rig or [calibration] rig"});
+}
+
 std::vector<CalibratedGroup> Calibrate(const Session& session, const CalibrationGroup& group,
                                        RunContext& context) {
   const CalibrateCamerasOptions options = OptionsOf(session.calibration);
@@ -45,7 +63,11 @@ std::vector<CalibratedGroup> Calibrate(const Session& session, const Calibration
     calibration = CalibrateCameras(refined.input, options);
     return {{std::move(refined), std::move(calibration)}};
   }
-  if (!group.is_rig || IsBorneOut(calibration)) return {{group, std::move(calibration)}};
+  if (!group.is_rig) return {{group, std::move(calibration)}};
+  if (IsBorneOut(calibration)) {
+    WarnOfStrain(group, StrainOf(group.input, calibration, options), context);
+    return {{group, std::move(calibration)}};
+  }
   context.warnings.push_back(
       {"rig_rejected",
        fmt::format("{}: their images do not fit cameras fixed to each other ({}); calibrated "
@@ -54,7 +76,7 @@ std::vector<CalibratedGroup> Calibrate(const Session& session, const Calibration
                    calibration.converged
                        ? fmt::format("{:.0f} % of the corners left out", 100 * calibration.outlier_share)
                        : calibration.message),
-       "say in [calibration] how images pair up: rig = \"numbers\", \"order\" or \"none\""});
+       "say by --rig or [calibration] rig how images pair up: names, numbers, order or none"});
   std::vector<CalibratedGroup> alone;
   for (CalibrationGroup& single : SplitRig(group)) {
     Calibration own = CalibrateCameras(single.input, options);
@@ -70,6 +92,7 @@ void Report(const CalibratedGroup& calibrated, RunContext& context) {
         {"image_incomplete", message, "leave such images out, or photograph them again"});
   for (const CalibrationNote& note : c.notes)
     context.warnings.push_back({note.code, note.message, note.remedy, note.fails});
+  for (Choice& grouping : GroupingChoices(calibrated.group)) context.choices.push_back(std::move(grouping));
   if (!c.converged) return;
   Choice choice{"lens of " + Ids(calibrated.group), ToString(c.lens), {}, c.lens_because};
   for (const LensScore& lens : c.lenses)
@@ -102,7 +125,9 @@ std::vector<CalibratedGroup> CalibrateThese(const Session& session, const OwnPho
   const StageTimer timer(context, "calibrate",
                          cameras.size() == 1 ? "one camera" : fmt::format("{} cameras", cameras.size()));
   std::vector<CalibratedGroup> calibrated;
-  for (const CalibrationGroup& group : ReadCalibrationImages(session, photos, cameras)) {
+  const std::vector<CalibrationGroup> groups = ReadCalibrationImages(session, photos, cameras);
+  for (const CalibrationGroup& group : groups) ExpectBoardShown(session, group);
+  for (const CalibrationGroup& group : groups) {
     for (CalibratedGroup& result : Calibrate(session, group, context)) {
       Report(result, context);
       calibrated.push_back(std::move(result));
@@ -174,31 +199,6 @@ std::vector<Camera> CamerasOf(const Session& session, const LinearizedPhotos& ph
   known.reserve(cameras.size());
   for (const std::optional<Camera>& camera : cameras) known.push_back(*camera);
   return known;
-}
-
-std::string CalibrationTable(const json& artifact) {
-  std::string text = StatusLine(artifact);
-  for (const json& group : artifact["groups"]) {
-    if (group["lens"].is_null()) continue;
-    const json& held_out = group["held_out_rms_px"];
-    text += fmt::format("{} images, {}: RMS per axis {:.3f} px, held out {} px, {:.1f} % outliers{}\n",
-                        group["images"].size(), ToString(*LensKindOf(group["lens"].get<std::string>())),
-                        group["reprojection_rms_px"]["per_axis"].get<double>(),
-                        held_out.is_null() ? "-" : fmt::format("{:.3f}", held_out.get<double>()),
-                        100 * group["outlier_share"].get<double>(),
-                        group["usable"].get<bool>() ? "" : "; NOT USABLE as it is");
-    for (const json& camera : group["cameras"]) {
-      const json& sigma = camera["fx_fy_cx_cy_sigma_px"];
-      text += fmt::format(
-          "  {:<8} f {:.2f} {:.2f} px{}, c {:.2f} {:.2f}; direction uncertain by {:.2g} px in the middle\n",
-          camera["id"].get<std::string>(), camera["fx_px"].get<double>(), camera["fy_px"].get<double>(),
-          sigma.is_null() || sigma[0].is_null() ? "" : fmt::format(" (± {:.2f})", sigma[0].get<double>()),
-          camera["cx_px"].get<double>(), camera["cy_px"].get<double>(),
-          camera["uncertainty"]["middle_px"].is_null() ? std::numeric_limits<double>::quiet_NaN()
-                                                       : camera["uncertainty"]["middle_px"].get<double>());
-    }
-  }
-  return text + WarningText(artifact);
 }
 
 }  // namespace luxfit

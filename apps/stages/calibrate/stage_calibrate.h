@@ -28,9 +28,6 @@ nlohmann::json CalibrateSession(const Session& session, RunContext& context);
 // nothing.
 std::vector<Camera> CamerasOf(const Session& session, const LinearizedPhotos& photos, RunContext& context);
 
-// Formats the artifact for the terminal.
-std::string CalibrationTable(const nlohmann::json& artifact);
-
 }  // namespace luxfit
 
 #endif  // LUXFIT_APPS_STAGES_CALIBRATE_STAGE_CALIBRATE_H_

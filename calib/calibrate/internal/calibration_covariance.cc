@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "calib/lens/internal/rotation_vector.h"
@@ -74,7 +75,9 @@ CalibrationCovariance CovarianceOf(const CalibrationProblem& problem, const Cali
                                    const LinearizedState& linearized, double noise_px) {
   CalibrationCovariance out;
   out.cameras.resize(state.intrinsics.size());
-  out.cam_from_rig_sigma.assign(state.intrinsics.size(), Eigen::Matrix<double, 6, 1>::Zero());
+  out.cam_from_rig.assign(state.intrinsics.size(),
+                          Matrix6::Constant(std::numeric_limits<double>::quiet_NaN()));
+  out.cam_from_rig.front().setZero();
   for (ProjectionCovariance& camera : out.cameras) {
     camera.kind = state.lens.kind;
     camera.noise_px = noise_px;
@@ -100,7 +103,7 @@ CalibrationCovariance CovarianceOf(const CalibrationProblem& problem, const Cali
     Matrix6 own = Matrix6::Identity();
     own.topLeftCorner<3, 3>() = LeftJacobian(RodriguesOf(state.cam_from_rig[c]).head<3>());
     AddBlock(own, 0, linearized.cam_from_rig_at[c], selection);
-    out.cam_from_rig_sigma[c] = covariance_of(selection).diagonal().cwiseMax(0).cwiseSqrt();
+    out.cam_from_rig[c] = covariance_of(selection);
   }
   if (linearized.warp_at >= 0) {
     Eigen::MatrixXd selection = Eigen::MatrixXd::Zero(2, hessian.cols());

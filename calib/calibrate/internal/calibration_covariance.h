@@ -17,9 +17,9 @@ namespace luxfit {
 struct CalibrationCovariance {
   std::vector<ProjectionCovariance> cameras;  // empty matrices where unknowns are undetermined
   Eigen::Vector2d warp_sigma_m = Eigen::Vector2d::Zero();
-  // Rotation vector (rad) and translation (m) of cam_from_rig, in the camera's axes; zero for the first
-  // camera.
-  std::vector<Eigen::Matrix<double, 6, 1>> cam_from_rig_sigma;
+  // Of a small rotation vector (rad) and the translation (m) of cam_from_rig, in the camera's axes. Zero for the first
+  // camera; NaN where unknowns are undetermined.
+  std::vector<Eigen::Matrix<double, 6, 6>> cam_from_rig;
 };
 
 // Returns the covariances for noise of `noise_px` per axis in a corner of weight 1.

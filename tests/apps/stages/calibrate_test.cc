@@ -31,6 +31,13 @@ std::string CameraToml(const std::string& id) {
          "board = { type = \"chessboard\", columns = 12, rows = 9, square_size_m = 0.05 }\n";
 }
 
+std::string ChosenFor(const std::string& what, const json& artifact) {
+  for (const json& choice : artifact["choices"]) {
+    if (choice["what"] == what) return choice["chosen"];
+  }
+  return "no such choice";
+}
+
 class CalibrateTest : public testing::Test {
  protected:
   support::ProgramRun Calibrate(const std::string& flags = "") {
@@ -63,8 +70,14 @@ TEST_F(CalibrateTest, ARigIsWrittenInEveryFormatThatHoldsIt) {
   const json& group = artifact["groups"][0];
   EXPECT_TRUE(group["is_rig"]);
   EXPECT_EQ(group["lens"], "OPENCV4") << "scripts compare it";
-  EXPECT_EQ(artifact["choices"][0]["chosen"], "opencv4") << "as sessions spell it";
-  EXPECT_NEAR(group["cameras"][1]["position_in_rig_m"][0], 0.1, 1e-3);
+  EXPECT_EQ(ChosenFor("lens of cam0, cam1", artifact), "opencv4") << "as sessions spell it";
+  EXPECT_EQ(ChosenFor("photos of cam1", artifact), "14");
+  EXPECT_EQ(ChosenFor("sets of cam0, cam1", artifact), "14, by numbers");
+  const json& second_camera = group["cameras"][1];
+  EXPECT_NEAR(second_camera["position_in_rig_m"][0], 0.1, 1e-3);
+  EXPECT_NEAR(second_camera["baseline_m"], 0.1, 4 * second_camera["baseline_sigma_m"].get<double>());
+  EXPECT_NEAR(second_camera["rotation_deg"], 0, 4 * second_camera["rotation_sigma_deg"].get<double>());
+  EXPECT_EQ(group["cameras"][0]["baseline_m"], 0);
   EXPECT_EQ(group["images"].size(), 28U);
   for (const char* name : {"cam0.yaml", "cam1.cameramodel", "camchain.yaml", "cameras.txt"}) {
     const std::vector<FiledCamera> read = ReadCameraFile(folder_.Path("out/" + std::string(name)));
@@ -97,6 +110,32 @@ TEST_F(CalibrateTest, WhatFailsAGateIsMarkedAndEndsWithOne) {
   EXPECT_THAT(artifact["status_because"].get<std::vector<std::string>>(), testing::Contains("coverage"));
   EXPECT_THAT(run.output, HasSubstr("undetermined because of "));
   EXPECT_THAT(run.output, HasSubstr("undetermined: cam0: "));
+}
+
+TEST_F(CalibrateTest, ARigThatMovedIsWarnedOf) {
+  auto rng = support::TestRng();
+  support::BoardViewsOptions views;
+  views.images = 12;
+  Eigen::Isometry3d second = Eigen::Isometry3d::Identity();
+  second.translation().x() = -0.1;
+  CalibrationInput input =
+      support::BoardViews(support::GridTarget(), {support::OpenCv8Camera(), support::OpenCv8Camera()},
+                          {Eigen::Isometry3d::Identity(), second}, views, rng)
+          .input();
+  // As if the second camera had turned by a milliradian between sets.
+  for (CalibrationImage& image : input.images) {
+    for (BoardCorner& corner : image.corners) {
+      if (image.camera == 1) corner.pixel.x() += image.set % 2 == 0 ? 1 : -1;
+    }
+  }
+  folder_.Write("cam0.vnl", CornersOf(input, 0));
+  folder_.Write("cam1.vnl", CornersOf(input, 1));
+  folder_.Write("session.toml",
+                CameraToml("cam0") + CameraToml("cam1") + "[calibration]\nlens = \"opencv5\"\n");
+  const support::ProgramRun run = Calibrate();
+  EXPECT_THAT(run.output, HasSubstr("warning: cam0, cam1: as a rig they miss the corners by "));
+  EXPECT_THAT(run.output,
+              HasSubstr("sets of cam0, cam1: 12, by numbers, cam0_0.png with cam1_0.png and so on"));
 }
 
 TEST_F(CalibrateTest, CamerasThatAreNoRigAreCalibratedAlone) {

@@ -20,6 +20,24 @@ TEST(CalibrationSets, ImagesOfOneNumberAreOneSet) {
   EXPECT_NE(folders.sets[0][0], folders.sets[1][1]);
 }
 
+TEST(CalibrationSets, EqualNamesCountBeforeNumbers) {
+  const std::vector<std::vector<std::string>> named = {{"l/a.png", "l/b.png", "l/c.png"},
+                                                       {"r/b.png", "r/c.png", "r/a.png"}};
+  const ImageSets sets = PairImages(named, "auto");
+  EXPECT_EQ(sets.rule, "names");
+  EXPECT_THAT(sets.sets[1], ElementsAre(sets.sets[0][1], sets.sets[0][2], sets.sets[0][0]));
+  EXPECT_EQ(
+      PairImages({{"l/1_7.png", "l/2_7.png", "l/3_7.png"}, {"r/1_7.png", "r/2_7.png", "r/3_7.png"}}, "auto")
+          .rule,
+      "names")
+      << "numbers that do not tell a camera's images apart";
+  EXPECT_EQ(PairImages({{"a1.jpg", "a2.jpg", "a3.jpg"}, {"b1.jpg", "b2.jpg", "b3.jpg"}}, "auto").rule,
+            "numbers");
+  EXPECT_EQ(PairImages(named, "order").rule, "order");
+  EXPECT_EQ(PairImages(named, "none").rule, "none");
+  EXPECT_EQ(PairImages({{"l/a.png"}, {"r/b.png"}}, "names").rule, "none");
+}
+
 TEST(CalibrationSets, WithoutPairsEachImageStandsAlone) {
   const std::vector<std::vector<std::string>> named = {{"a.jpg", "b.jpg"}, {"c.jpg", "d.jpg"}};
   EXPECT_FALSE(PairImages(named, "auto").is_rig);

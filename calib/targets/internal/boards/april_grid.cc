@@ -25,6 +25,9 @@ constexpr std::array<int, 2> kLongestPx = {1600, 3200};
 constexpr double kMostSpacingError = 0.04;  // tag sizes
 constexpr std::size_t kLeastGaps = 4;       // least count for a measured spacing
 constexpr double kLeastAgreeing = 0.6;      // share of the tags found
+// Of a grid that is searched for: fewer tags may agree by chance, more columns are not printed.
+constexpr std::size_t kLeastTags = 4;
+constexpr int kMostColumns = 20;
 
 // Returns OpenCV's dictionary of a family; empty where OpenCV has none.
 cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& family) {
@@ -157,7 +160,7 @@ std::string WhyNotThisBoard(const SeenGrid& seen, const Board& board) {
   if (seen.tags.empty())
     return "no tag of the board was found (" + board.family + ", ids " + std::to_string(board.first_id) +
            " to " + std::to_string(board.first_id + board.columns * board.rows - 1) + ")";
-  if (seen.found >= 4 &&
+  if (seen.found >= kLeastTags &&
       static_cast<double>(seen.tags.size()) < kLeastAgreeing * static_cast<double>(seen.found))
     return std::to_string(seen.found) + " tags were found, but only " + std::to_string(seen.tags.size()) +
            " where a grid of " + grid + " has them; check columns, rows and first_id";
@@ -207,6 +210,34 @@ std::string MissingTags(const SeenGrid& seen, const Board& board) {
          " tags were found; hidden, outside the photo or too small: " + ids;
 }
 
+struct SearchedGrid {
+  Board board;
+  std::size_t agreeing = 0;  // tags
+};
+
+void KeepBetter(SearchedGrid other, SearchedGrid& best) {
+  if (other.agreeing > best.agreeing) best = std::move(other);
+}
+
+// Returns the grid of the number of columns in which most of the tags agree, with as many rows as these tags need. Too few
+// tags, or tags of which too few agree, give none.
+SearchedGrid SearchColumns(const std::vector<FoundTag>& found, Board board) {
+  SearchedGrid best;
+  const int known = static_cast<int>(MakeTagFamily(board.family)->ncodes) - board.first_id;
+  int highest = -1;
+  for (const FoundTag& tag : found) highest = std::max(highest, tag.id - board.first_id);
+  for (board.columns = 1; board.columns <= kMostColumns; ++board.columns) {
+    board.rows = highest / board.columns + 1;
+    if (highest < 0 || board.rows * board.columns > known) continue;
+    const SeenGrid seen = BestLayout(TagsOfBoard(found, board), board);
+    if (seen.tags.size() < kLeastTags ||
+        static_cast<double>(seen.tags.size()) < kLeastAgreeing * static_cast<double>(found.size()))
+      continue;
+    KeepBetter({board, seen.tags.size()}, best);
+  }
+  return best;
+}
+
 std::vector<SeenTag> Measured(const GridCornerMeasurer& measurer, const std::vector<SeenTag>& tags) {
   std::vector<SeenTag> measured;
   for (const SeenTag& tag : tags) {
@@ -244,6 +275,20 @@ BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board) {
             [](const BoardCorner& a, const BoardCorner& b) { return a.index < b.index; });
   detection.message = MissingTags(seen, board);
   return detection;
+}
+
+std::optional<Board> SearchAprilGrid(const ImagePlane& grey, const Board& expected) {
+  const ReducedPhoto photo = ReducePhoto(grey, kLongestPx.front());
+  SearchedGrid best;
+  for (const char* family : {"tag36h11", "tag36h10", "tag25h9", "tag16h5"}) {
+    const cv::Ptr<cv::aruco::Dictionary> dictionary = DictionaryOf(family);
+    Board board = expected;
+    board.family = family;
+    for (const int border_bits : {1, 2})
+      KeepBetter(SearchColumns(FindTurned(photo, dictionary, border_bits), board), best);
+  }
+  if (best.agreeing == 0) return {};
+  return best.board;
 }
 
 }  // namespace luxfit

@@ -7,12 +7,18 @@
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_APRIL_GRID_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_APRIL_GRID_H_
 
+#include <optional>
+
 #include "calib/targets/board.h"
 
 namespace luxfit {
 
 // Detects the board, which must be an aprilgrid that BoardCorners accepts. The plane must not be empty.
 BoardDetection DetectAprilGrid(const ImagePlane& grey, const Board& board);
+
+// Returns the aprilgrid of any counts and family that the photo shows, with the expected one's sizes and first id; nothing
+// where it shows none.
+std::optional<Board> SearchAprilGrid(const ImagePlane& grey, const Board& expected);
 
 }  // namespace luxfit
 

@@ -27,6 +27,9 @@ constexpr std::array<std::pair<const char*, cv::aruco::PREDEFINED_DICTIONARY_NAM
     {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL},
 }};
 
+// "DICT_4X4" of "DICT_4X4_50".
+std::string KindOf(const std::string& name) { return name.substr(0, name.find_last_of('_')); }
+
 }  // namespace
 
 cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name) {
@@ -36,6 +39,22 @@ cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name) {
     known += (known.empty() ? "" : ", ") + std::string(its_name);
   }
   throw std::invalid_argument("dictionary: expected one of " + known + ", got \"" + name + "\"");
+}
+
+std::vector<std::string> LargestArucoDictionaries() {
+  std::vector<std::string> largest;
+  for (const auto& [name, dictionary] : kDictionaries) {
+    if (!largest.empty() && KindOf(largest.back()) == KindOf(name)) largest.pop_back();
+    largest.emplace_back(name);
+  }
+  return largest;
+}
+
+std::string SmallestArucoDictionary(const std::string& of_kind, int id) {
+  for (const auto& [name, dictionary] : kDictionaries) {
+    if (KindOf(name) == KindOf(of_kind) && ArucoDictionary(name)->bytesList.rows > id) return name;
+  }
+  return of_kind;
 }
 
 }  // namespace luxfit

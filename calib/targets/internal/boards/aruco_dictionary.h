@@ -4,11 +4,18 @@
 
 #include <opencv2/aruco/dictionary.hpp>
 #include <string>
+#include <vector>
 
 namespace luxfit {
 
 // Throws std::invalid_argument, naming the known dictionaries, for an unknown name.
 cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name);
+
+// Returns the largest dictionary of each kind of marker. The smaller ones begin with the same markers.
+std::vector<std::string> LargestArucoDictionaries();
+
+// Returns the smallest dictionary of the same kind of marker that has the id.
+std::string SmallestArucoDictionary(const std::string& of_kind, int id);
 
 }  // namespace luxfit
 

@@ -19,6 +19,10 @@ namespace {
 constexpr std::array<int, 2> kCharucoLongestPx = {1600, 3200};
 constexpr std::size_t kNearPoints = 12;
 constexpr double kReachSquares = 2.5;
+// Of a board that is searched for: fewer markers may agree by chance, more columns are not printed.
+constexpr std::size_t kLeastMarkers = 4;
+constexpr double kLeastAgreeingMarkers = 0.6;  // share of the markers found
+constexpr int kLeastSquares = 3, kMostSquares = 30;
 
 // Holds the squares that carry markers: those whose column + row is odd (the top-left square is black, as
 // everywhere since OpenCV 4.7) or even (OpenCV 4.6 where the number of rows is even).
@@ -52,23 +56,30 @@ struct SeenCharuco {
   std::vector<SeenTag> markers;
 };
 
+// Returns those of the markers found that lie where the board has them, by the parity for which these are more.
+SeenCharuco AgreeingMarkers(const std::vector<FoundTag>& found, const Board& board) {
+  SeenCharuco best;
+  for (const int parity : {1, 0}) {
+    SeenCharuco seen{LayoutOf(board, parity), {}};
+    std::vector<SeenTag> of_board;
+    for (const FoundTag& tag : found) {
+      const int number = tag.id - board.first_id;
+      if (number >= 0 && number < static_cast<int>(seen.layout.markers.size()))
+        of_board.push_back({number, tag.corners_px});
+    }
+    seen.markers = AgreeingTags(seen.layout.markers, of_board, FramesOf(of_board));
+    if (seen.markers.size() > best.markers.size()) best = std::move(seen);
+  }
+  return best;
+}
+
 SeenCharuco FindMarkers(const ImagePlane& grey, const Board& board) {
   const auto dictionary = ArucoDictionary(board.dictionary);
   SeenCharuco best;
   for (const int longest_px : kCharucoLongestPx) {
     const ReducedPhoto photo = ReducePhoto(grey, longest_px);
-    const std::vector<FoundTag> found = FindTags(photo, dictionary, 1);
-    for (const int parity : {1, 0}) {
-      SeenCharuco seen{LayoutOf(board, parity), {}};
-      std::vector<SeenTag> of_board;
-      for (const FoundTag& tag : found) {
-        const int number = tag.id - board.first_id;
-        if (number >= 0 && number < static_cast<int>(seen.layout.markers.size()))
-          of_board.push_back({number, tag.corners_px});
-      }
-      seen.markers = AgreeingTags(seen.layout.markers, of_board, FramesOf(of_board));
-      if (seen.markers.size() > best.markers.size()) best = std::move(seen);
-    }
+    SeenCharuco seen = AgreeingMarkers(FindTags(photo, dictionary, 1), board);
+    if (seen.markers.size() > best.markers.size()) best = std::move(seen);
     if (photo.scale == 1 || (!best.markers.empty() && 2 * best.markers.size() >= best.layout.markers.size()))
       break;
   }
@@ -174,6 +185,33 @@ class CharucoTracer {
   std::map<int, Saddle> corners_;
 };
 
+struct SearchedCharuco {
+  Board board;
+  std::size_t agreeing = 0;  // markers
+};
+
+// Returns the board of the number of columns for which most of the markers agree, with as many rows as these need. Too few
+// markers, or markers of which too few agree, give none.
+SearchedCharuco SearchMarkerColumns(const std::vector<FoundTag>& found, Board board) {
+  SearchedCharuco best;
+  if (found.size() < kLeastMarkers) return best;
+  int highest = 0;
+  for (const FoundTag& tag : found) highest = std::max(highest, tag.id - board.first_id);
+  for (board.columns = kLeastSquares; board.columns <= kMostSquares; ++board.columns) {
+    board.rows = 2 * (highest + 1) / (board.columns - 1) + 2;  // surely enough
+    const SeenCharuco seen = AgreeingMarkers(found, board);
+    if (seen.markers.size() <= best.agreeing || seen.markers.size() < kLeastMarkers ||
+        static_cast<double>(seen.markers.size()) < kLeastAgreeingMarkers * static_cast<double>(found.size()))
+      continue;
+    best = {board, seen.markers.size()};
+    best.board.rows = 0;
+    for (const SeenTag& marker : seen.markers)
+      best.board.rows =
+          std::max(best.board.rows, seen.layout.squares[static_cast<std::size_t>(marker.number)].y() + 1);
+  }
+  return best;
+}
+
 }  // namespace
 
 BoardDetection DetectCharuco(const ImagePlane& grey, const Board& board) {
@@ -191,6 +229,25 @@ BoardDetection DetectCharuco(const ImagePlane& grey, const Board& board) {
     detection.message = std::to_string(detection.corners.size()) + " of " + std::to_string(all) +
                         " corners were found; the others are hidden, outside the photo or too small";
   return detection;
+}
+
+std::optional<Board> SearchCharuco(const ImagePlane& grey, const Board& expected) {
+  const ReducedPhoto photo = ReducePhoto(grey, kCharucoLongestPx.front());
+  SearchedCharuco best;
+  for (const std::string& dictionary : LargestArucoDictionaries()) {
+    Board board = expected;
+    board.dictionary = dictionary;
+    const std::vector<FoundTag> found = FindTags(photo, ArucoDictionary(dictionary), 1);
+    SearchedCharuco searched = SearchMarkerColumns(found, board);
+    if (searched.agreeing > best.agreeing) best = std::move(searched);
+  }
+  if (best.agreeing == 0) return {};
+  const int last_id = best.board.first_id + (best.board.columns * best.board.rows + 1) / 2 - 1;
+  best.board.dictionary = SmallestArucoDictionary(best.board.dictionary, last_id);
+  const bool has_all = ArucoDictionary(expected.dictionary)->bytesList.rows > last_id;
+  if (has_all && SmallestArucoDictionary(expected.dictionary, last_id) == best.board.dictionary)
+    best.board.dictionary = expected.dictionary;
+  return best.board;
 }
 
 }  // namespace luxfit

@@ -6,12 +6,18 @@
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_CHARUCO_BOARD_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_CHARUCO_BOARD_H_
 
+#include <optional>
+
 #include "calib/targets/board.h"
 
 namespace luxfit {
 
 // Detects the board, which must be a charuco that BoardCorners accepts. The plane must not be empty.
 BoardDetection DetectCharuco(const ImagePlane& grey, const Board& board);
+
+// Returns the charuco board of any counts and dictionary that the photo shows, with the expected one's sizes and first id;
+// nothing where it shows none.
+std::optional<Board> SearchCharuco(const ImagePlane& grey, const Board& expected);
 
 }  // namespace luxfit
 

@@ -152,4 +152,20 @@ BoardDetection DetectChessboard(const ImagePlane& grey, const Board& board) {
   return detection;
 }
 
+std::optional<Board> SearchChessboard(const ImagePlane& grey, const Board& expected) {
+  constexpr int kLeastCorners = 3;
+  const ReducedPhoto photo = ReducePhoto(grey, kRobustLongestPx);
+  std::vector<cv::Point2f> corners;
+  cv::Mat marks;  // of the grid's size
+  if (!cv::findChessboardCornersSB(photo.grey, {kLeastCorners, kLeastCorners}, corners,
+                                   cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE, marks))
+    return {};
+  const auto [less, more] = std::minmax(marks.cols, marks.rows);
+  Board board = expected;
+  const bool is_upright = expected.rows > expected.columns;
+  board.columns = is_upright ? less : more;
+  board.rows = is_upright ? more : less;
+  return board;
+}
+
 }  // namespace luxfit

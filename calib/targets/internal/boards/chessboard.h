@@ -7,12 +7,18 @@
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_CHESSBOARD_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_CHESSBOARD_H_
 
+#include <optional>
+
 #include "calib/targets/board.h"
 
 namespace luxfit {
 
 // Detects the board, which must be a chessboard that BoardCorners accepts. The plane must not be empty.
 BoardDetection DetectChessboard(const ImagePlane& grey, const Board& board);
+
+// Returns the chessboard of any counts that the photo shows, its longer side along that of the expected one; nothing
+// where it shows none.
+std::optional<Board> SearchChessboard(const ImagePlane& grey, const Board& expected);
 
 }  // namespace luxfit
 
