@@ -330,7 +330,9 @@ void Judge(const CalibrationInput& input, const CalibrationGates& gates, Calibra
              "{:.1f} % of the corners were left out, most in {} ({} of {}); a good set has under {:g} %",
              100 * out.outlier_share, ShortName(input.images[static_cast<std::size_t>(worst->image)].name),
              worst->outliers, worst->corners, 100 * gates.questioned_outliers),
-         "look at the images with most outliers: blur, a bent target, reflections, a wrong target"});
+         std::string(
+             "look at the images with most outliers: blur, a bent target, reflections, a wrong target") +
+             (input.cameras.size() > 1 ? ", or images paired that were not taken together" : "")});
   }
 }
 

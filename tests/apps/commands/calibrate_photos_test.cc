@@ -67,28 +67,28 @@ class CalibratePhotosTest : public testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TempFolder>();
     std::mt19937_64 rng(1);
-    const support::BoardRenderer renderer(SmallCamera());
-    support::BoardRenderOptions options;
-    options.samples_per_axis = 2;
-    options.noise_sigma = 0.005;
     const BoardDrawing drawing = DrawBoard(ShownBoard());
     for (int photo = 0; photo < kPhotos; ++photo) {
       const std::string number = "0" + std::to_string(photo + 1) + ".png";
-      for (const bool is_right : {false, true}) {
-        const Eigen::Isometry3d pose =
-            (is_right ? RightFromLeft() : Eigen::Isometry3d::Identity()) * PoseOfPhoto(photo);
-        ImagePlane grey = 255 * renderer.Render(pose, drawing, rng, options);
-        const cv::Mat plane(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F,
-                            grey.data());
-        cv::Mat counts;
-        plane.convertTo(counts, CV_8U);
-        const std::string name = is_right ? "right" : "left";
-        fs::create_directories(folder_->Path(name));
-        cv::imwrite(folder_->Path(name + "/" + name + number), counts);
-      }
+      WritePhoto("left/left" + number, drawing, PoseOfPhoto(photo), rng);
+      WritePhoto("right/right" + number, drawing, RightFromLeft() * PoseOfPhoto(photo), rng);
     }
   }
   static void TearDownTestSuite() { folder_.reset(); }
+
+  static void WritePhoto(const std::string& name, const BoardDrawing& drawing, const Eigen::Isometry3d& pose,
+                         std::mt19937_64& rng) {
+    static const support::BoardRenderer renderer(SmallCamera());
+    support::BoardRenderOptions options;
+    options.samples_per_axis = 2;
+    options.noise_sigma = 0.005;
+    ImagePlane grey = 255 * renderer.Render(pose, drawing, rng, options);
+    const cv::Mat plane(static_cast<int>(grey.rows()), static_cast<int>(grey.cols()), CV_32F, grey.data());
+    cv::Mat counts;
+    plane.convertTo(counts, CV_8U);
+    fs::create_directories(fs::path(folder_->Path(name)).parent_path());
+    cv::imwrite(folder_->Path(name), counts);
+  }
 
   static std::string Path(const std::string& name) { return "'" + folder_->Path(name) + "'"; }
 
@@ -175,6 +175,31 @@ TEST_F(CalibratePhotosTest, AWrongBoardNamesTheRightOne) {
   EXPECT_THAT(
       session.output,
       HasSubstr("write board = { type = \"chessboard\", columns = 8, rows = 5, square_size_m = 0.03 }"));
+}
+
+TEST_F(CalibratePhotosTest, LostCornersAreNoReasonForAdviceButAMissingBoardIs) {
+  std::mt19937_64 rng(2);
+  Board board = ShownBoard();
+  board.type = BoardType::kCharuco;
+  board.tag_size_m = 0.021;
+  Eigen::Isometry3d cut_off = PoseOfPhoto(4);
+  cut_off.translation().x() += 0.13;
+  Eigen::Isometry3d away = PoseOfPhoto(4);
+  away.translation().x() += 2;
+  WritePhoto("some/whole.png", DrawBoard(board), PoseOfPhoto(4), rng);
+  WritePhoto("some/tilted.png", DrawBoard(board), PoseOfPhoto(3), rng);
+  WritePhoto("some/part.png", DrawBoard(board), cut_off, rng);
+  WritePhoto("some/wall.png", DrawBoard(board), away, rng);
+  const support::ProgramRun run = Calibrate(Path("some"), "--board charuco:8x5:0.03:0.021");
+  EXPECT_THAT(run.output, HasSubstr("wall.png: no marker of the board was found"));
+  EXPECT_THAT(run.output, Not(HasSubstr("part.png:")));
+  const std::string table = folder_->Read("out/corners.vnl");
+  int lost = 0;
+  for (std::size_t at = table.find("part.png -"); at != std::string::npos;
+       at = table.find("part.png -", at + 1))
+    ++lost;
+  EXPECT_GT(lost, 0) << "of 28 corners";
+  EXPECT_LT(lost, 14);
 }
 
 TEST_F(CalibratePhotosTest, WrongInputsNameTheRemedy) {
