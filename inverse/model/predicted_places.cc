@@ -5,31 +5,13 @@
 #include <stdexcept>
 
 #include "forward/light/illuminance.h"
-#include "forward/luminaire/distribution_ops.h"
+#include "inverse/model/internal/known_parameters.h"
 #include "inverse/model/internal/light_model.h"
 
 namespace luxfit {
 namespace {
 
 constexpr double kLeftOutVariance = 1e-3;
-
-// Returns a state with every parameter free that a fit may free.
-LightState AllFree(const Room& room, const std::vector<Luminaire>& luminaires,
-                   const Eigen::VectorXd& albedo) {
-  LightState state;
-  state.luminaires = luminaires;
-  for (const Luminaire& luminaire : luminaires) {
-    FreeQuantities free;
-    free.exponent = free.size = free.tilt = free.heading = true;
-    free.table_sigma = OpsOf(luminaire.distribution).has_table ? 1 : 0;
-    free.emission_sigma = luminaire.emission.size() > 0 ? 1 : 0;
-    state.free.push_back(free);
-  }
-  state.albedo = albedo;
-  state.albedo_free.assign(room.scene.materials.size(), true);
-  state.camera_scale_free = false;
-  return state;
-}
 
 // Returns data with each luminaire alone at every place.
 LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
@@ -46,35 +28,6 @@ LightData DataOf(const std::vector<Sensor>& places, Eigen::Index luminaires) {
     }
   }
   return data;
-}
-
-struct KnownParameters {
-  std::vector<Parameter> parameters;
-  Eigen::MatrixXd covariance;
-  std::vector<ParameterId> left_out;
-};
-
-// Returns whether the parameter changes light. The camera's and the meter's scales do not.
-bool ChangesLight(ParameterKind kind) {
-  return kind == ParameterKind::kLuminaire || kind == ParameterKind::kLogFlux ||
-         kind == ParameterKind::kAlbedo;
-}
-
-KnownParameters Find(const std::vector<Parameter>& possible, const ParameterCovariance& given) {
-  KnownParameters known;
-  std::vector<Eigen::Index> rows;
-  for (size_t i = 0; i < given.parameters.size(); ++i) {
-    const auto at = std::find_if(possible.begin(), possible.end(),
-                                 [&](const Parameter& p) { return p.id() == given.parameters[i]; });
-    if (at != possible.end()) {
-      known.parameters.push_back(*at);
-      rows.push_back(static_cast<Eigen::Index>(i));
-    } else if (ChangesLight(given.parameters[i].kind)) {
-      known.left_out.push_back(given.parameters[i]);
-    }
-  }
-  known.covariance = given.covariance(rows, rows);
-  return known;
 }
 
 // Returns S of J Sigma J^T, its columns by falling variance of the relative predictions.
@@ -119,7 +72,7 @@ PredictedPlaces PredictPlaces(const Room& room, const std::vector<Luminaire>& lu
     return WithoutCovariance(room, luminaires, albedo, places);
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const LightState state = AllFree(room, luminaires, albedo);
-  const KnownParameters known = Find(FreeParameters(room, state), given);
+  const KnownParameters known = FindKnown(FreeParameters(room, state), given);
   const LightData data = DataOf(places, lamps);
   LightModel model(room, data);
   model.FreezeVisibility(state);

@@ -37,6 +37,11 @@ void AddSensorGains(double sigma, int sensors, RoomLight& light) {
 
 }  // namespace
 
+double RelativeReadingSigma(double common_sigma, bool scale_is_free) {
+  if (!(common_sigma > 0)) return kUnknownMeterSigma;
+  return scale_is_free ? kReadingSigma : std::hypot(kReadingSigma, common_sigma);
+}
+
 RoomLight LightOf(const Room& room, const RoomObservations& given) {
   RoomLight light;
   light.data.dimming = given.dimming;
@@ -56,8 +61,7 @@ RoomLight LightOf(const Room& room, const RoomObservations& given) {
   light.meter_scale_free = has_class && has_fitted;
   if (light.meter_scale_free)
     light.priors.push_back({ParameterKind::kLogMeterScale, 0, {}, 0, meter.common_sigma});
-  double relative = has_class ? kReadingSigma : kUnknownMeterSigma;
-  if (has_class && !has_fitted) relative = std::hypot(kReadingSigma, meter.common_sigma);
+  const double relative = RelativeReadingSigma(meter.common_sigma, light.meter_scale_free);
   for (const MeterReading& taken : meter.readings) {
     Reading reading;
     reading.sensor = taken.sensor;

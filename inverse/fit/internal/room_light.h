@@ -27,6 +27,10 @@ struct RoomLight {
   int used_readings = 0;  // for the fit or the scale
 };
 
+// Returns the relative sigma of one reading. `common_sigma`: of the meter's calibration, 0 where its class is not given.
+// `scale_is_free`: the calibration is a parameter, and no part of the sigma.
+double RelativeReadingSigma(double common_sigma, bool scale_is_free);
+
 RoomLight LightOf(const Room& room, const RoomObservations& given);
 
 // Records in `choices` how much views of one element disagree beyond noise.

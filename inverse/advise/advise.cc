@@ -1,0 +1,127 @@
+#include "inverse/advise/advise.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "inverse/advise/information.h"
+#include "inverse/advise/internal/asked_quantities.h"
+#include "inverse/advise/internal/candidate_information.h"
+#include "inverse/advise/internal/prior_knowledge.h"
+
+namespace luxfit {
+namespace {
+
+// Returns the largest relative reduction of the rms of a kind's sigmas.
+double GainOf(const std::vector<SigmaChange>& changes) {
+  double gain = 0;
+  for (const AdviceKind kind : {AdviceKind::kFlux, AdviceKind::kPosition, AdviceKind::kReading}) {
+    double before = 0, after = 0;
+    for (const SigmaChange& change : changes) {
+      if (change.of.kind != kind) continue;
+      before += change.before * change.before;
+      after += change.after * change.after;
+    }
+    if (before > 0) gain = std::max(gain, 1 - std::sqrt(after / before));
+  }
+  return gain;
+}
+
+// Takes candidates one by one, the best first.
+class Adviser {
+ public:
+  Adviser(const Room& room, const AdviceGiven& given, const AdviceOptions& options)
+      : given_(given),
+        options_(options),
+        known_(KnowledgeOf(room, given)),
+        information_(room, given, known_),
+        asked_(known_, given.is_absolute, options),
+        root_(CovarianceRoot(known_.covariance)) {
+    for (size_t r = 0; r < given.predicted.size(); ++r)
+      asked_.AddReading(known_, given.predicted[r].id, information_.DerivativeOfPredicted(r));
+    const std::vector<double> sigmas =
+        asked_.Sigmas(root_, Eigen::MatrixXd::Zero(root_.rows(), root_.rows()));
+    for (size_t q = 0; q < asked_.size(); ++q)
+      now_.push_back({asked_.Of(q), sigmas[q], sigmas[q], asked_.IsDetermined(q), asked_.IsDetermined(q)});
+  }
+
+  AdvicePlan Plan() {
+    AdvicePlan plan;
+    plan.now = now_;
+    plan.ignored = known_.ignored;
+    while (static_cast<int>(plan.steps.size()) < options_.count) {
+      const std::optional<AdviceStep> step = BestStep();
+      plan.is_enough = !step;
+      if (!step) break;
+      Accept(*step);
+      plan.steps.push_back(*step);
+    }
+    return plan;
+  }
+
+ private:
+  Eigen::MatrixXd InformationOf(const AdviceStep& step) const {
+    return step.is_photo ? information_.OfPhoto(given_.photos[step.candidate])
+                         : information_.OfReading(step.candidate);
+  }
+
+  AdviceStep StepOf(bool is_photo, size_t candidate) const {
+    AdviceStep step;
+    step.is_photo = is_photo;
+    step.candidate = candidate;
+    const std::vector<double> sigmas = asked_.Sigmas(root_, InformationOf(step));
+    double best = -1;
+    for (size_t q = 0; q < now_.size(); ++q) {
+      SigmaChange change = now_[q];
+      change.before = now_[q].after;
+      change.after = sigmas[q];
+      change.was_determined = now_[q].is_determined;
+      change.is_determined = change.was_determined || IsKnownSigma(change.after);
+      const double reduction = change.before > 0 ? 1 - change.after / change.before : 0;
+      if (reduction > best) step.helped = change;
+      best = std::max(best, reduction);
+      step.changes.push_back(change);
+    }
+    step.gain = GainOf(step.changes);
+    return step;
+  }
+
+  // Returns nothing where no candidate helps.
+  std::optional<AdviceStep> BestStep() const {
+    const size_t photos = given_.photos.size(), all = photos + given_.readings.size();
+    std::vector<AdviceStep> steps(all);
+    tbb::parallel_for(size_t{0}, all,
+                      [&](size_t i) { steps[i] = StepOf(i < photos, i < photos ? i : i - photos); });
+    const AdviceStep* best = nullptr;
+    for (const AdviceStep& step : steps) {
+      const bool helps = step.helped.after < (1 - options_.least_gain) * step.helped.before;
+      if (helps && (best == nullptr || step.gain > best->gain)) best = &step;
+    }
+    return best == nullptr ? std::nullopt : std::optional(*best);
+  }
+
+  void Accept(const AdviceStep& step) {
+    root_ = CovarianceRoot(CovarianceWith(root_, InformationOf(step)));
+    if (step.is_photo) information_.TakePhoto(given_.photos[step.candidate]);
+    if (!step.is_photo) information_.TakeReading(step.candidate);
+    now_ = step.changes;
+  }
+
+  const AdviceGiven& given_;
+  const AdviceOptions& options_;
+  const PriorKnowledge known_;
+  CandidateInformation information_;
+  AskedQuantities asked_;
+  Eigen::MatrixXd root_;  // of the covariance as of now
+  std::vector<SigmaChange> now_;
+};
+
+}  // namespace
+
+AdvicePlan Advise(const Room& room, const AdviceGiven& given, const AdviceOptions& options) {
+  return Adviser(room, given, options).Plan();
+}
+
+}  // namespace luxfit
