@@ -134,24 +134,54 @@ std::string MaterialNames(const Plan& plan, const Scene& scene) {
   return text;
 }
 
+// Draws a camera that looks along (dx, dy), with its name.
+std::string CameraMark(double x, double y, double dx, double dy, const std::string& colour,
+                       const std::string& name) {
+  const double angle = std::atan2(-dy, dx), spread = 0.35, length = 34;
+  return fmt::format(
+             "<path d=\"M{0:.1f} {1:.1f} L{2:.1f} {3:.1f} L{4:.1f} {5:.1f} Z\" fill=\"{6}\" "
+             "fill-opacity=\"0.25\" "
+             "stroke=\"{6}\"/>",
+             x, y, x + length * std::cos(angle - spread), y + length * std::sin(angle - spread),
+             x + length * std::cos(angle + spread), y + length * std::sin(angle + spread), colour) +
+         SvgText(x, y - 5, name, fmt::format(" fill=\"{}\"", colour));
+}
+
 std::string Cameras(const Plan& plan, const json& views) {
   std::string text;
   for (const json& view : views) {
-    const double x = plan.X(view["position_m"][0].get<double>()),
-                 y = plan.Y(view["position_m"][1].get<double>());
     // The third column of the rotation is the viewing direction.
-    const double dx = view["R_scene_from_camera"][0][2].get<double>(),
-                 dy = view["R_scene_from_camera"][1][2].get<double>();
-    const double angle = std::atan2(-dy, dx), spread = 0.35, length = 34;
-    text += fmt::format(
-        "<path d=\"M{0:.1f} {1:.1f} L{2:.1f} {3:.1f} L{4:.1f} {5:.1f} Z\" fill=\"#3b6fb6\" "
-        "fill-opacity=\"0.25\" "
-        "stroke=\"#3b6fb6\"/>",
-        x, y, x + length * std::cos(angle - spread), y + length * std::sin(angle - spread),
-        x + length * std::cos(angle + spread), y + length * std::sin(angle + spread));
-    text += SvgText(x, y - 5, view["view"].get<std::string>(), " fill=\"#3b6fb6\"");
+    text += CameraMark(
+        plan.X(view["position_m"][0].get<double>()), plan.Y(view["position_m"][1].get<double>()),
+        view["R_scene_from_camera"][0][2].get<double>(), view["R_scene_from_camera"][1][2].get<double>(),
+        "#3b6fb6", view["view"].get<std::string>());
   }
   return text;
+}
+
+std::string AdvisedPlaces(const Plan& plan, const json& advice) {
+  constexpr char kColour[] = "#c62828";
+  std::string text;
+  for (const json& step : advice) {
+    const double x = plan.X(step["position_m"][0].get<double>()),
+                 y = plan.Y(step["position_m"][1].get<double>());
+    const std::string label =
+        fmt::format("{}: {}", step["rank"].get<int>(), step["state"].get<std::string>());
+    if (step["kind"] == "photo") {
+      text += CameraMark(x, y, step["looking"][0].get<double>(), step["looking"][1].get<double>(), kColour,
+                         label);
+    } else {
+      text += SvgCircle(x, y, 5, fmt::format(" fill=\"{}\"", kColour)) +
+              SvgText(x + 8, y + 4, label, fmt::format(" fill=\"{}\"", kColour));
+    }
+  }
+  return text;
+}
+
+std::string FluxText(const json& luminaire) {
+  const json &flux = luminaire["flux_lm"], &sigma = luminaire["flux_sigma_lm"];
+  if (!flux.is_number() || !sigma.is_number()) return "flux undetermined";
+  return fmt::format("{:.0f} ± {:.0f} lm", flux.get<double>(), sigma.get<double>());
 }
 
 std::string Luminaires(const Plan& plan, const json& luminaires) {
@@ -168,11 +198,7 @@ std::string Luminaires(const Plan& plan, const json& luminaires) {
       const double radius = size.empty() ? 0 : 0.5 * plan.scale * size[0].get<double>();
       text += SvgCircle(x, y, std::max(6.0, radius), style);
     }
-    const std::string flux =
-        l["flux_lm"].is_number()
-            ? fmt::format("{:.0f} ± {:.0f} lm", l["flux_lm"].get<double>(), l["flux_sigma_lm"].get<double>())
-            : "flux undetermined";
-    text += SvgText(x + 8, y - 8, l["id"].get<std::string>() + ": " + flux, " font-weight=\"bold\"");
+    text += SvgText(x + 8, y - 8, l["id"].get<std::string>() + ": " + FluxText(l), " font-weight=\"bold\"");
   }
   return text;
 }
@@ -245,6 +271,20 @@ std::string PlanSvg(const Session& session, const Scene& scene, const json& resu
           "%); mean {} over {} readings.",
           mean.is_number() ? fmt::format("{:.2f} %", mean.get<double>()) : "-",
           summary["readings_checked"].get<int>()));
+  return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
+}
+
+std::string AdvicePlanSvg(const std::string& name, const Scene& scene, const json& result,
+                          const json& advice) {
+  if (scene.facets.empty()) return "";
+  const Plan plan = PlanOfScene(scene);
+  const double height = plan.scale * plan.box.sizes().y() + 2 * kPlanMarginPx;
+  std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
+                     Luminaires(plan, result["luminaires"]) + AdvisedPlaces(plan, advice["advice"]);
+  text += SvgText(kPlanMarginPx, height + 8,
+                  fmt::format("{}: red: what to take next, by rank and state (a wedge: a photo, a dot: a "
+                              "reading). Blue: views that there are.",
+                              name));
   return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
 }
 

@@ -14,14 +14,18 @@
 
 namespace luxfit {
 
-// Returns an empty text where the scene has no facet.
-// Both return an empty text where the scene has no facet.
+// All return an empty text where the scene has no facet.
 //
 // Draws walls and what is drawn on them as lines in a colour for each material, floor and furniture as areas,
 // all with the names of their materials.
 std::string RoomPlanSvg(const std::string& name, const Scene& scene);
 
 std::string PlanSvg(const Session& session, const Scene& scene, const nlohmann::json& result);
+
+// Draws advice of `luxfit advise` (docs/schema/advise.schema.json) in the room: cameras to come and places of the meter, with
+// their ranks, beside the views that there are.
+std::string AdvicePlanSvg(const std::string& name, const Scene& scene, const nlohmann::json& result,
+                          const nlohmann::json& advice);
 
 }  // namespace luxfit
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
+#include "apps/commands/result/advise_command.h"
 #include "apps/commands/result/commission_command.h"
 #include "apps/commands/result/dim_command.h"
 #include "apps/commands/result/export_command.h"
@@ -119,6 +120,35 @@ void AddDim(CLI::App& app, Invocation& invocation) {
              "63.6 W of 84.5 W: 24.8 % saved");
 }
 
+void AddAdvise(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "advise", "which photo or reading to take next: what each would tell of fluxes and positions");
+  const auto options = std::make_shared<AdviseCommandOptions>();
+  AddRunFolder(*command, options->out);
+  command->add_option(
+      "--of", options->of,
+      "what to know better: flux | position | readings | a luminaire (default: flux and position)");
+  command->add_option("--only", options->only, "photos | readings (default: both)")
+      ->check(CLI::IsMember({"photos", "readings"}));
+  command->add_option("--top", options->top, "how many to name, each given those before")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 50));
+  command->add_option(
+      "--photos", options->photo_table,
+      "places where a camera may stand, CSV: id,x_m,y_m,z_m,dx,dy,dz[,state] (default: a grid)");
+  command->add_option("--readings", options->reading_table,
+                      "places of the luxmeter, CSV: id,x_m,y_m,z_m,nx,ny,nz,state (default: a grid)");
+  command->add_option("--plan", options->plan, "where to draw the plan (default: OUT/advise.svg)");
+  Complete(*command, invocation, options, AdviseCommand);
+  AddExample(*command, "luxfit advise out --only photos --of position --top 2",
+             "worst now: position of C 32 mm\n"
+             "1  photograph state C from (2.50, 3.50, 1.60), looking at wall (-90 deg from +x): position of "
+             "C 32 -> 6.9 mm\n"
+             "2  photograph state evening from (1.50, 2.50, 1.60), looking at wall_accent (0 deg from +x): "
+             "position of D "
+             "13 -> 6.3 mm");
+}
+
 }  // namespace
 
 void AddRoomCommands(CLI::App& app, Invocation& invocation) {
@@ -126,6 +156,7 @@ void AddRoomCommands(CLI::App& app, Invocation& invocation) {
   AddLuxmap(app, invocation);
   AddCommission(app, invocation);
   AddDim(app, invocation);
+  AddAdvise(app, invocation);
 }
 
 }  // namespace luxfit

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/session/earlier_result.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/session_check.h"
 #include "apps/stages/simulate/given_session.h"
@@ -96,7 +95,8 @@ PlaceLight LightOfElements(const Room& room, const std::vector<Luminaire>& lumin
   return LightOf(room, MakeReceivers(room, elements, {}), luminaires, albedo, bodies);
 }
 
-Session FittedSession(const json& result, const std::string& given, const std::string& path) {
+Session FittedSession(const json& result, const std::string& given, const std::string& path,
+                      FluxUnit fluxes) {
   if (result.at("luminaires").empty())
     throw InputError({path, 0}, "luminaires",
                      "expected the luminaires of a fit, got none; its warnings say what the data lack");
@@ -104,7 +104,7 @@ Session FittedSession(const json& result, const std::string& given, const std::s
   ExpectSameRoom(result, session, path);
   if (session.count_is_estimated)
     session = WithMoreLuminaires(std::move(session), static_cast<int>(result.at("luminaires").size()));
-  session = WithResult(std::move(session), path, FluxUnit::kAny);
+  session = WithResult(std::move(session), path, fluxes);
   KeepFound(result, session);
   return session;
 }
@@ -124,7 +124,7 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
           std::move(room),
           std::move(luminaires),
           std::move(albedo),
-          result.at("luminaires").at(0).at("flux_lm").is_number(),
+          !result.at("luminaires").at(0).contains("flux_relative"),
           result.value("camera_scale", 0.0),
           std::move(light.total_lx),
           std::move(light.direct_lx)};
@@ -144,10 +144,10 @@ FittedRoom WithResultOf(const std::string& out, const Make& make) {
 
 }  // namespace
 
-FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path) {
+FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path, FluxUnit fluxes) {
   const std::string folder = std::filesystem::absolute(out).lexically_normal().string();
   return WithResultOf(folder, [&](const json& result) {
-    Session session = FittedSession(result, session_path, folder + "/result.json");
+    Session session = FittedSession(result, session_path, folder + "/result.json", fluxes);
     RegisteredSession registered;
     if (!result.at("views").empty())
       registered = RegistrationFromJson(ReadJson(folder + "/stages/register.json"));
@@ -160,8 +160,8 @@ FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_pat
 
 FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room) {
   return WithResultOf(out, [&](const json& result) {
-    return Assemble(out, result, FittedSession(result, "", out + "/result.json"), std::move(registered),
-                    std::move(room));
+    return Assemble(out, result, FittedSession(result, "", out + "/result.json", FluxUnit::kAny),
+                    std::move(registered), std::move(room));
   });
 }
 

@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/session/earlier_result.h"
 #include "apps/session/session.h"
 #include "apps/stages/stages.h"
 #include "forward/light/room.h"
@@ -42,8 +43,9 @@ struct FittedRoom {
   Eigen::MatrixXd element_direct_lx;  // the direct part
 };
 
-// `session_path` replaces the one that result.json names; empty: that one.
-FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "");
+// `session_path` replaces the one that result.json names; empty: that one. `fluxes`: which the caller can use.
+FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "",
+                          FluxUnit fluxes = FluxUnit::kAny);
 
 // Makes the room of a run that still holds it and has written its result into `out`, an absolute path.
 FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);

@@ -1,6 +1,7 @@
 #include "apps/session/earlier_result.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -17,9 +18,25 @@ Eigen::Vector3d VectorFrom(const json& list) {
   return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
 
+// Returns the flux at which the fit ended; null where it had none.
+json FluxOfFit(const std::string& id, const std::string& result_path) {
+  const std::string folder = std::filesystem::path(result_path).parent_path().string();
+  const json fit = ReadJson(folder + "/stages/fit.json");
+  for (const json& parameter : fit.at("parameters")) {
+    if (parameter.at("kind") == "log_flux" && parameter.at("luminaire") == id)
+      return std::exp(parameter.at("value").get<double>());
+  }
+  return nullptr;
+}
+
+json FluxOf(const json& fitted, FluxUnit unit, const std::string& path) {
+  if (unit != FluxUnit::kLumen && fitted.contains("flux_relative")) return fitted["flux_relative"];
+  const json& flux = fitted.at("flux_lm");
+  return flux.is_null() && unit == FluxUnit::kAsFitted ? FluxOfFit(fitted.at("id"), path) : flux;
+}
+
 void Replace(SessionLuminaire& luminaire, const json& fitted, FluxUnit unit, const std::string& path) {
-  const json& flux = unit == FluxUnit::kAny && fitted.contains("flux_relative") ? fitted["flux_relative"]
-                                                                                : fitted.at("flux_lm");
+  const json flux = FluxOf(fitted, unit, path);
   if (!flux.is_number())
     throw InputError({path, 0}, "luminaires",
                      "expected fluxes in lm, but that of " + Quoted(luminaire.id) +
