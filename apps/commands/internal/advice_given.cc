@@ -71,8 +71,8 @@ void AddTaken(const FittedRoom& fitted, AdviceGiven& given) {
 
 // Returns a place of a table, which lies in the room.
 Eigen::Vector3d PlaceOf(const FittedRoom& fitted, const CsvTable& table, const CsvRow& row) {
-  const Eigen::Vector3d place(CsvNumber(table, row, "x_m"), CsvNumber(table, row, "y_m"),
-                              CsvNumber(table, row, "z_m"));
+  Eigen::Vector3d place(CsvNumber(table, row, "x_m"), CsvNumber(table, row, "y_m"),
+                        CsvNumber(table, row, "z_m"));
   const Eigen::AlignedBox3d box = fitted.room.scene.Bounds();
   if (fitted.room.scene.facets.empty() || box.contains(place)) return place;
   throw CsvError(
