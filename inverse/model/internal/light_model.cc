@@ -163,7 +163,7 @@ bool LightModel::RefreezeVisibility(const LightState& state, int order, double s
 
 bool LightModel::IsReflectedStale(const LightState& state, double still_m) const {
   constexpr double kTimesStill = 5, kStillAlbedo = 0.01;
-  if (!reflected_at_ || (reflected_at_->albedo - state.albedo).cwiseAbs().maxCoeff() > kStillAlbedo)
+  if (!reflected_at_ || (reflected_at_->albedo - state.albedo).lpNorm<Eigen::Infinity>() > kStillAlbedo)
     return true;
   const std::vector<Luminaire>& before = reflected_at_->luminaires;
   for (size_t k = 0; k < before.size(); ++k) {
