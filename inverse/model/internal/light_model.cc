@@ -28,7 +28,8 @@ class ReceiverDerivative {
   ReceiverDerivative(const LightState& state, const std::vector<Parameter>& parameters,
                      const Illuminance& light, const DerivativeColumns& columns,
                      const std::vector<Eigen::VectorXd>& dimming, const Eigen::MatrixXd& of_groups,
-                     bool is_direct) {
+                     bool is_direct)
+      : terms_(dimming.size()) {
     if (parameters.empty()) return;
     const Eigen::MatrixXf& whole = columns.request().reflected ? light.total : light.direct;
     const Eigen::Index lamps = light.total.cols(), numbers = light.d_luminaire.cols();
@@ -38,7 +39,6 @@ class ReceiverDerivative {
     columns_.middleCols(2 * lamps, numbers) = light.d_luminaire;
     if (!is_direct) columns_.rightCols(light.d_albedo.cols()) = light.d_albedo;
     const Eigen::VectorXd flux = FluxesLm(state.luminaires);
-    terms_.resize(dimming.size());
     for (size_t s = 0; s < dimming.size(); ++s) {
       const Eigen::VectorXd lumens = dimming[s].cwiseProduct(flux);
       const Eigen::VectorXd groups = of_groups.row(static_cast<Eigen::Index>(s));
