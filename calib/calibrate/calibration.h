@@ -88,8 +88,8 @@ struct CalibratedCamera {
   std::string id;
   Camera camera;
   Eigen::Isometry3d cam_from_rig = Eigen::Isometry3d::Identity();  // the first camera is the rig's frame
-  // Of a small rotation vector (rad) and the translation (m), in the camera's axes. Zero for the first camera; NaN
-  // where unknowns are undetermined.
+  // Holds the covariance of a small rotation vector (rad) and the translation (m), in the camera's axes. Zero for the
+  // first camera; NaN where unknowns are undetermined.
   Eigen::Matrix<double, 6, 6> cam_from_rig_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   ProjectionCovariance uncertainty;
   CalibrationCoverage coverage;

@@ -136,7 +136,7 @@ bool IsUsed(const FittedRoom& fitted, const ReadingCandidate& candidate) {
 }
 
 void AddReadingsOfTable(const FittedRoom& fitted, const std::string& path, AdviceGiven& given) {
-  // What was read there does not matter: the table may be the session's own.
+  // Values that were read do not count: the table may be the session's own.
   const CsvTable table =
       ReadCsvTable(path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state"},
                           {"illuminance_lx", "lux", "illuminance_fc", "illuminance_klx", "sensor"}});

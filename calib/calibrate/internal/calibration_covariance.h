@@ -17,8 +17,8 @@ namespace luxfit {
 struct CalibrationCovariance {
   std::vector<ProjectionCovariance> cameras;  // empty matrices where unknowns are undetermined
   Eigen::Vector2d warp_sigma_m = Eigen::Vector2d::Zero();
-  // Of a small rotation vector (rad) and the translation (m) of cam_from_rig, in the camera's axes. Zero for the first
-  // camera; NaN where unknowns are undetermined.
+  // Holds the covariances of a small rotation vector (rad) and the translation (m) of cam_from_rig, in the camera's axes.
+  // Zero for the first camera; NaN where unknowns are undetermined.
   std::vector<Eigen::Matrix<double, 6, 6>> cam_from_rig;
 };
 

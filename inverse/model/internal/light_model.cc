@@ -91,7 +91,8 @@ class ReceiverDerivative {
     for (const int j : parameter.tied) Add(s, {p, lamps + j, -share * lumens[j]});
   }
 
-  // Of luminaires, of those as their parts have them, by their numbers and by reflectances, one after the other.
+  // Holds side by side the light of luminaires, their light as that of parts is (reflected or not), and the derivatives by
+  // their numbers and by reflectances.
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> columns_;
   std::vector<std::vector<Term>> terms_;  // by state
 };

@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 using Photo = std::pair<std::string, std::string>;  // view and state
 
-// What came out, of all four luminaires together: root mean squares.
+// Holds root mean squares over the four luminaires.
 struct Outcome {
   double position_error_m = 0, position_sigma_m = 0, flux_sigma_percent = 0;
 };

@@ -11,6 +11,7 @@
 
 #include "tests/support/apps/program.h"
 #include "tests/support/calib/board_render.h"
+#include "tests/support/calib/sample_boards.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -24,14 +25,7 @@ using testing::Not;
 constexpr int kPhotos = 9, kFewPhotos = 4;
 constexpr double kBaselineM = 0.06, kTurnRad = 0.05;
 
-Board ShownBoard() {
-  Board board;
-  board.type = BoardType::kChessboard;
-  board.columns = 8;
-  board.rows = 5;
-  board.square_size_m = 0.03;
-  return board;
-}
+Board ShownBoard() { return support::Chessboard(8, 5, 0.03); }
 
 Camera SmallCamera() {
   Camera camera;

@@ -9,6 +9,7 @@
 
 #include "calib/targets/board.h"
 #include "tests/support/calib/board_render.h"
+#include "tests/support/calib/sample_boards.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
@@ -28,33 +29,9 @@ Camera BentCamera() {
   return camera;
 }
 
-Board AprilGrid(int columns, int rows) {
-  Board board;
-  board.columns = columns;
-  board.rows = rows;
-  board.tag_size_m = 0.05;
-  board.spacing = 0.3;
-  return board;
-}
-
-Board Chessboard(int columns, int rows) {
-  Board board;
-  board.type = BoardType::kChessboard;
-  board.columns = columns;
-  board.rows = rows;
-  board.square_size_m = 0.03;
-  return board;
-}
-
-Board Charuco(int columns, int rows) {
-  Board board;
-  board.type = BoardType::kCharuco;
-  board.columns = columns;
-  board.rows = rows;
-  board.square_size_m = 0.04;
-  board.tag_size_m = 0.028;
-  return board;
-}
+Board AprilGrid(int columns, int rows) { return support::AprilGrid(columns, rows, 0.05); }
+Board Chessboard(int columns, int rows) { return support::Chessboard(columns, rows, 0.03); }
+Board Charuco(int columns, int rows) { return support::Charuco(columns, rows, 0.04, 0.028); }
 
 // The board's middle on the optical axis at that distance, turned about the viewing axis, then tilted about
 // an axis of the photo.

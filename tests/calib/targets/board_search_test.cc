@@ -3,34 +3,22 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/calib/board_render.h"
+#include "tests/support/calib/sample_boards.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {
 namespace {
 
-Board Chessboard(int columns, int rows) {
-  Board board;
-  board.type = BoardType::kChessboard;
-  board.columns = columns;
-  board.rows = rows;
-  board.square_size_m = 0.03;
-  return board;
-}
+Board Chessboard(int columns, int rows) { return support::Chessboard(columns, rows, 0.03); }
 
 Board Charuco(int columns, int rows, const std::string& dictionary) {
-  Board board = Chessboard(columns, rows);
-  board.type = BoardType::kCharuco;
-  board.tag_size_m = 0.021;
+  Board board = support::Charuco(columns, rows, 0.03, 0.021);
   board.dictionary = dictionary;
   return board;
 }
 
 Board AprilGrid(int columns, int rows, const std::string& family) {
-  Board board;
-  board.columns = columns;
-  board.rows = rows;
-  board.tag_size_m = 0.03;
-  board.spacing = 0.3;
+  Board board = support::AprilGrid(columns, rows, 0.03);
   board.family = family;
   return board;
 }

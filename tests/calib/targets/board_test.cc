@@ -5,38 +5,16 @@
 #include <limits>
 #include <stdexcept>
 
+#include "tests/support/calib/sample_boards.h"
+
 namespace luxfit {
 namespace {
 
 using ::testing::HasSubstr;
 
-Board KalibrGrid() {
-  Board board;
-  board.columns = 6;
-  board.rows = 5;
-  board.tag_size_m = 0.1;
-  board.spacing = 0.3;
-  return board;
-}
-
-Board Chessboard() {
-  Board board;
-  board.type = BoardType::kChessboard;
-  board.columns = 9;
-  board.rows = 6;
-  board.square_size_m = 0.025;
-  return board;
-}
-
-Board Charuco() {
-  Board board;
-  board.type = BoardType::kCharuco;
-  board.columns = 8;
-  board.rows = 6;
-  board.square_size_m = 0.03;
-  board.tag_size_m = 0.022;
-  return board;
-}
+Board KalibrGrid() { return support::AprilGrid(6, 5, 0.1); }
+Board Chessboard() { return support::Chessboard(9, 6, 0.025); }
+Board Charuco() { return support::Charuco(8, 6, 0.03, 0.022); }
 
 TEST(BoardTest, AprilGridCornersAreThoseOfTheBlackSquares) {
   const std::vector<Eigen::Vector3d> corners = BoardCorners(KalibrGrid());

@@ -1,4 +1,4 @@
-// What a photo shows, in rooms where that is plain to see.
+// Tests what a photo shows, in rooms where that is plain to see.
 #include "inverse/advise/internal/photo_view.h"
 
 #include <gtest/gtest.h>

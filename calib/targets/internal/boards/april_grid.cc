@@ -25,7 +25,7 @@ constexpr std::array<int, 2> kLongestPx = {1600, 3200};
 constexpr double kMostSpacingError = 0.04;  // tag sizes
 constexpr std::size_t kLeastGaps = 4;       // least count for a measured spacing
 constexpr double kLeastAgreeing = 0.6;      // share of the tags found
-// Of a grid that is searched for: fewer tags may agree by chance, more columns are not printed.
+// Bound a grid that is searched for: fewer tags may agree by chance, nobody prints more columns.
 constexpr std::size_t kLeastTags = 4;
 constexpr int kMostColumns = 20;
 

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<int, 2> kCharucoLongestPx = {1600, 3200};
 constexpr std::size_t kNearPoints = 12;
 constexpr double kReachSquares = 2.5;
-// Of a board that is searched for: fewer markers may agree by chance, more columns are not printed.
+// Bound a board that is searched for: fewer markers may agree by chance, nobody prints more columns.
 constexpr std::size_t kLeastMarkers = 4;
 constexpr double kLeastAgreeingMarkers = 0.6;  // share of the markers found
 constexpr int kLeastSquares = 3, kMostSquares = 30;
