@@ -296,7 +296,7 @@ class OuterLoop {
     WeightedRows rows;
     rows.jacobian = weights_.Weighed(at_state_.jacobian);
     rows.residual = weights_.Residual(at_state_.value + bias_);
-    rows.biases = weights_.Weighed(RowMajorMatrix(SharedErrors(model_, fit_.state, at_state_, bias_)));
+    rows.biases = weights_.Weighed(RowMajorMatrix(SharedErrors(at_state_, bias_)));
     std::map<std::tuple<int, int, int>, int> clusters;
     std::map<std::pair<int, int>, int> coarse;  // all states of a facet
     for (int i = 0; i < model_.row_count(); ++i) {

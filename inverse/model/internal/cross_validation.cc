@@ -57,7 +57,7 @@ class FoldPredictor {
     weights.root_weight = fit.root_weight;
     weights.texture = {fit.texture, fit.texture_sigma, fit.material_texture_sigma};
     weights.whitening =
-        WhiteningOf(model_, fit.state, elements, value, own, weights.texture, PoseErrors::kViewByView);
+        WhiteningOf(model_, fit.state, elements, value, own, weights.texture, ViewErrors::kViewByView);
     weights.means =
         elements.Means(value, own.cwiseQuotient((1 + fit.texture.array()).matrix()), weights.texture);
     return weights;

@@ -4,6 +4,12 @@
 // number of their type, is added up before it is reflected: a row sees their sum alone. Twenty panels in four
 // rows need the columns of four luminaires for each reflectance and for each number of their type. A column holds
 // lx at the group's full dimming.
+//
+// Sizes that outlines tell have no columns: light far from a luminaire hardly depends on its size, so that small errors of
+// its distribution or of reflectances would make it tell a wrong one, as surely as its rows are many. Information is cut
+// between the two kinds of rows.
+//
+// Source: Liu, Bayarri and Berger (2009), "Modularization in Bayesian analysis".
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_DERIVATIVE_COLUMNS_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_DERIVATIVE_COLUMNS_H_
 
@@ -22,9 +28,9 @@ class DerivativeColumns {
     Eigen::Index group = 0, column = 0;
   };
 
-  // `reflected`: DerivativeRequest::reflected.
+  // `reflected`: DerivativeRequest::reflected. `is_outlined`: the luminaires of which outlines are rows.
   DerivativeColumns(const LightState& state, const std::vector<Parameter>& parameters,
-                    const DimmingGroups& groups, bool reflected = true);
+                    const DimmingGroups& groups, bool reflected, const std::vector<bool>& is_outlined);
 
   const DerivativeRequest& request() const { return request_; }
   // Returns the columns of d_luminaire or d_albedo whose sum, each times its group's dimming, is the derivative of

@@ -28,8 +28,8 @@
 //
 // b_theta = H^-1 J^T b is the effect of an error b of the model that all rows share on the parameters. Each has
 // a known form and an amplitude of 1 sigma: what remains of the discretisation's bias
-// (inverse/model/internal/discretisation_bias.h), an error that the rows of a block share, or a quantity that is
-// held although it is not exactly known (a "consider parameter", Schmidt 1966).
+// (inverse/model/internal/discretisation_bias.h), or a quantity that is held although it is not exactly known (a
+// "consider parameter", Schmidt 1966).
 //
 // Directions of eigenvalue below 1e-10 of the largest (after scaling) have no covariance and are returned.
 //

@@ -276,6 +276,14 @@ Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& 
                             request);
 }
 
+std::vector<bool> LightModel::OutlinedLuminaires() const {
+  std::vector<bool> is_outlined(data_.dimming.empty() ? 0
+                                                      : static_cast<size_t>(data_.dimming.front().size()));
+  for (const LuminaireOutline& outline : data_.outlines)
+    is_outlined[static_cast<size_t>(outline.luminaire)] = true;
+  return is_outlined;
+}
+
 const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
   if (!transport_ || transport_->albedo() != albedo) transport_.emplace(room_.transport, albedo);
   return *transport_;
@@ -284,7 +292,7 @@ const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
                                bool with_jacobian) const {
   const std::vector<Parameter> asked = with_jacobian ? parameters : std::vector<Parameter>();
-  const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_);
+  const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_, OutlinedLuminaires());
   const Illuminance light = Light(state, columns.request());
   const ReceiverDerivative derivative(state, asked, light, columns, data_.dimming, groups_.dimming,
                                       data_.indirect_is_held);

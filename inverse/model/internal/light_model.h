@@ -15,7 +15,7 @@
 // covariance.
 //
 // Rows come block by block, in the order of RowBlocksOf. The Jacobian is rows x parameters and exact for
-// frozen visibility. Where the indirect light was measured (LightData::indirect_is_held), E is the direct
+// frozen visibility, but for sizes that outlines tell: rows of light have no derivative by them (derivative_columns.h). Where the indirect light was measured (LightData::indirect_is_held), E is the direct
 // illuminance alone and the offset holds the rest.
 //
 // Throws std::invalid_argument for indices out of range, and for readings beside measured indirect light.
@@ -83,7 +83,6 @@ class LightModel {
   const RowBlock& BlockOf(int row) const {
     return *blocks_[static_cast<size_t>(rows_[static_cast<size_t>(row)].block)];
   }
-  const Eigen::MatrixXd& pose_root() const { return data_.pose_root; }
   int block_index(int row) const { return rows_[static_cast<size_t>(row)].block; }
   int PlaceInBlock(int row) const { return rows_[static_cast<size_t>(row)].place; }
 
@@ -103,6 +102,8 @@ class LightModel {
   void FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
+  // Returns by luminaire whether outlines of it are rows.
+  std::vector<bool> OutlinedLuminaires() const;
   // Returns illuminance per lumen at the receivers.
   Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
 

@@ -2,6 +2,9 @@
 
 #include <ceres/jet.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "inverse/model/internal/outline_distance.h"
@@ -42,6 +45,20 @@ Outline<double> OutlineOf(const Luminaire& luminaire) {
   return {luminaire.position, luminaire.aim, axes.along, axes.across, 0.5 * luminaire.size_m};
 }
 
+constexpr int kPose = 6;  // quantities of a view's pose
+
+// Returns the root of the views' covariances without what they share.
+Eigen::MatrixXd ViewByView(const Eigen::MatrixXd& joint) {
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(joint.rows(), joint.rows());
+  for (Eigen::Index v = 0; v + kPose <= joint.rows(); v += kPose) {
+    const auto own = joint.middleRows(v, kPose);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(own * own.transpose());
+    root.block(v, v, kPose, kPose) =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  }
+  return root;
+}
+
 }  // namespace
 
 OutlineBlock::OutlineBlock(const LightData& data) : data_(data) {
@@ -73,11 +90,11 @@ double OutlineBlock::OwnDerivative(const LightState& state, const Parameter& par
 }
 
 Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
-  using PoseJet = ceres::Jet<double, 6>;
+  using PoseJet = ceres::Jet<double, kPose>;
   using Vector = Eigen::Matrix<PoseJet, 3, 1>;
   Vector turn, shift;
   for (int i = 0; i < 3; ++i) turn[i] = PoseJet(0, i), shift[i] = PoseJet(0, 3 + i);
-  Eigen::MatrixXd derivative(row_count(), 6);
+  Eigen::MatrixXd derivative(row_count(), kPose);
   for (int row = 0; row < row_count(); ++row) {
     const Luminaire& luminaire = state.luminaires[static_cast<size_t>(Of(row).luminaire)];
     const Outline<double> at = OutlineOf(luminaire);
@@ -92,6 +109,41 @@ Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {
     derivative.row(row) = ray.px_per_rad * distance.v.transpose();
   }
   return derivative;
+}
+
+Eigen::MatrixXd OutlineBlock::RootOfViews(ViewErrors views) const {
+  std::map<int, int> camera_of;  // by view
+  int view_count = static_cast<int>(data_.pose_root.rows()) / kPose, camera_count = 0;
+  for (const LuminaireOutline& outline : data_.outlines) {
+    camera_of[outline.seen.view] = outline.seen.camera;
+    view_count = std::max(view_count, outline.seen.view + 1);
+    camera_count = std::max(camera_count, outline.seen.camera + 1);
+  }
+  const bool is_joint = views == ViewErrors::kJoint;
+  const Eigen::MatrixXd pose = is_joint ? data_.pose_root : ViewByView(data_.pose_root);
+  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(Eigen::Index{view_count} * (kPose + 1),
+                                               pose.cols() + (is_joint ? camera_count : view_count));
+  for (int v = 0; v < view_count; ++v) {
+    const Eigen::Index first = Eigen::Index{v} * (kPose + 1);
+    if ((v + 1) * kPose <= pose.rows())
+      root.block(first, 0, kPose, pose.cols()) = pose.middleRows(Eigen::Index{v} * kPose, kPose);
+    const auto camera = camera_of.find(v);
+    if (camera != camera_of.end())
+      root(first + kPose, pose.cols() + (is_joint ? camera->second : v)) = kOutlineGrowthPx;
+  }
+  return root;
+}
+
+RowErrors OutlineBlock::SharedErrorsOf(const LightState& state, ViewErrors views) const {
+  if (rays_.empty() || views == ViewErrors::kHeld) return {};
+  RowErrors errors;
+  errors.effect.resize(row_count(), kPose + 1);
+  errors.effect.leftCols(kPose) = PoseDerivativeOf(state);
+  errors.effect.rightCols(1).setOnes();  // a grown outline lies outside the model's
+  errors.owner.reserve(rays_.size());
+  for (int row = 0; row < row_count(); ++row) errors.owner.push_back(Of(row).seen.view);
+  errors.root = RootOfViews(views);
+  return errors;
 }
 
 std::optional<std::pair<int, int>> OutlineBlock::ClusterOf(int row) const {

@@ -5,11 +5,11 @@
 // d_i: angle from the model's outline to ray i of the seen one (outline_distance.h), s: the photo's scale there.
 // The points of one outline are not independent: what the contour does not follow (blur, halos, its threshold) moves
 // several alike. Each therefore has a sigma of 1 px, which lets the 32 points of an outline tell its centre to a
-// quarter of a pixel. Rows of one view share the error of its pose, which the fit eliminates
-// (inverse/model/internal/row_weights.h).
+// quarter of a pixel.
 //
-// A lens' blur, and charge that runs over, let luminaires look larger: kOutlineGrowthPx all round is an error
-// that all rows share.
+// Rows share errors, which the fit eliminates (inverse/model/internal/row_weights.h): those of one view its pose, those of
+// one camera the growth of its outlines, 0 +- kOutlineGrowthPx all round. A lens' blur, charge that runs over and pixels
+// that a luminaire covers in part let it look larger. Its distance from several views tells its size from the growth.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_OUTLINE_BLOCK_H_
 
@@ -21,7 +21,7 @@
 namespace luxfit {
 
 constexpr double kOutlineSigmaPx = 1;
-constexpr double kOutlineGrowthPx = 0.5;
+constexpr double kOutlineGrowthPx = 1;
 
 class OutlineBlock : public RowBlock {
  public:
@@ -42,14 +42,13 @@ class OutlineBlock : public RowBlock {
   Eigen::VectorXd BiasOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Zero(row_count());
   }
-  Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const override {
-    return Eigen::VectorXd::Constant(row_count(), kOutlineGrowthPx);
-  }
-
-  Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const override;
-  int ViewOf(int row) const override { return Of(row).seen.view; }
+  // Quantities of a view: its pose as in LightData::pose_root, and the growth of its camera's outlines (px).
+  RowErrors SharedErrorsOf(const LightState& state, ViewErrors views) const override;
 
  private:
+  Eigen::MatrixXd PoseDerivativeOf(const LightState& state) const;
+  // Returns the root of the covariance of all views' quantities.
+  Eigen::MatrixXd RootOfViews(ViewErrors views) const;
   const LuminaireOutline& Of(int row) const {
     return data_.outlines[static_cast<size_t>(rays_[static_cast<size_t>(row)].first)];
   }

@@ -49,7 +49,7 @@ RowWeights WeightsOf(const Room& room, const LightData& part, const LightModel& 
   Eigen::VectorXd own = weights.root_weight;
   own.head(static_cast<Eigen::Index>(rows.size())) *= std::sqrt(fit.photo_design_effect);
   weights.whitening =
-      WhiteningOf(model, fit.state, elements, value, own, weights.texture, PoseErrors::kJoint);
+      WhiteningOf(model, fit.state, elements, value, own, weights.texture, ViewErrors::kJoint);
   const Eigen::VectorXd plain = own.array() / (1 + weights.texture.deviation.array());
   weights.means = elements.Means(value, plain, weights.texture);
   return weights;

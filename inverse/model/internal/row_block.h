@@ -35,6 +35,18 @@ struct RowResponse {
   double offset = 0;
 };
 
+// Holds errors a ~ N(0, root root^T) that rows of a block share. Row i is off by effect.row(i) times the p quantities of
+// its owner, a[p owner .. p owner + p).
+struct RowErrors {
+  Eigen::MatrixXd effect;  // rows x p, in the row's unit
+  std::vector<int> owner;  // by row
+  Eigen::MatrixXd root;    // (p owners) x independent errors
+};
+
+// Whether errors of views are held, count with their covariances among each other, or each for itself. The last
+// keeps what belongs to one view apart from the others.
+enum class ViewErrors { kHeld, kJoint, kViewByView };
+
 class RowBlock {
  public:
   virtual ~RowBlock() = default;
@@ -65,15 +77,8 @@ class RowBlock {
   virtual std::optional<std::pair<int, int>> ClusterOf(int row) const = 0;
   // Returns what the model's discretisation leaves out of each row, in its unit.
   virtual Eigen::VectorXd BiasOf(const LightState& state) const = 0;
-  // Returns an error that all rows share, at 1 sigma of its amplitude (inverse/model/internal/fit_covariance.h).
-  virtual Eigen::VectorXd SharedErrorOf(const LightState& /*state*/) const {
-    return Eigen::VectorXd::Zero(row_count());
-  }
-  // Returns the derivative of each row by the pose of its view: rotation vector in world axes (rad), camera centre
-  // in world (m). Empty: the rows do not depend on poses.
-  virtual Eigen::MatrixXd PoseDerivativeOf(const LightState& /*state*/) const { return {}; }
-  // Returns the view of a row, an index into LightData::pose_root; -1: none.
-  virtual int ViewOf(int /*row*/) const { return -1; }
+  // Returns the errors that rows share, which the fit eliminates. No effect: none.
+  virtual RowErrors SharedErrorsOf(const LightState& /*state*/, ViewErrors /*views*/) const { return {}; }
 };
 
 // Makes one block for each kind of observation. The first block that has rows carries the model's relative

@@ -1,6 +1,5 @@
 #include "inverse/model/internal/row_weights.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,17 +13,6 @@ namespace {
 
 constexpr double kGaussianMedian = 0.6745;  // of |z|
 
-// Returns the root of the views' covariances without what they share.
-Eigen::MatrixXd ViewByView(const Eigen::MatrixXd& joint) {
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(joint.rows(), joint.rows());
-  for (Eigen::Index v = 0; v + 6 <= joint.rows(); v += 6) {
-    const auto own = joint.middleRows(v, 6);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(own * own.transpose());
-    root.block(v, v, 6, 6) = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  }
-  return root;
-}
-
 void AddTexture(const TextureEstimator& elements, const Eigen::VectorXd& value,
                 const Eigen::VectorXd& root_weight, const ElementTexture& texture, RowWhitening& whitening) {
   std::vector<double> effect;
@@ -37,21 +25,15 @@ void AddTexture(const TextureEstimator& elements, const Eigen::VectorXd& value,
   }
 }
 
-void AddPoses(const LightModel& model, const LightState& state, const Eigen::VectorXd& root_weight,
-              PoseErrors poses, RowWhitening& whitening) {
-  const Eigen::MatrixXd& joint = model.pose_root();
-  if (joint.size() == 0 || poses == PoseErrors::kHeld) return;
+void AddSharedErrors(const LightModel& model, const LightState& state, const Eigen::VectorXd& root_weight,
+                     ViewErrors views, RowWhitening& whitening) {
   Eigen::Index first = 0;
   for (const auto& block : model.blocks()) {
     const Eigen::Index count = block->row_count();
-    const Eigen::MatrixXd derivative = count > 0 ? block->PoseDerivativeOf(state) : Eigen::MatrixXd();
-    if (derivative.size() > 0) {
-      std::vector<int> view;
-      view.reserve(static_cast<size_t>(count));
-      for (int i = 0; i < count; ++i) view.push_back(block->ViewOf(i));
-      whitening.Add(first, root_weight.segment(first, count).asDiagonal() * derivative, view,
-                    poses == PoseErrors::kJoint ? joint : ViewByView(joint));
-    }
+    const RowErrors errors = block->SharedErrorsOf(state, views);
+    if (errors.effect.size() > 0)
+      whitening.Add(first, root_weight.segment(first, count).asDiagonal() * errors.effect, errors.owner,
+                    errors.root);
     first += count;
   }
 }
@@ -111,10 +93,10 @@ std::vector<SpreadRow> RowWeights::MeansByCluster(const Eigen::VectorXd& value,
 
 RowWhitening WhiteningOf(const LightModel& model, const LightState& state, const TextureEstimator& elements,
                          const Eigen::VectorXd& value, const Eigen::VectorXd& root_weight,
-                         const ElementTexture& texture, PoseErrors poses) {
+                         const ElementTexture& texture, ViewErrors views) {
   RowWhitening whitening;
   AddTexture(elements, value, root_weight, texture, whitening);
-  AddPoses(model, state, root_weight, poses, whitening);
+  AddSharedErrors(model, state, root_weight, views, whitening);
   return whitening;
 }
 
@@ -169,7 +151,7 @@ RowWeights RowWeigher::Weigh(const LightState& state, const Eigen::VectorXd& val
   weights.texture = TextureEstimator::None(rows, materials_);
   const Eigen::VectorXd residual = value - values_;
   Eigen::VectorXd plain(rows), z(rows);
-  const auto refresh = [&](double least_weight, PoseErrors poses) {
+  const auto refresh = [&](double least_weight, ViewErrors views) {
     for (Eigen::Index i = 0; i < rows; ++i) {
       const auto row = static_cast<size_t>(i);
       const bool is_usable = is_used_[row] && !left_out[row];
@@ -181,7 +163,7 @@ RowWeights RowWeigher::Weigh(const LightState& state, const Eigen::VectorXd& val
       weights.texture = elements_.Estimate(value, values_, plain);
     weights.root_weight = plain.cwiseProduct((1 + weights.texture.deviation.array()).matrix());
     weights.whitening =
-        WhiteningOf(model_, state, elements_, value, weights.root_weight, weights.texture, poses);
+        WhiteningOf(model_, state, elements_, value, weights.root_weight, weights.texture, views);
     z = weights.whitening.Remainder(residual.cwiseProduct(plain));
     const Eigen::VectorXd own = weights.whitening.RemainingVariance(rows);
     for (Eigen::Index i = 0; i < rows; ++i) {
@@ -193,16 +175,16 @@ RowWeights RowWeigher::Weigh(const LightState& state, const Eigen::VectorXd& val
   constexpr int kRounds = 3;
   constexpr double kLeastWeight = 1e-6;
   for (int k = 0; k < kRounds; ++k) {
-    refresh(kLeastWeight, PoseErrors::kHeld);  // f is that of photos' rows
+    refresh(kLeastWeight, ViewErrors::kHeld);  // f is that of photos' rows
     relative_sigma = std::clamp(relative_sigma * ModelErrorRatio(z, plain), options_.min_relative_sigma, 1.0);
   }
-  refresh(kLeastWeight, PoseErrors::kJoint);
+  refresh(kLeastWeight, ViewErrors::kJoint);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto row = static_cast<size_t>(i);
     const double robust = is_robust_[row] ? CauchyWeight(z[i], options_.robust_sigmas) : 1;
     weights.weight[i] = plain[i] > 0 ? robust : 0;
   }
-  refresh(0, PoseErrors::kJoint);
+  refresh(0, ViewErrors::kJoint);
   weights.means = elements_.Means(value, plain, weights.texture);
   weights.target = value;
   for (Eigen::Index i = 0; i < rows; ++i)

@@ -4,8 +4,8 @@
 //   fitted:  W u (model(theta) - target), and the rows of TextureMean
 //
 // W whitens what rows share (inverse/model/internal/row_whitening.h): the texture of an element in all states
-// (element_texture.h), and the pose of a view in all its outlines. z_i is what remains of the residual by the
-// best texture and poses, over its own sigma. f is the relative error that the remainders of the first block
+// (element_texture.h), and the errors of a block (row_block.h). z_i is what remains of the residual by the
+// best texture and shared errors, over its own sigma. f is the relative error that the remainders of the first block
 // with rows show: their median |z| is a Gaussian's.
 //
 // An element of reflectance rho (1 + t) changes by (1 + t) with the light. Its rows therefore have the root
@@ -44,15 +44,11 @@ struct RowWeights {
   std::vector<SpreadRow> MeansByCluster(const Eigen::VectorXd& value, const std::vector<int>& cluster) const;
 };
 
-// Whether views' poses are held, count with their covariances among each other, or each for itself. The last
-// keeps what belongs to one view apart from the others.
-enum class PoseErrors { kHeld, kJoint, kViewByView };
-
 // Returns the whitening for given weights. `value`: the model's; `root_weight` and `texture` as in
 // RowWeights.
 RowWhitening WhiteningOf(const LightModel& model, const LightState& state, const TextureEstimator& elements,
                          const Eigen::VectorXd& value, const Eigen::VectorXd& root_weight,
-                         const ElementTexture& texture, PoseErrors poses);
+                         const ElementTexture& texture, ViewErrors views);
 
 struct RowWeigherOptions {
   double robust_sigmas = 3;

@@ -13,10 +13,9 @@ namespace luxfit {
 // Returns what the size of elements and patches leaves out of each row.
 Eigen::VectorXd DiscretisationBias(const LightModel& model, const LightState& state);
 
-// Returns a column for each error, at 1 sigma: what remains of the bias that was subtracted (0: nothing was), what the
-// rows of a block share, and, where luminaires have bodies, an error of their reflectance.
-Eigen::MatrixXd SharedErrors(const LightModel& model, const LightState& state, const Prediction& at_state,
-                             const Eigen::VectorXd& subtracted_bias);
+// Returns a column for each error, at 1 sigma: what remains of the bias that was subtracted (0: nothing was), and, where
+// luminaires have bodies, an error of their reflectance.
+Eigen::MatrixXd SharedErrors(const Prediction& at_state, const Eigen::VectorXd& subtracted_bias);
 
 }  // namespace luxfit
 
