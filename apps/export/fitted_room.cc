@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/session_check.h"
 #include "apps/stages/simulate/given_session.h"
@@ -102,6 +103,8 @@ Session FittedSession(const json& result, const std::string& given, const std::s
                      "expected the luminaires of a fit, got none; its warnings say what the data lack");
   Session session = ReadSession(SessionPathOf(result, given, path));
   ExpectSameRoom(result, session, path);
+  if (session.scene && result.contains("furniture"))
+    session.scene->furniture = BoxesFromJson(result.at("furniture"));
   if (session.count_is_estimated)
     session = WithMoreLuminaires(std::move(session), static_cast<int>(result.at("luminaires").size()));
   session = WithResult(std::move(session), path, fluxes);

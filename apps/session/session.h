@@ -33,6 +33,8 @@ struct SessionScene {
   std::map<std::string, Eigen::Vector3d> known_albedo_rgb;  // material name -> RGB reflectance, in [0, 1)
   int line = 0;                                             // line of [scene.albedo], else of [scene]
   std::optional<RoomOutline> outline;                       // from size or outline; m
+  bool finds_furniture = true;                              // furniture = "find"
+  std::vector<RoomBox> furniture;  // found in photos (apps/stages/observe/found_furniture.h), m
 };
 
 struct SessionTags {

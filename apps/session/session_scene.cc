@@ -47,7 +47,7 @@ double MetresPerUnit(const std::string& unit, const std::string& key) {
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
-  section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo"});
+  section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo", "furniture"});
   SessionScene scene;
   if (const auto unit = section.Find("unit")) {
     scene.unit = unit->OneOf(UnitNames());
@@ -55,6 +55,8 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
   }
   scene.outline = ReadOutline(section, scene.metres_per_unit);
   if (const auto mesh = section.Find("mesh")) scene.mesh = AbsolutePath(FindFile(*mesh, folder));
+  if (const auto furniture = section.Find("furniture"))
+    scene.finds_furniture = furniture->OneOf({"find", "given"}) == "find";
   scene.line = section.place().line;
   if (const auto albedo = section.Find("albedo")) {
     scene.line = albedo->place().line;
@@ -65,7 +67,8 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
 }
 
 Scene SceneOf(const SessionScene& scene) {
-  return scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit);
+  return WithBoxes(scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit),
+                   scene.furniture);
 }
 
 std::string RoomText(const SessionScene& scene) {

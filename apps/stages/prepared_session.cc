@@ -12,6 +12,7 @@
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/linearize/linearized_json.h"
 #include "apps/stages/linearize/photo_store.h"
+#include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/observe/observations_json.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/session_check.h"
@@ -61,6 +62,27 @@ void LeaveOutReadings(const std::set<int>& lines, std::vector<LuminaireReading>&
   for (LuminaireReading& reading : readings) reading.is_outside = lines.count(reading.given.line) > 0;
 }
 
+// Makes the room anew with boxes that photos show.
+void AddFurniture(const std::vector<RoomBox>& boxes, Session& session, Room& room, RunContext& context) {
+  if (boxes.empty()) return;
+  session.scene->furniture = boxes;
+  RunContext with_boxes;
+  with_boxes.is_quiet = true;
+  room = LoadRoom(session, with_boxes);
+  // What was said of the mesh stands; the counts of patches are those of the whole.
+  for (const Choice& choice : with_boxes.choices) {
+    for (Choice& said : context.choices)
+      if (said.what == choice.what) said = choice;
+  }
+}
+
+// What is observed depends on the boxes that were found.
+SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
+  if (session.scene && !session.scene->furniture.empty())
+    inputs.observe["found furniture"] = HashText(BoxesJson(session.scene->furniture).dump());
+  return inputs;
+}
+
 }  // namespace
 
 LinearizedSession LinearizeKept(const Session& session, const SessionInputs& inputs, RunContext& context) {
@@ -98,7 +120,7 @@ SessionObservations ObserveKept(const Session& session, const LinearizedPhotos& 
 
 PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs, RunContext& context) {
   Room room = LoadRoom(given, context);
-  const Session session = OnSurfaceOf(room, given);
+  Session session = OnSurfaceOf(room, given);
   LinearizedSession linearized = LinearizeKept(session, inputs, context);
   const SessionCheck check = CheckSession(session, room.rays);
   context.warnings.insert(context.warnings.end(), check.warnings.begin(), check.warnings.end());
@@ -109,7 +131,10 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
-  SessionObservations observed = ObserveKept(session, linearized.photos, registered, room, inputs, context);
+  AddFurniture(FurnitureKept(session, linearized.photos, registered, room, inputs, context), session, room,
+               context);
+  SessionObservations observed =
+      ObserveKept(session, linearized.photos, registered, room, WithFurniture(inputs, session), context);
   context.photos.reset();
   return {session, std::move(linearized), std::move(room), std::move(registered), std::move(observed)};
 }

@@ -1,6 +1,6 @@
 // Prepares a session up to its observations, for a fit, or for many fits of the same session (charts).
 //
-//   linearize -> register -> observe
+//   linearize -> register -> furniture -> observe
 //
 // Each stage is kept in OUT/stages/ (apps/stages/stage_cache.h) and runs again only where something that it
 // depends on has changed.

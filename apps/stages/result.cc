@@ -6,6 +6,7 @@
 
 #include "apps/stages/check_report.h"
 #include "apps/stages/check_warnings.h"
+#include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/stages.h"
 #include "apps/text/formats/json_vectors.h"
 #include "forward/luminaire/distribution_ops.h"
@@ -256,6 +257,8 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
+  if (session.scene && !session.scene->furniture.empty())
+    result["furniture"] = BoxesJson(session.scene->furniture);
   result["luminaires"] = LuminairesJson(session, fit, files);
   if (!fit.types.empty()) result["luminaire_types"] = TypesJson(fit);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.

@@ -101,12 +101,12 @@ class Parts {
     if (!session_.scene) return inputs;
     if (session_.scene->outline) {
       std::string text = session_.scene->unit;
-      for (const char* key : {"size", "outline", "height", "box", "opening"})
+      for (const char* key : {"size", "outline", "height", "box", "opening", "furniture"})
         text += fmt::format("{} {}\n", key, Text(root_["scene"][key]));
       inputs["[scene]"] = HashText(text);
     } else {
       inputs["mesh " + fs::path(session_.scene->mesh).filename().string()] =
-          HashText(session_.scene->unit + HashMesh(session_.scene->mesh));
+          HashText(session_.scene->unit + Text(root_["scene"]["furniture"]) + HashMesh(session_.scene->mesh));
     }
     return inputs;
   }
@@ -117,14 +117,17 @@ class Parts {
     return {{"[states]", HashText(Table("states") + Table("groups") + ids)}};
   }
 
-  StageInputs Light(const std::string& earlier_luminaires) const {
+  StageInputs Readings() const {
     const SessionLuxmeter& meter = session_.luxmeter;
+    return {{"readings",
+             HashText(Table("luxmeter") + HashPath(meter.readings_path) + HashPath(meter.sensitivity_path))}};
+  }
+
+  StageInputs Light(const std::string& earlier_luminaires) const {
     StageInputs inputs = {{"name", session_.name},
                           {"[luminaires]", Table("luminaires")},
                           {"[lights]", Table("lights")},
-                          {"[scene.albedo]", HashText(Text(root_.at_path("scene.albedo")))},
-                          {"readings", HashText(Table("luxmeter") + HashPath(meter.readings_path) +
-                                                HashPath(meter.sensitivity_path))}};
+                          {"[scene.albedo]", HashText(Text(root_.at_path("scene.albedo")))}};
     for (size_t k = 0; k < session_.luminaires.size(); ++k) {
       const SessionLuminaire& luminaire = session_.luminaires[k];
       if (luminaire.line == 0) continue;
@@ -168,7 +171,8 @@ SessionInputs InputsOfStages(const Session& session, const std::string& earlier_
   inputs.registration =
       Union(Union(cameras, parts.Places()), Union(parts.Photos(parts.RegisteredPhotos()), parts.States()));
   inputs.observe = Union(Union(inputs.linearize, inputs.registration), parts.States());
-  inputs.result = Union(inputs.observe, parts.Light(earlier_luminaires));
+  inputs.furniture = Union(inputs.observe, parts.Readings());
+  inputs.result = Union(inputs.furniture, parts.Light(earlier_luminaires));
   return inputs;
 }
 

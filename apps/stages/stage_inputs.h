@@ -4,7 +4,8 @@
 //   linearize   cameras, photos
 //   register    cameras, tags, mesh, the photos it looks at (all of them where a camera's response or
 //               brackets tie photos together)
-//   observe     both, states
+//   observe     both, states (and the boxes that were found: apps/stages/prepared_session.cc)
+//   furniture   the same as observe, and readings, for no solid is where a meter stood
 //   result      everything, readings and luminaires too
 //
 // Files count by path and content, and tables of the session file by their keys and values (not by comments
@@ -23,7 +24,7 @@ namespace luxfit {
 using StageInputs = std::map<std::string, std::string>;
 
 struct SessionInputs {
-  StageInputs linearize, registration, observe, result;
+  StageInputs linearize, registration, observe, furniture, result;
 };
 // Returns the inputs of a session as ReadSession gives it. `earlier_luminaires` is the path of a result.json;
 // empty: none.

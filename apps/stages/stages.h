@@ -1,6 +1,6 @@
 // Declares the stages of a run and what each hands on.
 //
-//   scene -> linearize -> register -> observe -> fit -> result
+//   scene -> linearize -> register -> furniture -> observe -> fit -> result
 //
 // Each stage reads the session and the products of the stages before. It prints progress on standard error
 // and writes only its own artifact in OUT/stages/. Where the data determine too little, it warns and does not

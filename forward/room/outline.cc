@@ -11,6 +11,35 @@
 namespace luxfit {
 namespace {
 
+int MaterialOf(Scene& scene, const std::string& name) {
+  const auto known = std::find(scene.materials.begin(), scene.materials.end(), name);
+  const int index = static_cast<int>(known - scene.materials.begin());
+  if (known == scene.materials.end()) scene.materials.push_back(name);
+  return index;
+}
+
+void AddPolygon(Scene& scene, const std::vector<Eigen::Vector3d>& polygon, int material) {
+  const std::vector<Facet> facets = FacetsFromPolygon(polygon, material);
+  scene.facets.insert(scene.facets.end(), facets.begin(), facets.end());
+}
+
+void AddSolid(Scene& scene, const RoomBox& box) {
+  const int material = MaterialOf(scene, box.name);
+  const std::array<Eigen::Vector2d, 4> plan = PlanOf(box);
+  std::vector<Eigen::Vector3d> low, high;
+  for (const Eigen::Vector2d& p : plan) {
+    low.emplace_back(p.x(), p.y(), box.min_m.z());
+    high.emplace_back(p.x(), p.y(), box.max_m.z());
+  }
+  for (size_t k = 0; k < 4; ++k) {
+    const size_t next = (k + 1) % 4;
+    AddPolygon(scene, {low[k], low[next], high[next], high[k]}, material);
+  }
+  AddPolygon(scene, high, material);
+  std::reverse(low.begin(), low.end());
+  AddPolygon(scene, low, material);
+}
+
 // Everything of an outline that makes facets, its corners counter-clockwise.
 class OutlineScene {
  public:
@@ -20,7 +49,7 @@ class OutlineScene {
     AddFloorAndCeiling();
     for (size_t wall = 0; wall < count_; ++wall) AddWall(static_cast<int>(wall));
     for (const WallRectangle& rectangle : outline_.rectangles) AddRectangle(rectangle);
-    for (const RoomBox& box : outline_.boxes) AddSolid(box);
+    for (const RoomBox& box : outline_.boxes) AddSolid(scene_, box);
     return std::move(scene_);
   }
 
@@ -31,16 +60,9 @@ class OutlineScene {
   }
   bool IsClockwise() const { return SignedAreaM2(outline_.corners_m) < 0; }
 
-  int Material(const std::string& name) {
-    const auto known = std::find(scene_.materials.begin(), scene_.materials.end(), name);
-    const int index = static_cast<int>(known - scene_.materials.begin());
-    if (known == scene_.materials.end()) scene_.materials.push_back(name);
-    return index;
-  }
-
+  int Material(const std::string& name) { return MaterialOf(scene_, name); }
   void Add(const std::vector<Eigen::Vector3d>& polygon, int material) {
-    const std::vector<Facet> facets = FacetsFromPolygon(polygon, material);
-    scene_.facets.insert(scene_.facets.end(), facets.begin(), facets.end());
+    AddPolygon(scene_, polygon, material);
   }
 
   void AddFloorAndCeiling() {
@@ -129,23 +151,6 @@ class OutlineScene {
     AddOnWall(r.wall, {{from, r.low_m}, {to, r.low_m}, {to, r.high_m}, {from, r.high_m}}, Material(r.name));
   }
 
-  void AddSolid(const RoomBox& box) {
-    const int material = Material(box.name);
-    const std::array<Eigen::Vector2d, 4> plan = PlanOf(box);
-    std::vector<Eigen::Vector3d> low, high;
-    for (const Eigen::Vector2d& p : plan) {
-      low.emplace_back(p.x(), p.y(), box.min_m.z());
-      high.emplace_back(p.x(), p.y(), box.max_m.z());
-    }
-    for (size_t k = 0; k < 4; ++k) {
-      const size_t next = (k + 1) % 4;
-      Add({low[k], low[next], high[next], high[k]}, material);
-    }
-    Add(high, material);
-    std::reverse(low.begin(), low.end());
-    Add(low, material);
-  }
-
   static constexpr double kSliverM = 1e-6;
   const RoomOutline& outline_;
   size_t count_;
@@ -161,6 +166,11 @@ RoomOutline OutlineOfBox(const Eigen::Vector3d& size_m) {
 Scene SceneFrom(const RoomOutline& outline) {
   if (const auto fault = FindFault(outline)) throw std::invalid_argument("SceneFrom: " + fault->message);
   return OutlineScene(outline).Make();
+}
+
+Scene WithBoxes(Scene scene, const std::vector<RoomBox>& boxes) {
+  for (const RoomBox& box : boxes) AddSolid(scene, box);
+  return scene;
 }
 
 }  // namespace luxfit

@@ -68,6 +68,9 @@ std::optional<OutlineFault> FindFault(const RoomOutline& outline);
 
 Scene SceneFrom(const RoomOutline& outline);
 
+// Returns the scene with the boxes' six sides each, of materials named as the boxes.
+Scene WithBoxes(Scene scene, const std::vector<RoomBox>& boxes);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_ROOM_OUTLINE_H_

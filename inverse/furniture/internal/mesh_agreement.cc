@@ -1,0 +1,89 @@
+#include "inverse/furniture/internal/mesh_agreement.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "inverse/furniture/internal/signature.h"
+
+namespace luxfit {
+namespace {
+
+constexpr int kCellPx = MeshAgreement::kCellPx;
+
+MeshAgreement DistancesOf(const RayScene& mesh, const SignatureView& view) {
+  MeshAgreement cells;
+  cells.width = (view.width_px + kCellPx - 1) / kCellPx;
+  cells.height = (view.height_px + kCellPx - 1) / kCellPx;
+  const Eigen::Vector3d eye = view.Eye();
+  for (int row = 0; row < cells.height; ++row) {
+    for (int column = 0; column < cells.width; ++column) {
+      const RayHit hit = mesh.Trace(eye, RayOf(view, column, row));
+      cells.distance_m.push_back(hit.facet < 0 ? std::numeric_limits<float>::infinity()
+                                               : static_cast<float>(hit.distance));
+    }
+  }
+  cells.is_explained.assign(cells.distance_m.size(), 0);
+  cells.is_compared = cells.is_explained;
+  return cells;
+}
+
+void Compare(const std::vector<SignatureView>& views, const std::vector<MeshAgreement>& cells, size_t a,
+             double tolerance, MeshAgreement& result) {
+  const SignatureView& view = views[a];
+  const Eigen::Vector3d eye = view.Eye();
+  std::vector<Eigen::Vector3d> eyes;
+  eyes.reserve(views.size());
+  for (const SignatureView& other : views) eyes.push_back(other.Eye());
+  Signatures signatures(view.states);
+  size_t at = 0;
+  for (int row = 0; row < result.height; ++row) {
+    for (int column = 0; column < result.width; ++column, ++at) {
+      if (!(result.distance_m[at] < 1e6F)) continue;
+      const Eigen::Vector3d place = eye + result.distance_m[at] * RayOf(view, column, row);
+      const Eigen::Vector2d own = PixelOf(view, place);
+      signatures.Clear();
+      if (!own.allFinite() || !signatures.Add(view, own.x(), own.y())) continue;
+      int seen = 0, agree = 0;
+      for (size_t b = 0; b < views.size(); ++b) {
+        if (b == a) continue;
+        const Eigen::Vector2d p = PixelOf(views[b], place);
+        if (!p.allFinite()) continue;
+        if ((place - eyes[b]).norm() > cells[b].distance_m[cells[b].CellOf(p.x(), p.y())] + kOnMeshM) continue;
+        if (!signatures.Add(views[b], p.x(), p.y())) continue;
+        ++seen;
+        agree += signatures.Agree(0, signatures.count() - 1, tolerance) ? 1 : 0;
+      }
+      result.is_compared[at] = seen > 0;
+      result.is_explained[at] = seen > 0 && 2 * agree >= seen;
+    }
+  }
+}
+
+}  // namespace
+
+Eigen::Vector3d RayOf(const SignatureView& view, int column, int row) {
+  const Eigen::Vector3d pixel(kCellPx * column + 0.5 * (kCellPx - 1), kCellPx * row + 0.5 * (kCellPx - 1), 1);
+  return view.cam_from_world.linear().transpose() * (view.pixel_from_ray.inverse() * pixel).normalized();
+}
+
+Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world) {
+  const Eigen::Vector3d q = view.pixel_from_ray * (view.cam_from_world * p_in_world);
+  const Eigen::Vector2d p = q.head<2>() / q.z();
+  if (q.z() > 0.05 && p.x() >= 1 && p.y() >= 1 && p.x() < view.width_px - 2 && p.y() < view.height_px - 2)
+    return p;
+  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::vector<MeshAgreement> FindMeshAgreement(const RayScene& mesh, const std::vector<SignatureView>& views,
+                                             double tolerance) {
+  std::vector<MeshAgreement> cells(views.size());
+  tbb::parallel_for(size_t{0}, views.size(), [&](size_t a) { cells[a] = DistancesOf(mesh, views[a]); });
+  std::vector<MeshAgreement> result = cells;
+  tbb::parallel_for(size_t{0}, views.size(),
+                    [&](size_t a) { Compare(views, cells, a, tolerance, result[a]); });
+  return result;
+}
+
+}  // namespace luxfit

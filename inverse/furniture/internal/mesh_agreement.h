@@ -1,0 +1,46 @@
+// Tells which pixels of the views the mesh explains.
+//
+// The ray of a pixel meets the mesh at a place. The mesh explains the pixel where at least half of the other views
+// that see this place show the same signature there (internal/signature.h). Something in front of the mesh, or a
+// mirror, shows another one in each view.
+#ifndef LUXFIT_INVERSE_FURNITURE_INTERNAL_MESH_AGREEMENT_H_
+#define LUXFIT_INVERSE_FURNITURE_INTERNAL_MESH_AGREEMENT_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forward/room/visibility.h"
+#include "inverse/furniture/signature_view.h"
+
+namespace luxfit {
+
+// Holds one number a cell of kCellPx x kCellPx pixels, for the pixel in its middle.
+struct MeshAgreement {
+  static constexpr int kCellPx = 2;
+  int width = 0, height = 0;
+  std::vector<float> distance_m;   // from the eye to the mesh; infinity: there is none
+  std::vector<char> is_explained;
+  std::vector<char> is_compared;  // another view sees the place
+
+  size_t CellOf(double u, double v) const {
+    return static_cast<size_t>(static_cast<int>(v) / kCellPx) * static_cast<size_t>(width) +
+           static_cast<size_t>(static_cast<int>(u) / kCellPx);
+  }
+};
+
+// A surface behind the mesh by no more than this is on it, m.
+constexpr double kOnMeshM = 0.05;
+
+// Returns the agreement of each view.
+std::vector<MeshAgreement> FindMeshAgreement(const RayScene& mesh, const std::vector<SignatureView>& views,
+                                             double tolerance);
+
+// Returns the unit direction of a cell's pixel, world frame.
+Eigen::Vector3d RayOf(const SignatureView& view, int column, int row);
+
+// Returns the pixel of a place; NaN where the view does not show it a pixel within its edges.
+Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_FURNITURE_INTERNAL_MESH_AGREEMENT_H_
