@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "apps/charts/svg.h"
-#include "calib/lens/projection_uncertainty.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kImageWidthPx = 720, kMarginPx = 16, kTitlePx = 46, kLegendPx = 62;
-constexpr int kCellsAcross = 40;
+constexpr double kMarginPx = 16, kTitlePx = 46, kLegendPx = 62;
 constexpr double kLeastPx = 0.01, kMostPx = 10;
 
 // Runs from blue (certain) through pale yellow to red. Lightness changes evenly to both sides, so that the
@@ -34,32 +31,27 @@ std::string ColourOf(double sigma_px) {
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-std::string HeatMap(const CalibratedCamera& camera, double scale) {
-  const int rows =
-      std::max(1, static_cast<int>(std::lround(static_cast<double>(kCellsAcross) * camera.camera.height_px /
-                                               camera.camera.width_px)));
-  const Eigen::MatrixXd sigma_px = ProjectionSigmaMap(camera.camera, camera.uncertainty, kCellsAcross, rows,
-                                                      std::numeric_limits<double>::infinity());
-  const double width = camera.camera.width_px * scale / kCellsAcross;
-  const double height = camera.camera.height_px * scale / rows;
+std::string HeatMap(const UncertaintyMap& map, double top) {
+  const double scale = map.drawn_px / map.width_px;
+  const double width = map.drawn_px / static_cast<double>(map.sigma_px.cols());
+  const double height = map.height_px * scale / static_cast<double>(map.sigma_px.rows());
   std::string body;
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < kCellsAcross; ++column) {
+  for (Eigen::Index row = 0; row < map.sigma_px.rows(); ++row) {
+    for (Eigen::Index column = 0; column < map.sigma_px.cols(); ++column) {
       // Slightly wider than the cell, so that no seams show.
-      body +=
-          fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                      kMarginPx + column * width, kTitlePx + row * height, width + 0.3, height + 0.3,
-                      ColourOf(sigma_px(row, column)));
+      body += fmt::format(
+          "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+          kMarginPx + static_cast<double>(column) * width, top + static_cast<double>(row) * height,
+          width + 0.3, height + 0.3, ColourOf(map.sigma_px(row, column)));
     }
   }
   return body;
 }
 
-std::string Corners(const std::vector<MappedCorner>& corners, double scale) {
+std::string Corners(const std::vector<MappedCorner>& corners, double scale, double top) {
   std::string body;
   for (const MappedCorner& corner : corners) {
-    const double x = kMarginPx + (corner.pixel.x() + 0.5) * scale,
-                 y = kTitlePx + (corner.pixel.y() + 0.5) * scale;
+    const double x = kMarginPx + (corner.pixel.x() + 0.5) * scale, y = top + (corner.pixel.y() + 0.5) * scale;
     body += corner.is_outlier
                 ? SvgLine(x - 4, y - 4, x + 4, y + 4, " stroke=\"black\" stroke-width=\"1.5\"") +
                       SvgLine(x - 4, y + 4, x + 4, y - 4, " stroke=\"black\" stroke-width=\"1.5\"")
@@ -68,9 +60,9 @@ std::string Corners(const std::vector<MappedCorner>& corners, double scale) {
   return body;
 }
 
-std::string Legend(double top) {
+std::string Legend(double drawn_px, double top) {
   constexpr int kSteps = 60;
-  const double width = kImageWidthPx * 0.6;
+  const double width = drawn_px * 0.6;
   std::string body;
   for (int i = 0; i < kSteps; ++i) {
     const double sigma_px = kLeastPx * std::pow(kMostPx / kLeastPx, (i + 0.5) / kSteps);
@@ -89,23 +81,18 @@ std::string Legend(double top) {
 
 }  // namespace
 
-std::string UncertaintySvg(const CalibratedCamera& camera, const std::vector<MappedCorner>& corners) {
-  const double scale = kImageWidthPx / camera.camera.width_px;
-  const double height = camera.camera.height_px * scale;
+std::string UncertaintySvg(const UncertaintyMap& map, const std::vector<MappedCorner>& corners) {
+  const double scale = map.drawn_px / map.width_px;
+  const double top = map.title.empty() ? kMarginPx : kTitlePx, height = map.height_px * scale;
   std::string body =
       "<defs><pattern id=\"unknown\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\">"
       "<rect width=\"6\" height=\"6\" fill=\"#ddd\"/><path d=\"M0 6L6 0\" "
       "stroke=\"#888\"/></pattern></defs>\n";
-  body += SvgText(kMarginPx, 20, fmt::format("{}: how uncertain a direction's pixel is (1 sigma)", camera.id),
-                  " font-size=\"15\"");
-  body +=
-      SvgText(kMarginPx, 38,
-              fmt::format("{} x {} px, {}; median {:.2g} px; above the limit over {:.1f} % of the image",
-                          camera.camera.width_px, camera.camera.height_px, ToString(camera.uncertainty.kind),
-                          camera.median_sigma_px, 100 * camera.uncertain_share),
-              " fill=\"#555\"");
-  body += HeatMap(camera, scale) + Corners(corners, scale) + Legend(kTitlePx + height + 16);
-  return SvgDocument(kImageWidthPx + 2 * kMarginPx, kTitlePx + height + kLegendPx, body);
+  if (!map.title.empty())
+    body += SvgText(kMarginPx, 20, map.title, " font-size=\"15\"") +
+            SvgText(kMarginPx, 38, map.subtitle, " fill=\"#555\"");
+  body += HeatMap(map, top) + Corners(corners, scale, top) + Legend(map.drawn_px, top + height + 16);
+  return SvgDocument(map.drawn_px + 2 * kMarginPx, top + height + kLegendPx, body);
 }
 
 }  // namespace luxfit

@@ -1,4 +1,4 @@
-// Draws the uncertainty of a calibrated camera as SVG: a heat map of the sigma of directions over the image,
+// Draws the uncertainty of a calibrated camera as SVG: a heat map of the sigma of projections over the image,
 // with the corners that it was calibrated from.
 //
 // Colours are logarithmic from 0.01 to 10 px. Cells without information are hatched.
@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "calib/calibrate/calibration.h"
-
 namespace luxfit {
 
 struct MappedCorner {
@@ -18,7 +16,14 @@ struct MappedCorner {
   bool is_outlier = false;
 };
 
-std::string UncertaintySvg(const CalibratedCamera& camera, const std::vector<MappedCorner>& corners);
+struct UncertaintyMap {
+  std::string title, subtitle;      // above the map; no room is left for an empty title
+  int width_px = 0, height_px = 0;  // of the image
+  Eigen::MatrixXd sigma_px;         // a raster of cells over the image, rows from the top; NaN: not known
+  double drawn_px = 720;            // width at which the image is drawn
+};
+
+std::string UncertaintySvg(const UncertaintyMap& map, const std::vector<MappedCorner>& corners);
 
 }  // namespace luxfit
 

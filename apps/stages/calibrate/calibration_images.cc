@@ -159,14 +159,16 @@ CalibrationGroup GroupOf(const Session& session, const std::vector<int>& cameras
   group.cameras = cameras;
   group.is_rig = sets.is_rig;
   group.pairing = sets.rule;
-  group.input.target = TargetFor(session, session.cameras[static_cast<std::size_t>(cameras.front())]);
+  const SessionCamera& first = session.cameras[static_cast<std::size_t>(cameras.front())];
+  group.board = first.board;
+  group.input.target = TargetFor(session, first);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const SessionCamera& camera = session.cameras[static_cast<std::size_t>(cameras[c])];
     group.input.cameras.push_back({camera.id, images[c].size_px.x(), images[c].size_px.y()});
     for (std::size_t i = 0; i < images[c].files.size(); ++i) {
       const BoardDetection& found = images[c].found[i];
       if (IsPoor(found, group.input.target.points.size()))
-        group.messages.push_back(FileName(images[c].files[i]) + ": " + found.message);
+        group.messages[static_cast<int>(group.input.images.size())] = found.message;
       group.input.images.push_back({images[c].files[i], static_cast<int>(c), sets.sets[c][i], found.corners});
     }
   }
@@ -241,7 +243,15 @@ std::vector<CalibrationGroup> SplitRig(const CalibrationGroup& rig) {
   for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
     CalibrationGroup group;
     group.cameras = {rig.cameras[c]};
+    group.board = rig.board;
     group.input = InputOfCamera(rig.input, static_cast<int>(c));
+    int own = 0;
+    for (std::size_t i = 0; i < rig.input.images.size(); ++i) {
+      if (rig.input.images[i].camera != static_cast<int>(c)) continue;
+      const auto message = rig.messages.find(static_cast<int>(i));
+      if (message != rig.messages.end()) group.messages[own] = message->second;
+      ++own;
+    }
     groups.push_back(std::move(group));
   }
   return groups;

@@ -9,6 +9,7 @@
 #define LUXFIT_APPS_STAGES_INTERNAL_CALIBRATION_IMAGES_H_
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +27,8 @@ struct CalibrationGroup {
   bool is_rig = false;
   std::string pairing = "none";  // the rule by which images of several cameras form sets (calibration_sets.h)
   CalibrationInput input;        // images are named by their path as the session has it
-  std::vector<std::string> messages;  // for images that show less than half of the target
+  std::optional<Board> board;    // what the images show; nothing: the room's surveyed tags
+  std::map<int, std::string> messages;  // by image that shows less than half of the target
 };
 
 // Holds the file of the first photo by camera (index into the session's) and view. The others show the same

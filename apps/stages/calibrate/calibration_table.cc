@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/calibrate/image_grouping.h"
 #include "apps/stages/stages.h"
+#include "apps/text/with_sigma.h"
 #include "calib/lens/lens_family.h"
 
 namespace luxfit {
@@ -18,14 +17,6 @@ using nlohmann::json;
 
 double NumberOf(const json& value) {
   return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
-
-// "0.08343 ± 0.00006": the sigma has two digits, and the value as many decimals.
-std::string WithSigma(double value, double sigma) {
-  if (!(sigma > 0)) return fmt::format("{:.6g} ± ?", value);
-  constexpr int kMostDecimals = 9;
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, kMostDecimals);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, sigma, decimals);
 }
 
 std::string CameraLine(const json& camera) {

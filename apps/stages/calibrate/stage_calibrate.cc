@@ -8,6 +8,7 @@
 
 #include "apps/stages/calibrate/calibration_files.h"
 #include "apps/stages/calibrate/calibration_images.h"
+#include "apps/stages/calibrate/calibration_json.h"
 #include "apps/stages/calibrate/image_grouping.h"
 #include "apps/stages/calibrate/shown_board.h"
 #include "apps/text/file_stem.h"
@@ -87,9 +88,11 @@ std::vector<CalibratedGroup> Calibrate(const Session& session, const Calibration
 
 void Report(const CalibratedGroup& calibrated, RunContext& context) {
   const Calibration& c = calibrated.calibration;
-  for (const std::string& message : calibrated.group.messages)
+  for (const auto& [image, message] : calibrated.group.messages)
     context.warnings.push_back(
-        {"image_incomplete", message, "leave such images out, or photograph them again"});
+        {"image_incomplete",
+         FileName(calibrated.group.input.images[static_cast<std::size_t>(image)].name) + ": " + message,
+         "leave such images out, or photograph them again"});
   for (const CalibrationNote& note : c.notes)
     context.warnings.push_back({note.code, note.message, note.remedy, note.fails});
   for (Choice& grouping : GroupingChoices(calibrated.group)) context.choices.push_back(std::move(grouping));

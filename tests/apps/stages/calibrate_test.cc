@@ -79,14 +79,49 @@ TEST_F(CalibrateTest, ARigIsWrittenInEveryFormatThatHoldsIt) {
   EXPECT_NEAR(second_camera["rotation_deg"], 0, 4 * second_camera["rotation_sigma_deg"].get<double>());
   EXPECT_EQ(group["cameras"][0]["baseline_m"], 0);
   EXPECT_EQ(group["images"].size(), 28U);
+  EXPECT_EQ(group["board"], "chessboard:12x9:0.05");
+  const json maps = second_camera["uncertainty"]["maps"];
+  ASSERT_EQ(maps.size(), 2U);
+  EXPECT_TRUE(maps[0]["range_m"].is_null()) << "directions";
+  EXPECT_NEAR(maps[1]["range_m"], group["images"][0]["distance_m"], 1);
+  EXPECT_EQ(maps[0]["sigma_px"].size(), 18U) << "24 columns of an image of 4 : 3";
+  EXPECT_NEAR(maps[0]["sigma_px"][9][12], second_camera["uncertainty"]["middle_px"], 0.01);
   for (const char* name : {"cam0.yaml", "cam1.cameramodel", "camchain.yaml", "cameras.txt"}) {
     const std::vector<FiledCamera> read = ReadCameraFile(folder_.Path("out/" + std::string(name)));
     EXPECT_NEAR(read.back().camera.fx_px, truth.fx_px, 2) << name;
   }
   EXPECT_EQ(folder_.Read("out/cam0_uncertainty.svg").rfind("<svg", 0), 0U);
   EXPECT_NE(folder_.Read("out/corner_residuals.csv").find("\"cam1_3.png\",\"cam1\","), std::string::npos);
+  EXPECT_EQ(folder_.Read("out/corner_residuals.csv")
+                .rfind("file,camera,corner,residual_x_px,residual_y_px,outlier,x_px,y_px\n", 0),
+            0U);
   EXPECT_EQ(ReadCornersFile(folder_.Path("out/corners.vnl"), 108).size(), 28U);
   EXPECT_FALSE(folder_.Read("out/stages/calibrate.json").empty());
+}
+
+// A corner's pixel and residual follow from the artifact alone: pose of the target, lens, place on the board.
+TEST_F(CalibrateTest, PosesOfTheTargetPlaceItsCorners) {
+  auto rng = support::TestRng();
+  support::BoardViewsOptions views;
+  views.images = 10;
+  const CalibrationInput input = support::ViewsOf(support::OpenCv8Camera(), views, rng);
+  folder_.Write("cam0.vnl", CornersOf(input, 0));
+  folder_.Write("session.toml", CameraToml("cam0") + "[calibration]\nlens = \"opencv8\"\n");
+  Calibrate();
+  const json group = json::parse(folder_.Read("out/stages/calibrate.json"))["groups"][0];
+  const Camera camera = ReadCameraFile(folder_.Path("out/cam0.cameramodel")).front().camera;
+  for (std::size_t i = 0; i < group["images"].size(); ++i) {
+    const json& image = group["images"][i];
+    Eigen::Vector3d p_in_cam;
+    const BoardCorner& corner = input.images[i].corners.front();
+    for (int k = 0; k < 3; ++k) {
+      p_in_cam[k] = image["t_camera_from_target_m"][k];
+      for (int m = 0; m < 3; ++m)
+        p_in_cam[k] += image["R_camera_from_target"][k][m].get<double>() *
+                       input.target.points[static_cast<std::size_t>(corner.index)][m];
+    }
+    EXPECT_LT((Project(camera, p_in_cam) - corner.pixel).norm(), 8 * group["noise_px"].get<double>()) << i;
+  }
 }
 
 TEST_F(CalibrateTest, WhatFailsAGateIsMarkedAndEndsWithOne) {
