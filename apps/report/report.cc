@@ -1,7 +1,6 @@
 #include "apps/report/report.h"
 
 #include <algorithm>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "apps/export/fit_uncertainty.h"
@@ -18,14 +17,6 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-std::string NowUtc() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &parts)};
-}
 
 json StatesJson(const FittedRoom& fitted) {
   json states = json::array();

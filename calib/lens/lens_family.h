@@ -63,9 +63,10 @@ struct LensOps {
   bool is_tried_on_wide_fields_only = false;
 
   // Distortion.
-  int coefficients = 0;                    // at most, in Camera::distortion
-  bool has_control_points = false;         // over a stereographic lens, instead of coefficients
-  bool is_pinhole = false;                 // without distortion; sees nothing behind it
+  int coefficients = 0;                             // at most, in Camera::distortion
+  std::vector<const char*> coefficient_names = {};  // as its equation in camera.h has them
+  bool has_control_points = false;                  // over a stereographic lens, instead of coefficients
+  bool is_pinhole = false;                          // without distortion; sees nothing behind it
   bool is_nested = false;                  // a size contains the smaller ones: its fit starts from theirs
   const char* distortion_model = nullptr;  // in OpenCV's and Kalibr's files, where it alone tells the family
 

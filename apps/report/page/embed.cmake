@@ -1,5 +1,5 @@
 # Writes OUTPUT, a source that holds the page's text, style and program as string literals.
-# cmake -DHTML=... -DCSS=... -DSCRIPT=... -DOUTPUT=... -P embed.cmake
+# cmake -DHTML=... -DPROGRAM=... -DCSS=... -DSCRIPT=... -DOUTPUT=... -P embed.cmake
 function(literal path variable)
   file(READ "${path}" text)
   string(LENGTH "${text}" length)
@@ -15,6 +15,7 @@ function(literal path variable)
 endfunction()
 
 literal("${HTML}" html)
+literal("${PROGRAM}" program)
 literal("${CSS}" css)
 literal("${SCRIPT}" script)
 file(WRITE "${OUTPUT}" "// Made by apps/report/embed.cmake.
@@ -24,9 +25,10 @@ namespace luxfit {
 
 ReportAssets GetReportAssets() {
   static constexpr char kHtml[] =\n${html};
+  static constexpr char kProgram[] =\n${program};
   static constexpr char kCss[] =\n${css};
   static constexpr char kScript[] =\n${script};
-  return {{kHtml, sizeof kHtml - 1}, {kCss, sizeof kCss - 1}, {kScript, sizeof kScript - 1}};
+  return {{kHtml, sizeof kHtml - 1}, {kProgram, sizeof kProgram - 1}, {kCss, sizeof kCss - 1}, {kScript, sizeof kScript - 1}};
 }
 
 }  // namespace luxfit

@@ -95,6 +95,7 @@ LensOps FisheyeLens() {
   ops.tried_sizes = {kCoefficients};
   ops.is_tried_on_wide_fields_only = true;
   ops.coefficients = kCoefficients;
+  ops.coefficient_names = {"k1", "k2", "k3", "k4"};
   ops.distortion_model = "equidistant";
   ops.is_in_opencv = true;
   ops.image = FisheyeImage;

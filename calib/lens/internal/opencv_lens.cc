@@ -114,6 +114,7 @@ LensOps OpenCvLens() {
   ops.has_size = [](int size) { return size == 4 || size == 5 || size == 8 || size == 12; };
   ops.tried_sizes = {4, 5, 8, 12};
   ops.coefficients = 12;
+  ops.coefficient_names = {"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4"};
   ops.is_pinhole = true;
   ops.is_nested = true;
   ops.is_in_mrcal = true;
