@@ -29,7 +29,8 @@ void AddCheck(CLI::App& app, Invocation& invocation) {
 }
 
 void AddReport(CLI::App& app, Invocation& invocation) {
-  CLI::App* const command = app.add_subcommand("report", "one self-contained HTML page of an earlier run");
+  CLI::App* const command =
+      app.add_subcommand("report", "one self-contained HTML page of an earlier run or calibration");
   const auto options = std::make_shared<ReportCommandOptions>();
   AddRunFolder(*command, options->out);
   command->add_option("--session", options->session, "the session file, if it has moved since the run");

@@ -193,6 +193,7 @@ board = {{ type = "chessboard", columns = 12, rows = 9, square_size_m = 0.05 }}
 """
     write(IN / "rig/session.toml", session + '[calibration]\nlens = "opencv4"\n')
     luxfit("calibrate", IN / "rig/session.toml", "-o", OUT / "calibrate")
+    luxfit("report", OUT / "calibrate", save="calibration_report")
     alone = session[:session.index("[[camera]]", 1)]
     write(IN / "rig/alone.toml", alone + '[calibration]\nlens = "splined8"\n')
     luxfit("calibrate", IN / "rig/alone.toml", "-o", OUT / "calibrate_alone", status=1)

@@ -6,9 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "apps/report/calibration/calibration_report.h"
 #include "apps/report/report.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/input_error.h"
 
 namespace luxfit {
 namespace {
@@ -40,17 +43,59 @@ std::string SummaryText(const json& summary) {
   return text;
 }
 
+// Holds what a page says in figures, and the text for the terminal.
+struct Reported {
+  json summary;
+  std::string text;
+};
+
+Reported ReportRoom(const ReportCommandOptions& options) {
+  const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
+  const json data = ReportData(fitted, {options.targets, options.state, options.command_line});
+  json summary = ReportSummary(data);
+  summary["report"] = WriteReport(fitted, data);
+  std::string text = SummaryText(summary);
+  return {std::move(summary), std::move(text)};
+}
+
+Reported ReportCalibration(const ReportCommandOptions& options) {
+  const std::string file = CalibrationFileOf(options.out);
+  for (const auto& [flag, value] : {std::pair{"--session", options.session},
+                                    {"--targets", options.targets},
+                                    {"--state", options.state}}) {
+    if (!value.empty())
+      throw InputError(
+          {flag, 0}, "",
+          "expected the result of a room, got the calibration " + file + "; leave " + flag + " out");
+  }
+  const CalibrationRecord record = ReadCalibrationRecord(options.out);
+  const std::string path = record.out + "/report.html";
+  WriteText(path, CalibrationPage(record, options.command_line));
+  json summary = CalibrationSummary(record);
+  summary["report"] = path;
+  std::string text = summary.at("verdict").get<std::string>() + "\n";
+  return {std::move(summary), std::move(text)};
+}
+
+Reported Report(const ReportCommandOptions& options) {
+  namespace fs = std::filesystem;
+  if (fs::exists(options.out + "/result.json")) return ReportRoom(options);
+  if (fs::exists(CalibrationFileOf(options.out))) return ReportCalibration(options);
+  throw InputError(
+      {options.out, 0}, "",
+      "expected result.json of a room or stages/calibrate.json of cameras, got neither; run `luxfit run` or "
+      "`luxfit calibrate` with -o " +
+          options.out);
+}
+
 }  // namespace
 
 int ReportCommand(const ReportCommandOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const FittedRoom fitted = ReadFittedRoom(options.out, options.session);
-  const json data = ReportData(fitted, {options.targets, options.state, options.command_line});
-  const std::string path = WriteReport(fitted, data);
-  json summary = ReportSummary(data);
-  summary["report"] = path;
+  const Reported reported = Report(options);
+  const auto path = reported.summary.at("report").get<std::string>();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  std::fputs((options.json ? JsonText(summary) : SummaryText(summary)).c_str(), stdout);
+  std::fputs((options.json ? JsonText(reported.summary) : reported.text).c_str(), stdout);
   std::fprintf(stderr, "done      %.1f s, %s, %.1f MB\n", elapsed.count(), path.c_str(),
                1e-6 * static_cast<double>(std::filesystem::file_size(path)));
   return 0;

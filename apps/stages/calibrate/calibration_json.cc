@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -70,8 +70,8 @@ json RotationJson(const Eigen::Isometry3d& pose) { return MatrixJson(pose.linear
 json CornerDirections(const Camera& camera) {
   const double right = camera.width_px - 1, bottom = camera.height_px - 1;
   json directions = json::array();
-  for (const Eigen::Vector2d& corner :
-       {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0), Eigen::Vector2d(right, bottom), Eigen::Vector2d(0, bottom)})
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0),
+                                        Eigen::Vector2d(right, bottom), Eigen::Vector2d(0, bottom)})
     directions.push_back(VectorJson(Unproject(camera, corner)));
   return directions;
 }
@@ -94,8 +94,9 @@ json SigmaMapJson(const CalibratedCamera& camera, double range_m) {
   const Camera& c = camera.camera;
   const int rows = std::max(1, static_cast<int>(std::lround(1.0 * kMapColumns * c.height_px / c.width_px)));
   const Eigen::MatrixXd sigma_px =
-      ProjectionSigmaMap(c, camera.uncertainty, kMapColumns, rows, range_m)
-          .unaryExpr([](double sigma) { return std::isfinite(sigma) ? std::stod(fmt::format("{:.3g}", sigma)) : sigma; });
+      ProjectionSigmaMap(c, camera.uncertainty, kMapColumns, rows, range_m).unaryExpr([](double sigma) {
+        return std::isfinite(sigma) ? std::stod(fmt::format("{:.3g}", sigma)) : sigma;
+      });
   return {{"range_m", NumberOrNull(range_m)}, {"sigma_px", MatrixJson(sigma_px)}};
 }
 

@@ -1,0 +1,157 @@
+#include "apps/report/calibration/calibration_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/charts/svg.h"
+#include "apps/report/calibration/calibration_answer.h"
+#include "apps/report/calibration/calibration_pictures.h"
+#include "apps/report/html.h"
+#include "apps/report/report_page.h"
+#include "apps/text/formats/json_vectors.h"
+#include "apps/version.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+
+std::string Header(const CalibrationRecord& record) {
+  const bool is_done = record.artifact->at("status") == "done";
+  return fmt::format(
+      "<header><div class=\"title\"><h1>{}</h1><p>Cameras as calibrated: lenses, rig, and how well they are "
+      "known. "
+      "<span class=\"nowrap\">{}</span>, luxfit {}</p></div><div class=\"actions\"><span class=\"status "
+      "{}\">{}</span>"
+      "</div></header>\n",
+      XmlEscaped(record.artifact->at("session").get<std::string>()), NowUtc(), kVersion,
+      is_done ? "done" : "undetermined", is_done ? "usable" : "not usable as it is");
+}
+
+std::string Navigation() {
+  std::string links;
+  for (const auto& [id, name] : {std::pair{"answer", "Answer"},
+                                 {"residuals", "Residuals"},
+                                 {"coverage", "Coverage"},
+                                 {"uncertainty", "Uncertainty"},
+                                 {"rig", "Cameras and boards"},
+                                 {"photos", "Photos"},
+                                 {"choices", "Choices"},
+                                 {"provenance", "Provenance"}})
+    links += fmt::format("<a href=\"#{}\">{}</a>", id, name);
+  return "<div class=\"bar no-print\"><nav aria-label=\"Parts of the report\">" + links + "</nav></div>\n";
+}
+
+std::string PhotoTable(const RecordedGroup& group) {
+  std::vector<std::vector<std::string>> rows;
+  for (const RecordedImage& image : group.images) {
+    const bool is_used = image.outliers < image.corners;
+    rows.push_back({image.file, image.camera, is_used ? fmt::format("{:.3f}", image.rms_px) : "–",
+                    fmt::format("{}", image.corners), fmt::format("{}", image.outliers),
+                    fmt::format("{:.0f}", 1000 * image.distance_m),
+                    is_used ? "used" : "left out: too few of its corners fit for a pose"});
+  }
+  for (const LeftOutImage& image : group.left_out)
+    rows.push_back({image.file, image.camera, "–", "–", "–", "–", "left out: " + image.reason});
+  return HtmlTable({{"Photo", false},
+                    {"Camera", false},
+                    {"rms per axis, px", true},
+                    {"corners", true},
+                    {"of them left out", true},
+                    {"distance, mm", true},
+                    {"", false}},
+                   rows);
+}
+
+std::string PhotoSection(const CalibrationRecord& record) {
+  std::string html;
+  for (const RecordedGroup& group : record.groups)
+    html += HtmlParagraph(fmt::format("Target: {}{}.",
+                                      group.board.empty() ? "the room's surveyed tags" : group.board,
+                                      group.is_rig ? "; photos of a set share one pose of it" : "")) +
+            PhotoTable(group);
+  return HtmlSection("photos", "Photos", "", html);
+}
+
+std::string ChoiceSection(const json& artifact) {
+  std::string html = "<dl class=\"choices\">\n";
+  for (const json& choice : artifact.at("choices")) {
+    std::string among;
+    for (const json& candidate : choice.at("among"))
+      among += (among.empty() ? "" : ", ") + candidate.get<std::string>();
+    html +=
+        fmt::format("<dt>{}: <b>{}</b></dt><dd>{}{}</dd>\n", XmlEscaped(choice.at("what").get<std::string>()),
+                    XmlEscaped(choice.at("chosen").get<std::string>()),
+                    XmlEscaped(choice.at("because").get<std::string>()),
+                    among.empty() ? "" : "; among " + XmlEscaped(among));
+  }
+  return HtmlSection("choices", "Choices and why", "", html + "</dl>\n");
+}
+
+std::string ProvenanceSection(const CalibrationRecord& record, const std::string& command_line) {
+  const json& artifact = *record.artifact;
+  std::string files;
+  for (const json& file : artifact.at("files"))
+    files += (files.empty() ? "" : ", ") + file.get<std::string>();
+  std::string hashes;
+  for (const auto& [file, hash] : artifact.at("inputs").items())
+    hashes += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", XmlEscaped(file),
+                          XmlEscaped(hash.get<std::string>()));
+  return HtmlSection("provenance", "Provenance", "",
+                     HtmlPairs({{"Session", artifact.at("session")},
+                                {"Made by", "luxfit " + artifact.at("luxfit_version").get<std::string>()},
+                                {"Command", artifact.at("command")},
+                                {"Report", command_line},
+                                {"Report written", NowUtc()},
+                                {"Files of the cameras", files}}) +
+                         HtmlDetails(fmt::format("{} input files with their hashes (XXH3, 128 bit)",
+                                                 artifact.at("inputs").size()),
+                                     "<div class=\"scroll\"><table class=\"hashes\"><tbody>\n" + hashes +
+                                         "</tbody></table></div>\n"));
+}
+
+json CameraSummary(const RecordedCamera& camera) {
+  return {{"id", camera.id},
+          {"fx_px", camera.parameters[0]},
+          {"fy_px", camera.parameters[1]},
+          {"fx_sigma_px", NumberOrNull(camera.parameter_sigmas[0])},
+          {"fy_sigma_px", NumberOrNull(camera.parameter_sigmas[1])},
+          {"median_sigma_px", NumberOrNull(camera.median_sigma_px)},
+          {"baseline_m", camera.baseline_m},
+          {"baseline_sigma_m", NumberOrNull(camera.baseline_sigma_m)},
+          {"rotation_deg", camera.rotation_deg},
+          {"rotation_sigma_deg", NumberOrNull(camera.rotation_sigma_deg)}};
+}
+
+}  // namespace
+
+std::string CalibrationPage(const CalibrationRecord& record, const std::string& command_line) {
+  const json& artifact = *record.artifact;
+  return ReportPageWithoutProgram(
+      artifact.at("session"),
+      Header(record) + Navigation() + "<main>\n" + AnswerSection(record) + ResidualSection(record) +
+          CoverageSection(record) + UncertaintySection(record) + RigSection(record) + PhotoSection(record) +
+          ChoiceSection(artifact) + ProvenanceSection(record, command_line) + "</main>\n");
+}
+
+json CalibrationSummary(const CalibrationRecord& record) {
+  json groups = json::array();
+  for (const RecordedGroup& group : record.groups) {
+    json cameras = json::array();
+    for (const RecordedCamera& camera : group.cameras) cameras.push_back(CameraSummary(camera));
+    groups.push_back({{"usable", group.is_usable},
+                      {"lens", group.lens.empty() ? json() : json(group.lens)},
+                      {"rms_px", group.rms_px},
+                      {"held_out_rms_px", NumberOrNull(group.held_out_px)},
+                      {"images", group.images.size()},
+                      {"images_left_out", group.left_out.size()},
+                      {"cameras", cameras}});
+  }
+  return {{"session", record.artifact->at("session")},
+          {"status", record.artifact->at("status")},
+          {"verdict", Verdict(record)},
+          {"groups", groups}};
+}
+
+}  // namespace luxfit
