@@ -120,7 +120,6 @@ RecordedImage ImageOf(const json& entry) {
   image.outliers = entry.at("outliers");
   Expect(image.corners >= 0 && image.outliers >= 0, "numbers of corners");
   image.rms_px = entry.at("rms_px");
-  image.distance_m = entry.at("distance_m");
   image.cam_from_target = PoseOf(entry.at("R_camera_from_target"), entry.at("t_camera_from_target_m"));
   return image;
 }

@@ -46,7 +46,7 @@ struct RecordedCamera {
 struct RecordedImage {
   std::string file, camera;
   int set = 0, corners = 0, outliers = 0;
-  double rms_px = 0, distance_m = 0;
+  double rms_px = 0;
   Eigen::Isometry3d cam_from_target = Eigen::Isometry3d::Identity();
 };
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "apps/charts/svg.h"
 #include "apps/report/calibration/calibration_answer.h"
@@ -29,18 +31,20 @@ std::string Header(const CalibrationRecord& record) {
       is_done ? "done" : "undetermined", is_done ? "usable" : "not usable as it is");
 }
 
-std::string Navigation() {
+struct Part {
+  std::string id, name, html;  // the name is that of the link to it
+};
+
+std::string Navigation(const std::vector<Part>& parts) {
   std::string links;
-  for (const auto& [id, name] : {std::pair{"answer", "Answer"},
-                                 {"residuals", "Residuals"},
-                                 {"coverage", "Coverage"},
-                                 {"uncertainty", "Uncertainty"},
-                                 {"rig", "Cameras and boards"},
-                                 {"photos", "Photos"},
-                                 {"choices", "Choices"},
-                                 {"provenance", "Provenance"}})
-    links += fmt::format("<a href=\"#{}\">{}</a>", id, name);
+  for (const Part& part : parts) links += fmt::format("<a href=\"#{}\">{}</a>", part.id, part.name);
   return "<div class=\"bar no-print\"><nav aria-label=\"Parts of the report\">" + links + "</nav></div>\n";
+}
+
+// Returns the distance of the board's middle, mm. A room's tags have none: a camera stands among them.
+std::string DistanceText(const RecordedGroup& group, const RecordedImage& image) {
+  if (group.board.empty()) return "–";
+  return fmt::format("{:.0f}", 1000 * (image.cam_from_target * group.target.center()).norm());
 }
 
 std::string PhotoTable(const RecordedGroup& group) {
@@ -49,7 +53,7 @@ std::string PhotoTable(const RecordedGroup& group) {
     const bool is_used = image.outliers < image.corners;
     rows.push_back({image.file, image.camera, is_used ? fmt::format("{:.3f}", image.rms_px) : "–",
                     fmt::format("{}", image.corners), fmt::format("{}", image.outliers),
-                    fmt::format("{:.0f}", 1000 * image.distance_m),
+                    DistanceText(group, image),
                     is_used ? "used" : "left out: too few of its corners fit for a pose"});
   }
   for (const LeftOutImage& image : group.left_out)
@@ -60,7 +64,7 @@ std::string PhotoTable(const RecordedGroup& group) {
                     {"corners", true},
                     {"of them left out", true},
                     {"distance, mm", true},
-                    {"", false}},
+                    {"use", false}},
                    rows);
 }
 
@@ -111,6 +115,12 @@ std::string ProvenanceSection(const CalibrationRecord& record, const std::string
                                          "</tbody></table></div>\n"));
 }
 
+// Tells whether anything was calibrated that could be drawn.
+bool HasCameras(const CalibrationRecord& record) {
+  return std::any_of(record.groups.begin(), record.groups.end(),
+                     [](const RecordedGroup& group) { return !group.cameras.empty(); });
+}
+
 json CameraSummary(const RecordedCamera& camera) {
   return {{"id", camera.id},
           {"fx_px", camera.parameters[0]},
@@ -127,12 +137,19 @@ json CameraSummary(const RecordedCamera& camera) {
 }  // namespace
 
 std::string CalibrationPage(const CalibrationRecord& record, const std::string& command_line) {
-  const json& artifact = *record.artifact;
-  return ReportPageWithoutProgram(
-      artifact.at("session"),
-      Header(record) + Navigation() + "<main>\n" + AnswerSection(record) + ResidualSection(record) +
-          CoverageSection(record) + UncertaintySection(record) + RigSection(record) + PhotoSection(record) +
-          ChoiceSection(artifact) + ProvenanceSection(record, command_line) + "</main>\n");
+  std::vector<Part> parts = {{"answer", "Answer", AnswerSection(record)}};
+  if (HasCameras(record)) {
+    parts.push_back({"residuals", "Residuals", ResidualSection(record)});
+    parts.push_back({"coverage", "Coverage", CoverageSection(record)});
+    parts.push_back({"uncertainty", "Uncertainty", UncertaintySection(record)});
+    parts.push_back({"rig", "Cameras and boards", RigSection(record)});
+  }
+  parts.push_back({"photos", "Photos", PhotoSection(record)});
+  parts.push_back({"choices", "Choices", ChoiceSection(*record.artifact)});
+  parts.push_back({"provenance", "Provenance", ProvenanceSection(record, command_line)});
+  std::string html = Header(record) + Navigation(parts) + "<main>\n";
+  for (const Part& part : parts) html += part.html;
+  return ReportPageWithoutProgram(record.artifact->at("session"), html + "</main>\n");
 }
 
 json CalibrationSummary(const CalibrationRecord& record) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "apps/charts/uncertainty_svg.h"
@@ -81,9 +82,11 @@ std::vector<MappedCorner> CornersOf(const CalibratedGroup& calibrated, int camer
   return corners;
 }
 
-// Returns the field of a name, always with quotes.
+// Returns the field of a name, always with quotes. Bytes that are no UTF-8 become U+FFFD, as in the artifact.
 std::string QuotedField(const std::string& name) {
-  const std::string field = CsvField(OneLine(name));
+  using nlohmann::json;
+  const std::string whole = json(OneLine(name)).dump(-1, ' ', false, json::error_handler_t::replace);
+  const std::string field = CsvField(json::parse(whole).get<std::string>());
   return !field.empty() && field.front() == '"' ? field : '"' + field + '"';
 }
 

@@ -76,12 +76,22 @@ json CornerDirections(const Camera& camera) {
   return directions;
 }
 
+// Returns the distance of the middle of the corners that an image shows.
+double RangeM(const CalibrationInput& input, const ImageCalibration& image) {
+  const std::vector<BoardCorner>& corners = input.images[static_cast<std::size_t>(image.image)].corners;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const BoardCorner& corner : corners)
+    sum += input.target.points[static_cast<std::size_t>(corner.index)];
+  return (image.cam_from_target * Eigen::Vector3d(sum / static_cast<double>(corners.size()))).norm();
+}
+
 // Returns the median distance of the target in the camera's images; 0 without images.
 double UsualRangeM(const CalibratedGroup& calibrated, int camera) {
+  const CalibrationInput& input = calibrated.group.input;
   std::vector<double> ranges_m;
   for (const ImageCalibration& image : calibrated.calibration.images) {
-    if (calibrated.group.input.images[static_cast<std::size_t>(image.image)].camera == camera)
-      ranges_m.push_back(image.cam_from_target.translation().norm());
+    if (input.images[static_cast<std::size_t>(image.image)].camera == camera)
+      ranges_m.push_back(RangeM(input, image));
   }
   if (ranges_m.empty()) return 0;
   const auto middle = ranges_m.begin() + static_cast<std::ptrdiff_t>(ranges_m.size() / 2);

@@ -175,6 +175,19 @@ TEST_F(CalibrationReportTest, SaysWhatIsNotUsableAndWhereCornersLack) {
   EXPECT_THAT(page, HasSubstr("<b>Remedy: </b>"));
 }
 
+TEST_F(CalibrationReportTest, PhotosWithoutABoardGiveAPageThatSaysSo) {
+  std::string table = folder_->Read("cam0.vnl");
+  folder_->Write("none.vnl", table.substr(0, table.find('\n') + 1) + "a.png - - -\nb.png - - -\n");
+  folder_->Write("none.toml", CameraToml("blind", "none.vnl"));
+  support::RunProgram("calibrate " + Path("none.toml") + " -o " + Path("none"));
+  const support::ProgramRun run = support::RunProgram("report " + Path("none"));
+  ASSERT_EQ(run.status, 0) << run.output;
+  const std::string page = folder_->Read("none/report.html");
+  EXPECT_THAT(page, HasSubstr("Nothing was calibrated"));
+  EXPECT_THAT(page, HasSubstr("left out: no corners in the table"));
+  EXPECT_THAT(page, Not(HasSubstr("<svg")));
+}
+
 TEST_F(CalibrationReportTest, JsonHasTheSameFigures) {
   const support::ProgramRun run = support::RunProgram("report " + Path("out") + " --json 2>/dev/null");
   ASSERT_EQ(run.status, 0) << run.output;
