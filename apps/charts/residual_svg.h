@@ -3,8 +3,9 @@
 //   vector: from where the corner was seen, magnified, along predicted - seen
 //   histogram: both components of the corners in use, beside the normal curve of the noise
 //
-// The magnification is a round number at which nine tenths of the vectors are shorter than 8 % of its width. Outliers
-// are crosses. A residual that is not finite has no vector.
+// The magnification is a round number at which nine tenths of the vectors are shorter than 8 % of the image's
+// width.
+// Outliers are crosses. A residual that is not finite has no vector.
 #ifndef LUXFIT_APPS_CHARTS_RESIDUAL_SVG_H_
 #define LUXFIT_APPS_CHARTS_RESIDUAL_SVG_H_
 
@@ -26,7 +27,8 @@ double ResidualMagnification(const ImageFrame& frame, const std::vector<SeenCorn
 
 std::string ResidualVectorsSvg(const ImageFrame& frame, const std::vector<SeenCorner>& corners);
 
-// `noise_px`: sigma of the curve, per axis. Returns an empty text where no corner is in use or there is no noise.
+// `noise_px`: sigma of the curve, per axis. Returns an empty text where no corner is in use or there is no
+// noise.
 std::string ResidualHistogramSvg(const std::vector<SeenCorner>& corners, double noise_px);
 
 }  // namespace luxfit

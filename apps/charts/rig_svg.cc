@@ -20,7 +20,8 @@ Eigen::Vector3d MiddleOf(const std::array<Eigen::Vector3d, 4>& board) {
   return (board[0] + board[1] + board[2] + board[3]) / 4;
 }
 
-// Returns the length at which fields of view are drawn: a part of the way to the boards, else of the rig's size.
+// Returns the length at which fields of view are drawn: a part of the way to the boards, else of the rig's
+// size.
 double FieldLengthM(const DrawnRig& rig) {
   constexpr double kPartOfWay = 0.35, kLeastM = 0.02;
   double length_m = kLeastM;

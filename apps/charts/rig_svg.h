@@ -3,8 +3,8 @@
 //   plan   right: x, up: z         seen from above, where the first camera looks up the page
 //   side   right: z, down: y       seen from the first camera's right side
 //
-// The frame is that of the rig's first camera: x right, y down, z forward. Dimension lines give the distance of each camera
-// from the first one (plan) and of the nearest and farthest board (side).
+// The frame is that of the rig's first camera: x right, y down, z forward. Dimension lines give the distance
+// of each camera from the first one (plan) and of the nearest and farthest board (side).
 #ifndef LUXFIT_APPS_CHARTS_RIG_SVG_H_
 #define LUXFIT_APPS_CHARTS_RIG_SVG_H_
 

@@ -1,5 +1,5 @@
-// Makes the pieces of HTML of which a page without a program consists. Every text is escaped; parameters that are HTML already
-// say so in their names.
+// Makes the pieces of HTML of which a page without a program consists. Every text is escaped; parameters that
+// are HTML already say so in their names.
 #ifndef LUXFIT_APPS_REPORT_HTML_H_
 #define LUXFIT_APPS_REPORT_HTML_H_
 
@@ -14,8 +14,8 @@ struct HtmlColumn {
   bool is_number = false;
 };
 
-// Returns a table in a box that scrolls by itself where the page is narrow. A row has as many texts as there are columns; its
-// first one is its heading.
+// Returns a table in a box that scrolls by itself where the page is narrow. A row has as many texts as there
+// are columns; its first one is its heading.
 std::string HtmlTable(const std::vector<HtmlColumn>& columns,
                       const std::vector<std::vector<std::string>>& rows);
 

@@ -1,8 +1,9 @@
 // Makes the page of a report: one HTML file that needs nothing else.
 //
-// The file holds style, program (including three.js) and data; a page that needs no program holds its parts as
-// HTML, and its browser refuses every script. The data are JSON in a script element that no browser runs. Every '<', '>' and '&' in it is written as \u003c, \u003e, \u0026, so that no text of the
-// user can end the element.
+// The file holds style, program (including three.js) and data; a page that needs no program holds its parts
+// as HTML, and its browser refuses every script. The data are JSON in a script element that no browser runs.
+// Every '<', '>' and '&' in it is written as \u003c, \u003e, \u0026, so that no text of the user can end the
+// element.
 //
 // Source: HTML Living Standard, sec. 4.12.1.3 (restrictions for contents of script elements).
 #ifndef LUXFIT_APPS_REPORT_REPORT_PAGE_H_

@@ -1,8 +1,9 @@
-// Runs `luxfit report OUT`: makes one self-contained HTML page of an earlier run (apps/report/report.h), or of a calibration
-// (apps/report/calibration/calibration_report.h) where OUT holds no room.
+// Runs `luxfit report OUT`: makes one self-contained HTML page of an earlier run (apps/report/report.h), or
+// of a calibration (apps/report/calibration/calibration_report.h) where OUT holds no room.
 //
-// Prints its path and the statistics of its areas, or whether the calibration can be used, as JSON on request. Throws
-// std::runtime_error for an OUT with neither, and for targets or a state that cannot be read (exit status 2).
+// Prints its path and the statistics of its areas, or whether the calibration can be used, as JSON on
+// request. Throws std::runtime_error for an OUT with neither, and for targets or a state that cannot be read
+// (exit status 2).
 #ifndef LUXFIT_APPS_COMMANDS_RESULT_REPORT_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_RESULT_REPORT_COMMAND_H_
 

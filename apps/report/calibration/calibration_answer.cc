@@ -132,7 +132,9 @@ std::string GroupAnswer(const RecordedGroup& group, bool is_alone) {
   const std::string names = CameraNames(group);
   std::string html = is_alone ? "" : HtmlHeading(3, names.empty() ? "Not calibrated" : names);
   if (group.lens.empty()) return html + HtmlParagraph("Nothing was calibrated: see the findings.", "notice");
-  html += Cards(group) + HtmlSideBySide(LensTable(group) + RigTable(group));
+  // Half a page is wide enough for the columns of two cameras.
+  const std::string tables = LensTable(group) + RigTable(group);
+  html += Cards(group) + (group.cameras.size() > 2 ? tables : HtmlSideBySide(tables));
   return html + HtmlParagraph(fmt::format("Lens model: {}, {}.", NameOfLens(group),
                                           group.lens_because.empty() ? "as given" : group.lens_because));
 }

@@ -1,4 +1,5 @@
-// Makes the pictures of the page of a calibration: residuals, coverage, uncertainty and the rig, one section each.
+// Makes the pictures of the page of a calibration: residuals, coverage, uncertainty and the rig, one section
+// each.
 #ifndef LUXFIT_APPS_REPORT_CALIBRATION_CALIBRATION_PICTURES_H_
 #define LUXFIT_APPS_REPORT_CALIBRATION_CALIBRATION_PICTURES_H_
 

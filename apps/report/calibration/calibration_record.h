@@ -1,7 +1,7 @@
 // Reads what `luxfit calibrate` left in its folder: OUT/stages/calibrate.json and OUT/corner_residuals.csv.
 //
-// docs/schema/calibrate.schema.json describes the first. The second has the corners of the images in the order in which
-// the first has the images. What is not determined is NaN.
+// docs/schema/calibrate.schema.json describes the first. The second has the corners of the images in the
+// order in which the first has the images. What is not determined is NaN.
 //
 // Throws std::runtime_error naming the file that is missing, has another format, or is of an earlier version.
 #ifndef LUXFIT_APPS_REPORT_CALIBRATION_CALIBRATION_RECORD_H_

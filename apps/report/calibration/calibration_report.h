@@ -1,4 +1,5 @@
-// Makes the report of a calibration: OUT/report.html, one file that opens from disk without a network and runs no script.
+// Makes the report of a calibration: OUT/report.html, one file that opens from disk without a network and
+// runs no script.
 //
 // docs/calibrate-a-rig.md explains each part.
 #ifndef LUXFIT_APPS_REPORT_CALIBRATION_CALIBRATION_REPORT_H_

@@ -99,7 +99,8 @@ double UsualRangeM(const CalibratedGroup& calibrated, int camera) {
   return *middle;
 }
 
-// Returns the sigma of projections over the image, at the given range. Three digits are more than a sigma has.
+// Returns the sigma of projections over the image, at the given range. Three digits are more than a sigma
+// has.
 json SigmaMapJson(const CalibratedCamera& camera, double range_m) {
   const Camera& c = camera.camera;
   const int rows = std::max(1, static_cast<int>(std::lround(1.0 * kMapColumns * c.height_px / c.width_px)));

@@ -1,4 +1,5 @@
-// `luxfit report` on the folder of a calibration, as a user runs it: one page with the numbers of calibrate.json.
+// `luxfit report` on the folder of a calibration, as a user runs it: one page with the numbers of
+// calibrate.json.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,8 +45,8 @@ std::size_t Count(const std::string& text, const std::string& part) {
 
 class CalibrationReportTest : public testing::Test {
  protected:
-  // A rig of two cameras, one of which is named as nobody should, in out; one camera whose board was never tilted and
-  // always on the right, in flat.
+  // A rig of two cameras, one of which is named as nobody should, in out; one camera whose board was never
+  // tilted and always on the right, in flat.
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TempFolder>();
     std::mt19937_64 rng(3);
