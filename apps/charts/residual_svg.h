@@ -4,8 +4,7 @@
 //   histogram: both components of the corners in use, beside the normal curve of the noise
 //
 // The magnification is a round number at which nine tenths of the vectors are shorter than 8 % of the image's
-// width.
-// Outliers are crosses. A residual that is not finite has no vector.
+// width. Outliers are crosses. A residual that is not finite has no vector.
 #ifndef LUXFIT_APPS_CHARTS_RESIDUAL_SVG_H_
 #define LUXFIT_APPS_CHARTS_RESIDUAL_SVG_H_
 

@@ -7,6 +7,11 @@
 namespace luxfit {
 namespace {
 
+TEST(LensKindTest, EveryCoefficientHasAName) {
+  for (const LensOps& ops : Lenses())
+    EXPECT_EQ(ops.coefficient_names.size(), static_cast<std::size_t>(ops.coefficients)) << ops.key;
+}
+
 TEST(LensKindTest, NamesAreThoseOfSessionFilesAndReadInEitherCase) {
   for (const char* name : {"opencv4", "opencv12", "fisheye", "splined8"}) {
     const std::optional<LensKind> kind = LensKindOf(name);
