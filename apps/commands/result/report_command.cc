@@ -82,9 +82,9 @@ Reported Report(const ReportCommandOptions& options) {
   if (fs::exists(options.out + "/result.json")) return ReportRoom(options);
   if (fs::exists(CalibrationFileOf(options.out))) return ReportCalibration(options);
   throw InputError(
-      {options.out, 0}, "",
-      "expected result.json of a room or stages/calibrate.json of cameras, got neither; run `luxfit run` or "
-      "`luxfit calibrate` with -o " +
+      {options.out + "/result.json", 0}, "",
+      "expected the result of a room, or stages/calibrate.json of cameras beside it, got neither; run "
+      "`luxfit run` or `luxfit calibrate` with -o " +
           options.out);
 }
 

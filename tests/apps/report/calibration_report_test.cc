@@ -204,8 +204,8 @@ TEST_F(CalibrationReportTest, JsonHasTheSameFigures) {
 TEST_F(CalibrationReportTest, WrongInputsNameTheRemedy) {
   folder_->Write("empty/notes.txt", "none");
   EXPECT_THAT(Refusal(Path("empty")),
-              HasSubstr("expected result.json of a room or stages/calibrate.json of cameras, got "
-                        "neither; run `luxfit run` or `luxfit calibrate`"));
+              HasSubstr("empty/result.json: expected the result of a room, or stages/calibrate.json "
+                        "of cameras beside it, got neither; run `luxfit run` or `luxfit calibrate`"));
   EXPECT_THAT(Refusal(Path("out") + " --state all"),
               HasSubstr("--state: expected the result of a room, got the calibration"));
   Copy("out", "bare");
