@@ -146,7 +146,7 @@ std::string Finding(const json& warning, bool is_cause) {
       XmlEscaped(warning.at("remedy").get<std::string>()));
 }
 
-std::string Findings(const json& artifact) {
+std::string FindingsHtml(const json& artifact) {
   const bool is_done = artifact.at("status") == "done";
   std::string items;
   for (const bool is_cause : {true, false}) {
@@ -184,7 +184,7 @@ std::string AnswerSection(const CalibrationRecord& record) {
       "and not an error "
       "of the board: squares that are 1 % larger than stated make the baseline 1 % too short.",
       "note");
-  return HtmlSection("answer", "The answer", "", html + Findings(*record.artifact));
+  return HtmlSection("answer", "The answer", "", html + FindingsHtml(*record.artifact));
 }
 
 }  // namespace luxfit
