@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kWidthPx = 482, kLeftPx = 48, kRightPx = 468, kTopPx = 14;
 constexpr double kTallestPx = 430, kAxisPx = 40, kDimensionPx = 28;
-constexpr double kMmPerM = 1000;
+constexpr double kDrawnMmPerM = 1000;
 
 Eigen::Vector3d MiddleOf(const std::array<Eigen::Vector3d, 4>& board) {
   return (board[0] + board[1] + board[2] + board[3]) / 4;
@@ -85,8 +85,8 @@ std::string Drawing::Axes() const {
   const bool is_plan = view_ == RigView::kPlan;
   const std::string grid = " stroke=\"#e8e8e8\"", small = " font-size=\"11\" fill=\"#555\"";
   const double up = is_plan ? -1 : 1;
-  const ChartAxis x{kMmPerM * box_.min().x(), kMmPerM * box_.max().x(), kLeftPx, RightPx(), false};
-  ChartAxis y{kMmPerM * box_.min().y(), kMmPerM * box_.max().y(), kTopPx, BottomPx(), false};
+  const ChartAxis x{kDrawnMmPerM * box_.min().x(), kDrawnMmPerM * box_.max().x(), kLeftPx, RightPx(), false};
+  ChartAxis y{kDrawnMmPerM * box_.min().y(), kDrawnMmPerM * box_.max().y(), kTopPx, BottomPx(), false};
   std::string text;
   for (const double tick : x.Ticks())
     text += SvgLine(x(tick), kTopPx, x(tick), BottomPx(), grid) +
@@ -150,9 +150,10 @@ std::vector<std::string> PlanDimensions(const DrawnRig& rig, const Drawing& draw
   const Eigen::Vector3d first = rig.cameras.front().rig_from_cam.translation();
   for (std::size_t c = 1; c < rig.cameras.size(); ++c) {
     const Eigen::Vector3d place = rig.cameras[c].rig_from_cam.translation();
-    dimensions.push_back(DimensionBelow(drawing, first, place, static_cast<int>(dimensions.size()),
-                                        fmt::format("{} to {}: {:.1f} mm", rig.cameras.front().name,
-                                                    rig.cameras[c].name, kMmPerM * (place - first).norm())));
+    dimensions.push_back(
+        DimensionBelow(drawing, first, place, static_cast<int>(dimensions.size()),
+                       fmt::format("{} to {}: {:.1f} mm", rig.cameras.front().name, rig.cameras[c].name,
+                                   kDrawnMmPerM * (place - first).norm())));
   }
   return dimensions;
 }
@@ -166,9 +167,9 @@ std::vector<std::string> SideDimensions(const DrawnRig& rig, const Drawing& draw
       [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.norm() < b.norm(); });
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   return {DimensionBelow(drawing, origin, *nearest, 0,
-                         fmt::format("nearest board: {:.0f} mm", kMmPerM * nearest->norm())),
+                         fmt::format("nearest board: {:.0f} mm", kDrawnMmPerM * nearest->norm())),
           DimensionBelow(drawing, origin, *farthest, 1,
-                         fmt::format("farthest board: {:.0f} mm", kMmPerM * farthest->norm()))};
+                         fmt::format("farthest board: {:.0f} mm", kDrawnMmPerM * farthest->norm()))};
 }
 
 // Writes the names below the cameras, and one below the other where cameras are close together.

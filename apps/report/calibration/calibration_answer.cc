@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMmPerM = 1000, kDegPerRad = 180 / M_PI;
+constexpr double kShownMmPerM = 1000, kDegPerRad = 180 / M_PI;
 
 std::string Px(double px) { return std::isfinite(px) ? fmt::format("{:.3f} px", px) : "not determined"; }
 
@@ -55,9 +55,9 @@ std::string Cards(const RecordedGroup& group) {
   if (group.cameras.size() > 1) {
     const RecordedCamera& camera = group.cameras[1];
     cards.push_back({fmt::format("baseline, {} to {}", group.cameras[0].id, camera.id),
-                     fmt::format("{:.2f}", kMmPerM * camera.baseline_m), "mm",
+                     fmt::format("{:.2f}", kShownMmPerM * camera.baseline_m), "mm",
                      std::isfinite(camera.baseline_sigma_m)
-                         ? fmt::format("± {:.2g} mm", kMmPerM * camera.baseline_sigma_m)
+                         ? fmt::format("± {:.2g} mm", kShownMmPerM * camera.baseline_sigma_m)
                          : "sigma not determined"});
   }
   return HtmlCards(cards);
@@ -110,10 +110,10 @@ std::string RigTable(const RecordedGroup& group) {
   for (std::size_t c = 1; c < group.cameras.size(); ++c) {
     const RecordedCamera& camera = group.cameras[c];
     const Eigen::AngleAxisd turn(camera.cam_from_rig.linear());
-    const Eigen::Vector3d place_mm = kMmPerM * camera.cam_from_rig.translation(),
-                          sigma_mm = kMmPerM * camera.translation_sigma_m;
+    const Eigen::Vector3d place_mm = kShownMmPerM * camera.cam_from_rig.translation(),
+                          sigma_mm = kShownMmPerM * camera.translation_sigma_m;
     columns.push_back({camera.id, true});
-    rows[0].push_back(WithSigma(kMmPerM * camera.baseline_m, kMmPerM * camera.baseline_sigma_m));
+    rows[0].push_back(WithSigma(kShownMmPerM * camera.baseline_m, kShownMmPerM * camera.baseline_sigma_m));
     rows[1].push_back(WithSigma(camera.rotation_deg, camera.rotation_sigma_deg));
     for (int axis = 0; axis < 3; ++axis)
       rows[2 + static_cast<std::size_t>(axis)].push_back(WithSigma(place_mm[axis], sigma_mm[axis]));
