@@ -6,6 +6,7 @@
 
 #include "apps/stages/check_report.h"
 #include "apps/stages/check_warnings.h"
+#include "apps/stages/explain_check.h"
 #include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/stages.h"
 #include "apps/text/formats/json_vectors.h"
@@ -150,8 +151,8 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   return luminaires;
 }
 
-void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit, RunContext& context,
-                 json& result) {
+void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit,
+                 const std::vector<ReadingExplanation>& explanations, RunContext& context, json& result) {
   result["luxmeter"] = json::array();
   std::vector<CheckedReading> checked;
   std::vector<NamedReading> named;
@@ -184,9 +185,11 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
       named.push_back({given.id, given.state, reading});
     }
   }
+  WarnOfExplanations(explanations, context);
   WarnOfCheck(named, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);
+  if (!explanations.empty()) result["check"]["explanations"] = ExplanationsJson(explanations);
 }
 
 json DirectShareJson(const DirectShare& share) {
@@ -251,7 +254,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
   result["session_file"] = session.path;
-  AddLuxmeter(readings, fit, context, result);
+  AddLuxmeter(readings, fit, ExplainCheck(session, readings, room, fit), context, result);
   AddStatus(context, result);
   if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
   result["views"] = ViewsJson(session, registered.registration);

@@ -16,14 +16,6 @@ constexpr double kNotDetermined = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSigmaOfNoMeaning = 1e6;
 constexpr double kLeastKnownFlux = 1;  // sigma of its logarithm: a factor of e says nothing
 
-// Returns whether every luminaire that is on in the state was found.
-bool IsLit(const RoomFit& fit, int state) {
-  const Eigen::VectorXd& dimming = fit.data.dimming[static_cast<size_t>(state)];
-  for (size_t k = 0; k < fit.luminaire_found.size(); ++k)
-    if (dimming[static_cast<Eigen::Index>(k)] > 0 && !fit.luminaire_found[k]) return false;
-  return true;
-}
-
 // Returns how far a rival is from the luminaire, in the parameter's unit; 0 for what the two have in common.
 double Distance(const Luminaire& luminaire, const AmbiguousPlace& place, const Luminaire& rival,
                 ParameterKind kind, LuminaireQuantity quantity) {
@@ -79,6 +71,13 @@ double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuant
   return std::hypot(SigmaOf(fit.fit, kind, index, quantity), spread);
 }
 
+bool IsLit(const RoomFit& fit, int state) {
+  const Eigen::VectorXd& dimming = fit.data.dimming[static_cast<size_t>(state)];
+  for (size_t k = 0; k < fit.luminaire_found.size(); ++k)
+    if (dimming[static_cast<Eigen::Index>(k)] > 0 && !fit.luminaire_found[k]) return false;
+  return true;
+}
+
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
   if (!fit.absolute || (!fit.TellsDirectLight() && fit.fit.state.free[luminaire].flux)) return false;
   const int index = static_cast<int>(luminaire);
@@ -86,7 +85,7 @@ bool IsFluxKnown(const RoomFit& fit, size_t luminaire) {
       std::any_of(fit.fit.at_bound.begin(), fit.fit.at_bound.end(), [&](const ParameterId& id) {
         return id.kind == ParameterKind::kLogFlux && id.owner == fit.fit.state.luminaires[luminaire].id;
       });
-  return !is_at_bound && !(SigmaOf(fit, ParameterKind::kLogFlux, index) >= kLeastKnownFlux);
+  return !is_at_bound && SigmaOf(fit, ParameterKind::kLogFlux, index) < kLeastKnownFlux;
 }
 
 std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit) {

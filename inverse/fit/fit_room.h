@@ -107,6 +107,7 @@ struct RoomFit {
   // one colour.
   Eigen::Matrix3Xd tint_rgb;
   bool absolute = false;                    // whether fluxes are in lm
+  bool is_scaled_by_readings = false;       // whether nothing but readings makes them so
   std::optional<DirectShare> direct_share;  // only for fits to readings alone with free reflectances
   // Counts the rounds of all fits, those of single luminaires and of parts of the data included: the work, whatever
   // the machine.
@@ -140,6 +141,9 @@ bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
 // Returns, by material, whether only indirect light tells its reflectance: it was estimated, and no photo's row of
 // weight shows its surfaces.
 std::vector<bool> ToldByIndirectLight(const Room& room, const RoomFit& fit);
+
+// Returns whether every luminaire that is on in the state was found.
+bool IsLit(const RoomFit& fit, int state);
 
 // Returns the luminaires that were found. Their flux is relative where the fit is not absolute.
 std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);

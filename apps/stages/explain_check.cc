@@ -1,0 +1,50 @@
+#include "apps/stages/explain_check.h"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "apps/text/formats/json_vectors.h"
+#include "inverse/fit/explaining_light.h"
+
+namespace luxfit {
+
+std::vector<ReadingExplanation> ExplainCheck(const Session& session,
+                                             const std::vector<LuminaireReading>& readings, const Room& room,
+                                             const RoomFit& fit) {
+  std::vector<std::string> states;
+  for (const SessionState& state : session.states) states.push_back(state.id);
+  const std::optional<ExplainingLight> light = ExplainingLightOf(room, fit, states);
+  if (!light) return {};
+  std::vector<ReadingAsGiven> given;
+  for (size_t i = 0; i < readings.size(); ++i) {
+    const Reading& reading = fit.data.readings[i];
+    const SessionReading& row = readings[i].given;
+    if (!row.is_measured || !IsLit(fit, reading.state)) continue;
+    given.push_back({row.id, reading.sensor, reading.state, readings[i].illuminance_lx, reading.sigma_lx,
+                     row.role != ReadingRole::kCheck});
+  }
+  return ExplainReadings(*light, given);
+}
+
+void WarnOfExplanations(const std::vector<ReadingExplanation>& explanations, Findings& findings) {
+  if (explanations.empty()) return;
+  constexpr double kLargePercent = 5;
+  const bool is_small = explanations.front().rms_percent_as_given <= kLargePercent;
+  std::string remedy;
+  for (const ReadingExplanation& e : explanations) {
+    if (remedy.find(e.remedy) == std::string::npos) remedy += (remedy.empty() ? "" : "; or ") + e.remedy;
+  }
+  findings.warnings.push_back({"readings_as_if", InWords(explanations), remedy, !is_small});
+}
+
+nlohmann::json ExplanationsJson(const std::vector<ReadingExplanation>& explanations) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ReadingExplanation& e : explanations)
+    list.push_back({{"as_if", e.as_if},
+                    {"remedy", e.remedy},
+                    {"rms_percent", NumberOrNull(e.rms_percent)},
+                    {"rms_percent_as_given", NumberOrNull(e.rms_percent_as_given)}});
+  return list;
+}
+
+}  // namespace luxfit
