@@ -163,9 +163,8 @@ int RegisterCommand(const SessionCommandOptions& options) {
 int CheckCommand(const CheckCommandOptions& options) {
   const nlohmann::json result = ReadResult(options.out + "/result.json");
   nlohmann::json check = CheckJson(result["luxmeter"], options.subset);
-  // They rest on light at other places than those of the readings, which the run alone knew.
-  if (result.value("/check/explanations"_json_pointer, nlohmann::json()).is_array())
-    check["explanations"] = result["check"]["explanations"];
+  // It rests on light at other places than those of the readings, which the run alone knew.
+  if (result.contains("/check/explained"_json_pointer)) check["explained"] = result["check"]["explained"];
   if (options.json) {
     PrintText(JsonText({{"luxmeter", result["luxmeter"]}, {"summary", result["summary"]}, {"check", check}}));
   } else {

@@ -76,6 +76,11 @@ json TableOf(const std::vector<NamedReading>& readings, const std::string& subse
   return table;
 }
 
+std::string WithRemedy(const json& finding) {
+  return fmt::format("{}\n         remedy: {}\n", finding["message"].get<std::string>(),
+                     finding["remedy"].get<std::string>());
+}
+
 }  // namespace
 
 json SummaryJson(const LuxmeterSummary& summary) {
@@ -110,7 +115,8 @@ std::string CheckText(const json& check) {
   // Hundreds of ids would hide the rest; result.json has them all.
   constexpr size_t kMaxRows = 64;
   const json& table = check["table"];
-  if (table.empty() || table[0]["readings"] == 0) return "";
+  const std::string explained = check.contains("explained") ? WithRemedy(check["explained"]) : "";
+  if (table.empty() || table[0]["readings"] == 0) return explained;
   std::string text =
       "\nof           readings  mean lx   mean error %   mean |error| lx   % of mean   largest %\n";
   const size_t first = table.size() > kMaxRows ? table.size() - 2 : 0;
@@ -123,13 +129,12 @@ std::string CheckText(const json& check) {
                     row["mean_abs_error_lx"].get<double>(), row["mean_abs_error_percent"].get<double>(),
                     row["max_abs_error_percent"].get<double>());
   }
+  text += explained;
   const json& common = check["common"];
   text += fmt::format("measured / predicted in common: {:.4f} ± {:.4f}{}\n", common["factor"].get<double>(),
                       common["sigma"].get<double>(),
                       common["beyond_chance"].get<bool>() ? "" : ", no more than chance");
-  if (common["beyond_chance"].get<bool>())
-    text += fmt::format("{}\n         remedy: {}\n", common["message"].get<std::string>(),
-                        common["remedy"].get<std::string>());
+  if (common["beyond_chance"].get<bool>()) text += WithRemedy(common);
   for (const json& d : check["disagreements"])
     text += fmt::format("{} (z = {:.1f})\n         remedy: {}\n", d["message"].get<std::string>(),
                         d["z"].get<double>(), d["remedy"].get<std::string>());

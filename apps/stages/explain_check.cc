@@ -2,11 +2,23 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "apps/text/formats/json_vectors.h"
 #include "inverse/fit/explaining_light.h"
 
 namespace luxfit {
+namespace {
+
+std::string RemedyOf(const std::vector<ReadingExplanation>& explanations) {
+  std::string remedy;
+  for (const ReadingExplanation& e : explanations) {
+    if (remedy.find(e.remedy) == std::string::npos) remedy += (remedy.empty() ? "" : "; or ") + e.remedy;
+  }
+  return remedy;
+}
+
+}  // namespace
 
 std::vector<ReadingExplanation> ExplainCheck(const Session& session,
                                              const std::vector<LuminaireReading>& readings, const Room& room,
@@ -30,21 +42,18 @@ void WarnOfExplanations(const std::vector<ReadingExplanation>& explanations, Fin
   if (explanations.empty()) return;
   constexpr double kLargePercent = 5;
   const bool is_small = explanations.front().rms_percent_as_given <= kLargePercent;
-  std::string remedy;
-  for (const ReadingExplanation& e : explanations) {
-    if (remedy.find(e.remedy) == std::string::npos) remedy += (remedy.empty() ? "" : "; or ") + e.remedy;
-  }
-  findings.warnings.push_back({"readings_as_if", InWords(explanations), remedy, !is_small});
+  findings.warnings.push_back(
+      {"readings_as_if", InWords(explanations), RemedyOf(explanations), !is_small});
 }
 
-nlohmann::json ExplanationsJson(const std::vector<ReadingExplanation>& explanations) {
-  nlohmann::json list = nlohmann::json::array();
+nlohmann::json ExplainedJson(const std::vector<ReadingExplanation>& explanations) {
+  nlohmann::json by = nlohmann::json::array();
   for (const ReadingExplanation& e : explanations)
-    list.push_back({{"as_if", e.as_if},
-                    {"remedy", e.remedy},
-                    {"rms_percent", NumberOrNull(e.rms_percent)},
-                    {"rms_percent_as_given", NumberOrNull(e.rms_percent_as_given)}});
-  return list;
+    by.push_back({{"as_if", e.as_if}, {"remedy", e.remedy}, {"rms_percent", NumberOrNull(e.rms_percent)}});
+  return {{"message", InWords(explanations)},
+          {"remedy", RemedyOf(explanations)},
+          {"rms_percent_as_given", NumberOrNull(explanations.front().rms_percent_as_given)},
+          {"by", by}};
 }
 
 }  // namespace luxfit

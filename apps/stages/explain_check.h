@@ -1,4 +1,4 @@
-// Says how readings that disagree with a fit were probably taken (inverse/check/explain_readings.h): `explanations` of
+// Says how readings that disagree with a fit were probably taken (inverse/check/explain_readings.h): `explained` of
 // `check` in result.json, and the warning readings_as_if, which stands before those of single readings.
 #ifndef LUXFIT_APPS_STAGES_EXPLAIN_CHECK_H_
 #define LUXFIT_APPS_STAGES_EXPLAIN_CHECK_H_
@@ -20,7 +20,8 @@ std::vector<ReadingExplanation> ExplainCheck(const Session& session,
 // leave the result undetermined.
 void WarnOfExplanations(const std::vector<ReadingExplanation>& explanations, Findings& findings);
 
-nlohmann::json ExplanationsJson(const std::vector<ReadingExplanation>& explanations);
+// `explanations`: one or more.
+nlohmann::json ExplainedJson(const std::vector<ReadingExplanation>& explanations);
 
 }  // namespace luxfit
 

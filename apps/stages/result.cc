@@ -189,7 +189,7 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
   WarnOfCheck(named, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);
-  if (!explanations.empty()) result["check"]["explanations"] = ExplanationsJson(explanations);
+  if (!explanations.empty()) result["check"]["explained"] = ExplainedJson(explanations);
 }
 
 json DirectShareJson(const DirectShare& share) {

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "inverse/check/internal/factor_words.h"
+
 namespace luxfit {
 namespace {
 
@@ -109,7 +111,10 @@ void Explain(Disagreement& d) {
         "again, and see what hides it";
     return;
   }
-  if (is_place) {
+  const std::string factor = is_place ? "" : FactorWords(1 + d.relative);
+  if (!factor.empty()) {
+    d.remedy = "it is off " + factor + ": read it again";
+  } else if (is_place) {
     d.remedy =
         "its place or the way the meter faced is not what the table says, or something stands near "
         "it that the mesh does not have: measure its place again";

@@ -61,14 +61,16 @@ double TopAt(const Room& room, double x, double y) {
   return kNoPlace;
 }
 
-// Returns the median of what the predictions of the fit's readings are uncertain by, relative.
+// Returns the median of what the predictions of the fit's readings are uncertain by, relative. Misread readings that
+// the fit uses raise it, which must not hide them.
 double PredictionSigma(const RoomFit& fit) {
+  constexpr double kMost = 0.05;
   std::vector<double> sigmas;
   for (const PredictedReading& r : PredictedReadings(fit))
     if (r.is_known && r.illuminance_lx > 0) sigmas.push_back(r.sigma_lx / r.illuminance_lx);
-  if (sigmas.empty()) return fit.fit.shared_relative_sigma;
+  if (sigmas.empty()) return std::min(kMost, fit.fit.shared_relative_sigma);
   std::nth_element(sigmas.begin(), sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2), sigmas.end());
-  return sigmas[sigmas.size() / 2];
+  return std::min(kMost, sigmas[sigmas.size() / 2]);
 }
 
 bool RestsOnReadings(const RoomFit& fit) {

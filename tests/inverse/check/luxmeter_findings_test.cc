@@ -54,6 +54,17 @@ TEST(LuxmeterFindings, OneReadingOffIsNamedAlone) {
   EXPECT_NE(d.meaning.find("20.0 % below"), std::string::npos) << d.meaning;
 }
 
+TEST(LuxmeterFindings, AReadingOffByAKnownFactorNamesTheCause) {
+  const auto remedy = [](double factor) {
+    std::vector<NamedReading> readings = Agreeing();
+    readings[5].reading.measured_lx *= factor;
+    return FindDisagreements(readings).disagreements.at(0).remedy;
+  };
+  EXPECT_EQ(remedy(0.1), "it is off as by a decimal point, or another range of the meter: read it again");
+  EXPECT_EQ(remedy(1 / 10.764), "it is off as in foot-candles: read it again");
+  EXPECT_EQ(remedy(0.5).find("it is off as"), std::string::npos);
+}
+
 TEST(LuxmeterFindings, AllOffAlikeIsAScaleAndNoDisagreement) {
   std::vector<NamedReading> readings = Agreeing();
   for (NamedReading& r : readings) r.reading.measured_lx *= 1.15;
