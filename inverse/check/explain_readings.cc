@@ -169,9 +169,26 @@ bool Refuses(const GroupScores& scores, const GroupScores& others) {
   return SimplestWithinOneStandardError({{others, 0, true}, {scores, 1, true}}, options).chosen == 1;
 }
 
-std::vector<Candidate> BestOf(std::vector<Candidate> candidates, const GroupScores& as_given) {
+// Returns the mean score of the readings that stand in a state with one that sets the scale; 0 where there are none.
+// Where they are off with it, not the reading is wrong but what is on in that state.
+double ScoreBesideScale(const ReadingTable& table, const Candidate& candidate) {
+  std::set<int> states;
+  for (size_t i = 0; i < table.readings.size(); ++i)
+    if (!table.IsJudge(i)) states.insert(table.readings[i].state);
+  const double factor = ScaleFactor(table, candidate.lit, true, -1);
+  GroupScore beside;
+  for (size_t i = 0; i < table.readings.size(); ++i) {
+    if (table.IsJudge(i) && states.count(table.readings[i].state) > 0)
+      beside.Add(Residual(table, i, factor * candidate.lit[static_cast<Eigen::Index>(i)]));
+  }
+  return beside.count > 0 ? beside.sum / beside.count : 0;
+}
+
+std::vector<Candidate> BestOf(const ReadingTable& table, std::vector<Candidate> candidates,
+                              const GroupScores& as_given) {
   const auto fails = [&](const Candidate& c) {
-    return Mean(c.scores) > kExplains || !Refuses(c.scores, as_given);
+    return Mean(c.scores) > kExplains || !Refuses(c.scores, as_given) ||
+           (c.misreading->has_own_scale && ScoreBesideScale(table, c) > kExplains);
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), fails), candidates.end());
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -256,7 +273,7 @@ std::vector<ReadingExplanation> ExplainReadings(const ExplainingLight& light,
   if (scores.empty() || Mean(scores) <= kByChance) return {};
   const std::vector<Misreading> misreadings = Misreadings(light);
   std::vector<ReadingExplanation> explanations;
-  for (const Candidate& c : BestOf(JudgeAll(table, misreadings, in_states), scores))
+  for (const Candidate& c : BestOf(table, JudgeAll(table, misreadings, in_states), scores))
     explanations.push_back(Explained(table, c, as_given));
   return explanations;
 }

@@ -11,7 +11,8 @@
 // An explanation holds where it passes the rule of all choices (inverse/select/one_standard_error.h) with two standard
 // errors and half of the score, as contradictions of what is given do, and where its own score is below 3. What it has
 // free is chosen by the readings of the other places. Explanations that the best one does not refuse by the same rule,
-// or whose score is what chance gives, are returned beside it: they explain the readings equally.
+// or whose score is what chance gives, are returned beside it: they explain the readings equally. Readings that set the
+// scale are wrong only where the others of their state are right.
 //
 // Fewer than four places tell nothing. The light must not rest on the readings that are explained: a fit to readings
 // alone has followed their error. An error that all readings share is seen only where something else sets the scale.

@@ -135,7 +135,7 @@ double SigmaOf(const LuminaireFit& fit, ParameterKind kind, int index, Luminaire
 double SigmaOf(const RoomFit& fit, ParameterKind kind, int index, LuminaireQuantity quantity = {});
 
 // Returns whether the data determine the luminaire's flux in lumens, better than to a factor of e (1 sigma), and it did not
-// stop at a bound.
+// stop at a bound. A flux whose sigma is not a number is not determined.
 bool IsFluxKnown(const RoomFit& fit, size_t luminaire);
 
 // Returns, by material, whether only indirect light tells its reflectance: it was estimated, and no photo's row of

@@ -178,6 +178,11 @@ TEST(ExplainReadings, TheReadingThatSetsTheScale) {
   ExpectOnly(times(10), "times too high, as by a decimal point, or another range of the meter");
 }
 
+// The state of the reading that sets the scale is not what it is said to be.
+TEST(ExplainReadings, AStateThatIsOffIsNoWrongScale) {
+  EXPECT_TRUE(Explain(Changed(Right(), [](ReadingAsGiven& r) { Multiply(r, r.state == 2 ? 1.4 : 1); })).empty());
+}
+
 // Something else than readings sets the scale.
 TEST(ExplainReadings, TheUnitOfAllReadings) {
   const auto readings = Changed(Right(), [](ReadingAsGiven& r) { Multiply(r, 1 / 10.764); });
