@@ -42,8 +42,7 @@ void WarnOfExplanations(const std::vector<ReadingExplanation>& explanations, Fin
   if (explanations.empty()) return;
   constexpr double kLargePercent = 5;
   const bool is_small = explanations.front().rms_percent_as_given <= kLargePercent;
-  findings.warnings.push_back(
-      {"readings_as_if", InWords(explanations), RemedyOf(explanations), !is_small});
+  findings.warnings.push_back({"readings_as_if", InWords(explanations), RemedyOf(explanations), !is_small});
 }
 
 nlohmann::json ExplainedJson(const std::vector<ReadingExplanation>& explanations) {

@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kNotPredicted = std::numeric_limits<double>::quiet_NaN();
 constexpr double kByChance = 1;  // mean square of normal residuals over their sigma
-constexpr double kExplains = 3;  // highest score of an explanation: a quarter of the readings may be off otherwise
-constexpr double kWorst = 9;     // of a row, as GroupScore bounds it
+constexpr double kExplains =
+    3;  // highest score of an explanation: a quarter of the readings may be off otherwise
+constexpr double kWorst = 9;  // of a row, as GroupScore bounds it
 
 struct ReadingTable {
   const ExplainingLight& light;
@@ -106,8 +107,7 @@ size_t BestWay(const std::vector<GroupScores>& ways, int left_out) {
 
 std::vector<Sensor> PlacesOf(const ReadingTable& table, const Rereading& way) {
   std::vector<Sensor> places;
-  for (const ReadingAsGiven& r : table.readings)
-    places.push_back(way.place ? way.place(r.sensor) : r.sensor);
+  for (const ReadingAsGiven& r : table.readings) places.push_back(way.place ? way.place(r.sensor) : r.sensor);
   return places;
 }
 
@@ -191,9 +191,8 @@ std::vector<Candidate> BestOf(const ReadingTable& table, std::vector<Candidate> 
            (c.misreading->has_own_scale && ScoreBesideScale(table, c) > kExplains);
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), fails), candidates.end());
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return Mean(a.scores) < Mean(b.scores);
-  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return Mean(a.scores) < Mean(b.scores); });
   const auto is_refused = [&](const Candidate& c) {
     return Mean(c.scores) > kByChance && Refuses(candidates.front().scores, c.scores);
   };
@@ -233,8 +232,7 @@ std::string ScaleWords(const ReadingTable& table, const Eigen::VectorXd& lit) {
     if (scaling++ == 0) first = r.id + "@" + table.light.states[static_cast<size_t>(r.state)];
   }
   // The light is as bright as the readings that set the scale are.
-  const double given_over_right =
-      scaling > 0 ? ScaleFactor(table, lit, false, -1) / asked : asked;
+  const double given_over_right = scaling > 0 ? ScaleFactor(table, lit, false, -1) / asked : asked;
   if (scaling == 0) {
     whose = fmt::format("all {} readings were", table.readings.size());
   } else {
@@ -243,8 +241,9 @@ std::string ScaleWords(const ReadingTable& table, const Eigen::VectorXd& lit) {
   }
   const bool is_high = given_over_right > 1;
   const std::string words = FactorWords(given_over_right);
-  const std::string size = fmt::format("{:.3g} times too {}{}", is_high ? given_over_right : 1 / given_over_right,
-                                       is_high ? "high" : "low", words.empty() ? "" : ", " + words);
+  const std::string size =
+      fmt::format("{:.3g} times too {}{}", is_high ? given_over_right : 1 / given_over_right,
+                  is_high ? "high" : "low", words.empty() ? "" : ", " + words);
   if (2 * scaling < table.readings.size()) return whose + " " + size;
   return fmt::format("{} {}, or the other {} the other way", whose, size, table.readings.size() - scaling);
 }
@@ -281,12 +280,12 @@ std::vector<ReadingExplanation> ExplainReadings(const ExplainingLight& light,
 std::string InWords(const std::vector<ReadingExplanation>& explanations) {
   const ReadingExplanation& best = explanations.front();
   std::string text = "the readings look as if ";
-  for (size_t i = 0; i < explanations.size(); ++i) text += (i > 0 ? ", or as if " : "") + explanations[i].as_if;
+  for (size_t i = 0; i < explanations.size(); ++i)
+    text += (i > 0 ? ", or as if " : "") + explanations[i].as_if;
   if (explanations.size() > 1) text += ", which explain them equally";
   text += fmt::format(": so read, they are {:.1f} % off (rms), and ", best.rms_percent);
-  text += std::isnan(best.rms_percent_as_given)
-              ? std::string("as given nothing predicts them")
-              : fmt::format("{:.0f} % as given", best.rms_percent_as_given);
+  text += std::isnan(best.rms_percent_as_given) ? std::string("as given nothing predicts them")
+                                                : fmt::format("{:.0f} % as given", best.rms_percent_as_given);
   if (best.places_outside_as_given > best.places_outside)
     text += fmt::format("; {} of {} places lie outside the room as given, {} so read",
                         best.places_outside_as_given, best.places, best.places_outside);

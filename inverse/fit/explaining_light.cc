@@ -69,7 +69,8 @@ double PredictionSigma(const RoomFit& fit) {
   for (const PredictedReading& r : PredictedReadings(fit))
     if (r.is_known && r.illuminance_lx > 0) sigmas.push_back(r.sigma_lx / r.illuminance_lx);
   if (sigmas.empty()) return std::min(kMost, fit.fit.shared_relative_sigma);
-  std::nth_element(sigmas.begin(), sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2), sigmas.end());
+  std::nth_element(sigmas.begin(), sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2),
+                   sigmas.end());
   return std::min(kMost, sigmas[sigmas.size() / 2]);
 }
 

@@ -453,8 +453,7 @@ class RoomFitter {
            "one "
            "flux_lm with its sigma"});
     }
-    result_.is_scaled_by_readings =
-        light_.used_readings > 0 && !start_.flux_known && state.camera_scale_free;
+    result_.is_scaled_by_readings = light_.used_readings > 0 && !start_.flux_known && state.camera_scale_free;
     if (light_.used_readings > 0 && state.camera_scale_free)
       state = WithMatchedScale(room_, given_, result_.data, std::move(state));
     is_scale_settled_ = true;

@@ -25,8 +25,10 @@ constexpr Axes kAxes[] = {
     {false, true, false, "x was counted from the opposite wall"},
     {false, false, true, "y was counted from the opposite wall"},
     {false, true, true, "x and y were counted from the opposite corner"},
-    {true, true, false, "the axes were turned by 90 degrees: the given y is counted along x, from the opposite wall"},
-    {true, false, true, "the axes were turned by 90 degrees: the given x is counted along y, from the opposite wall"},
+    {true, true, false,
+     "the axes were turned by 90 degrees: the given y is counted along x, from the opposite wall"},
+    {true, false, true,
+     "the axes were turned by 90 degrees: the given x is counted along y, from the opposite wall"},
     {true, true, true, "x and y were exchanged and counted from the opposite corner"},
 };
 
@@ -109,12 +111,12 @@ void AddStates(const std::vector<std::string>& states, std::vector<Misreading>& 
 std::vector<Misreading> Misreadings(const ExplainingLight& light) {
   std::vector<Misreading> misreadings;
   AddAxes(light.bounds, misreadings);
-  misreadings.push_back(OfPlaces("the meter faced the other way",
-                                 "turn nx, ny and nz of the readings round: they point to where the meter faces",
-                                 [](Sensor s) {
-                                   s.normal *= -1;
-                                   return s;
-                                 }));
+  misreadings.push_back(
+      OfPlaces("the meter faced the other way",
+               "turn nx, ny and nz of the readings round: they point to where the meter faces", [](Sensor s) {
+                 s.normal *= -1;
+                 return s;
+               }));
   AddUnits(misreadings);
   AddHeights(light, misreadings);
   AddStates(light.states, misreadings);

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fmt/format.h>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -28,7 +28,8 @@ class MisreadOffice : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new TempFolder;
-    std::filesystem::copy(support::kOfficeFolder, folder_->Path("office"), std::filesystem::copy_options::recursive);
+    std::filesystem::copy(support::kOfficeFolder, folder_->Path("office"),
+                          std::filesystem::copy_options::recursive);
     right_ = folder_->Read("office/luxmeter.csv");
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -82,7 +83,8 @@ TEST_F(MisreadOffice, TheScaleInFootCandles) {
         if (f[0] == "L3" && f[7] == "all") f[8] = fmt::format("{}", std::stod(f[8]) / 10.764);
       },
       1);
-  ExpectExplained(result, "the reading that sets the scale, L3@all, was 10.7 times too low, as in foot-candles");
+  ExpectExplained(result,
+                  "the reading that sets the scale, L3@all, was 10.7 times too low, as in foot-candles");
 }
 
 TEST_F(MisreadOffice, PlacesInCentimetres) {

@@ -69,14 +69,15 @@ struct Row {
 class MisreadReadings : public testing::Test {
  protected:
   MisreadReadings() {
-    const std::vector<std::pair<double, double>> places{{0.5, 1}, {1.5, 0.8}, {2.5, 1.2}, {2.9, 2}, {0.7, 2}, {1.6, 2.2}};
+    const std::vector<std::pair<double, double>> places{{0.5, 1}, {1.5, 0.8}, {2.5, 1.2},
+                                                        {2.9, 2}, {0.7, 2},   {1.6, 2.2}};
     for (const char* state : {"both", "A"}) {
       for (size_t i = 0; i < places.size(); ++i)
         rows_.push_back({fmt::format("P{}", i), state, places[i].first, places[i].second, 0});
     }
     Write(rows_, "");
-    const support::ProgramRun run =
-        support::RunProgram(fmt::format("simulate '{}' -o '{}'", folder_.Path("session.toml"), folder_.Path("simulated")));
+    const support::ProgramRun run = support::RunProgram(
+        fmt::format("simulate '{}' -o '{}'", folder_.Path("session.toml"), folder_.Path("simulated")));
     EXPECT_EQ(run.status, 0) << run.output;
     std::istringstream simulated(folder_.Read("simulated/illuminance.csv"));
     std::string line;

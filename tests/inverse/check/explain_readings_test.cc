@@ -54,7 +54,8 @@ ExplainingLight PointLight() {
 
 // Returns seven places in three states as they are right, half a percent up and down. P3 in state evening sets the scale.
 std::vector<ReadingAsGiven> Right(double height_m = 0.8) {
-  const Eigen::Vector2d places[] = {{1.2, 1.1}, {2.1, 1.7}, {3.7, 2.9}, {3.4, 2.2}, {0.7, 2.9}, {2.4, 3.3}, {3.0, 1.3}};
+  const Eigen::Vector2d places[] = {{1.2, 1.1}, {2.1, 1.7}, {3.7, 2.9}, {3.4, 2.2},
+                                    {0.7, 2.9}, {2.4, 3.3}, {3.0, 1.3}};
   std::vector<ReadingAsGiven> readings;
   for (int s = 0; s < 3; ++s) {
     for (int p = 0; p < 7; ++p) {
@@ -80,7 +81,8 @@ ExplainingLight Matched(const std::vector<ReadingAsGiven>& readings) {
   for (const ReadingAsGiven& r : readings) {
     if (!r.sets_scale || !kRoom.contains(r.sensor.position)) continue;
     const double factor = r.measured_lx / PointLx(r.sensor, r.state);
-    light.in_states = [factor, in_states = light.in_states](const std::vector<Sensor>& places) -> Eigen::MatrixXd {
+    light.in_states = [factor,
+                       in_states = light.in_states](const std::vector<Sensor>& places) -> Eigen::MatrixXd {
       return factor * in_states(places);
     };
   }
@@ -111,18 +113,20 @@ TEST(ExplainReadings, RightReadingsNeedNoExplanation) {
 }
 
 TEST(ExplainReadings, ExchangedAxes) {
-  const auto found = Explain(Changed(Right(), [](ReadingAsGiven& r) {
-    std::swap(r.sensor.position.x(), r.sensor.position.y());
-  }));
+  const auto found = Explain(
+      Changed(Right(), [](ReadingAsGiven& r) { std::swap(r.sensor.position.x(), r.sensor.position.y()); }));
   ExpectOnly(found, "x and y were exchanged");
-  EXPECT_THAT(InWords(found), HasSubstr("the readings look as if x and y were exchanged: so read, they are 0."));
+  EXPECT_THAT(InWords(found),
+              HasSubstr("the readings look as if x and y were exchanged: so read, they are 0."));
 }
 
 TEST(ExplainReadings, MirroredAxes) {
-  ExpectOnly(Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position.x() = 6 - r.sensor.position.x(); })),
-             "x was counted from the opposite wall");
-  ExpectOnly(Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position.y() = 4 - r.sensor.position.y(); })),
-             "y was counted from the opposite wall");
+  ExpectOnly(
+      Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position.x() = 6 - r.sensor.position.x(); })),
+      "x was counted from the opposite wall");
+  ExpectOnly(
+      Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position.y() = 4 - r.sensor.position.y(); })),
+      "y was counted from the opposite wall");
 }
 
 TEST(ExplainReadings, TurnedAxes) {
@@ -130,7 +134,8 @@ TEST(ExplainReadings, TurnedAxes) {
     const Eigen::Vector3d p = r.sensor.position;
     r.sensor.position = {p.y(), 6 - p.x(), p.z()};
   };
-  ExpectOnly(Explain(Changed(Right(), given_by_turned)), "turned by 90 degrees: the given y is counted along x");
+  ExpectOnly(Explain(Changed(Right(), given_by_turned)),
+             "turned by 90 degrees: the given y is counted along x");
 }
 
 TEST(ExplainReadings, DirectionsReversed) {
@@ -142,7 +147,8 @@ TEST(ExplainReadings, UnitsOfPlaces) {
   const auto found = Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position *= 100; }));
   ExpectOnly(found, "their places were in cm");
   EXPECT_TRUE(std::isnan(found[0].rms_percent_as_given));
-  EXPECT_THAT(InWords(found), HasSubstr("as given nothing predicts them; 7 of 7 places lie outside the room"));
+  EXPECT_THAT(InWords(found),
+              HasSubstr("as given nothing predicts them; 7 of 7 places lie outside the room"));
   ExpectOnly(Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position /= 0.3048; })),
              "their places were in ft");
   ExpectOnly(Explain(Changed(Right(), [](ReadingAsGiven& r) { r.sensor.position.z() *= 1000; })),
@@ -173,14 +179,16 @@ TEST(ExplainReadings, TheReadingThatSetsTheScale) {
   const auto times = [](double factor) {
     return Explain(Changed(Right(), [=](ReadingAsGiven& r) { Multiply(r, r.sets_scale ? factor : 1); }));
   };
-  ExpectOnly(times(1 / 10.764), "the reading that sets the scale, P3@evening, was 10.8 times too low, as in foot-candles");
+  ExpectOnly(times(1 / 10.764),
+             "the reading that sets the scale, P3@evening, was 10.8 times too low, as in foot-candles");
   ExpectOnly(times(2), "the reading that sets the scale, P3@evening, was 2 times too high");
   ExpectOnly(times(10), "times too high, as by a decimal point, or another range of the meter");
 }
 
 // The state of the reading that sets the scale is not what it is said to be.
 TEST(ExplainReadings, AStateThatIsOffIsNoWrongScale) {
-  EXPECT_TRUE(Explain(Changed(Right(), [](ReadingAsGiven& r) { Multiply(r, r.state == 2 ? 1.4 : 1); })).empty());
+  EXPECT_TRUE(
+      Explain(Changed(Right(), [](ReadingAsGiven& r) { Multiply(r, r.state == 2 ? 1.4 : 1); })).empty());
 }
 
 // Something else than readings sets the scale.
@@ -201,9 +209,8 @@ TEST(ExplainReadings, OneReadingOffIsNoMistakeOfAll) {
 
 // One place ten times too high does not hide that axes were exchanged.
 TEST(ExplainReadings, AMistakeBesideAnother) {
-  std::vector<ReadingAsGiven> readings = Changed(Right(), [](ReadingAsGiven& r) {
-    std::swap(r.sensor.position.x(), r.sensor.position.y());
-  });
+  std::vector<ReadingAsGiven> readings =
+      Changed(Right(), [](ReadingAsGiven& r) { std::swap(r.sensor.position.x(), r.sensor.position.y()); });
   Multiply(readings[4], 10);
   const auto found = Explain(readings);
   ASSERT_EQ(found.size(), 1u);
@@ -238,7 +245,8 @@ TEST(ExplainReadings, WhatExplainsEquallyIsSaidToo) {
 // Readings that no mistake explains: as if luminaires had changed.
 TEST(ExplainReadings, OtherLightIsNoMistakeOfTheTable) {
   std::vector<ReadingAsGiven> readings = Right();
-  for (size_t i = 0; i < readings.size(); ++i) Multiply(readings[i], 0.5 + 0.15 * static_cast<double>(i * 5 % 7));
+  for (size_t i = 0; i < readings.size(); ++i)
+    Multiply(readings[i], 0.5 + 0.15 * static_cast<double>(i * 5 % 7));
   EXPECT_TRUE(Explain(readings).empty());
 }
 
