@@ -115,7 +115,7 @@ std::string CheckText(const json& check) {
   // Hundreds of ids would hide the rest; result.json has them all.
   constexpr size_t kMaxRows = 64;
   const json& table = check["table"];
-  const std::string explained = check.contains("explained") ? WithRemedy(check["explained"]) : "";
+  std::string explained = check.contains("explained") ? WithRemedy(check["explained"]) : "";
   if (table.empty() || table[0]["readings"] == 0) return explained;
   std::string text =
       "\nof           readings  mean lx   mean error %   mean |error| lx   % of mean   largest %\n";

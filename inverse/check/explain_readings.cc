@@ -73,6 +73,7 @@ double Residual(const ReadingTable& table, size_t i, double predicted_lx) {
 
 GroupScores ScoresOf(const ReadingTable& table, const Eigen::VectorXd& lit, bool has_own_scale) {
   std::vector<double> factors;
+  factors.reserve(static_cast<size_t>(table.groups));
   for (int g = 0; g < table.groups; ++g) factors.push_back(ScaleFactor(table, lit, has_own_scale, g));
   GroupScores scores;
   for (size_t i = 0; i < table.readings.size(); ++i) {
@@ -184,8 +185,8 @@ double ScoreBesideScale(const ReadingTable& table, const Candidate& candidate) {
   return beside.count > 0 ? beside.sum / beside.count : 0;
 }
 
-std::vector<Candidate> BestOf(const ReadingTable& table, std::vector<Candidate> candidates,
-                              const GroupScores& as_given) {
+std::vector<Candidate> Holding(const ReadingTable& table, std::vector<Candidate> candidates,
+                               const GroupScores& as_given) {
   const auto fails = [&](const Candidate& c) {
     return Mean(c.scores) > kExplains || !Refuses(c.scores, as_given) ||
            (c.misreading->has_own_scale && ScoreBesideScale(table, c) > kExplains);
@@ -272,7 +273,7 @@ std::vector<ReadingExplanation> ExplainReadings(const ExplainingLight& light,
   if (scores.empty() || Mean(scores) <= kByChance) return {};
   const std::vector<Misreading> misreadings = Misreadings(light);
   std::vector<ReadingExplanation> explanations;
-  for (const Candidate& c : BestOf(table, JudgeAll(table, misreadings, in_states), scores))
+  for (const Candidate& c : Holding(table, JudgeAll(table, misreadings, in_states), scores))
     explanations.push_back(Explained(table, c, as_given));
   return explanations;
 }
