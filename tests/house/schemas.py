@@ -130,6 +130,12 @@ def run_reference():
     shutil.copytree(reference / "cube", cube)
     lux = (cube / "expected_lux_per_lamp.csv").read_text().splitlines()[1].split(",")[1:]
     head, *rows = (cube / "luxmeter.csv").read_text().splitlines()
+    # All readings in foot-candles, beside a given flux.
+    misread = [f"{row}{float(value) / 10.764}" for row, value in zip(rows, lux)]
+    write(cube / "foot_candles.csv", "\n".join([head, *misread]) + "\n")
+    write(cube / "foot_candles.toml",
+          (cube / "session.toml").read_text().replace("luxmeter.csv", "foot_candles.csv") + 'fit = ["P0_0"]\n')
+    luxfit("fit", cube / "foot_candles.toml", "-o", OUT / "foot_candles", status=1)
     # Two sensors; rows of the mesh of places that only check read too much.
     rows = [f"{row}{float(value) * (1.2 if row[1] in '135' else 1)},s{row[1] in '24'}" for row, value in zip(rows, lux)]
     write(cube / "luxmeter.csv", "\n".join([head + ",sensor", *rows]) + "\n")
