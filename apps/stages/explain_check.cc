@@ -1,5 +1,6 @@
 #include "apps/stages/explain_check.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ std::vector<ReadingExplanation> ExplainCheck(const Session& session,
     given.push_back({row.id, reading.sensor, reading.state, readings[i].illuminance_lx, reading.sigma_lx,
                      row.role != ReadingRole::kCheck});
   }
+  // Where none checks, the fit was asked to follow them all: there is no check to explain.
+  const bool has_check =
+      std::any_of(given.begin(), given.end(), [](const ReadingAsGiven& r) { return !r.sets_scale; });
+  if (!has_check) return {};
   return ExplainReadings(*light, given);
 }
 
