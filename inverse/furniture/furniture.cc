@@ -35,7 +35,8 @@ std::vector<Eigen::Vector3d> AlongAxes(const RoomAxes& axes, std::vector<Eigen::
 // Finds one box after the other. It is a class because votes shrink as boxes explain views.
 class FurnitureFinder {
  public:
-  FurnitureFinder(const Scene& scene, const std::vector<SignatureView>& views, const FurnitureOptions& options)
+  FurnitureFinder(const Scene& scene, const std::vector<SignatureView>& views,
+                  const FurnitureOptions& options)
       : scene_(scene),
         views_(views),
         options_(options),
@@ -93,8 +94,8 @@ class FurnitureFinder {
       const VoteGrid& votes = planes_[i].votes.votes;
       if ((votes > 0).count() >= least) best[i] = FindLargestRectangle(votes);
     });
-    const auto largest =
-        std::max_element(best.begin(), best.end(), [](const auto& a, const auto& b) { return a.sum < b.sum; });
+    const auto largest = std::max_element(best.begin(), best.end(),
+                                          [](const auto& a, const auto& b) { return a.sum < b.sum; });
     if (largest == best.end() || largest->sum < least) return std::nullopt;
     const Swept& at = planes_[static_cast<size_t>(largest - best.begin())];
     Face face;
@@ -122,7 +123,8 @@ class FurnitureFinder {
       for (int row = 0; row < swept.plane.rows; ++row) {
         for (int column = 0; column < swept.plane.columns; ++column) {
           signed char& vote = swept.votes.votes(row, column);
-          if (vote > 0 && near.contains(axes_.world_from_axes.transpose() * swept.plane.CenterOf(row, column)))
+          if (vote > 0 &&
+              near.contains(axes_.world_from_axes.transpose() * swept.plane.CenterOf(row, column)))
             vote = 0;
         }
       }
@@ -149,11 +151,11 @@ class FurnitureFinder {
   const std::vector<SignatureView>& views_;
   const FurnitureOptions& options_;
   RoomAxes axes_;
-  RayScene mesh_;                 // with the boxes found so far
+  RayScene mesh_;  // with the boxes found so far
   std::vector<RoomBox> boxes_;
   std::vector<MeshAgreement> agreement_;
   SweptViews swept_, refined_;
-  std::vector<ViewRay> rays_;  // along the axes, of the mesh without boxes
+  std::vector<ViewRay> rays_;                 // along the axes, of the mesh without boxes
   std::vector<Eigen::Vector3d> free_places_;  // along the axes
   std::vector<Swept> planes_;
 };

@@ -34,7 +34,7 @@ struct FurnitureOptions {
 };
 
 struct FoundBox {
-  RoomBox box;             // named "found 1" and so on, the largest face first
+  RoomBox box;              // named "found 1" and so on, the largest face first
   double face_area_m2 = 0;  // of the cells that views agree on
   int views = 0;            // that agree on the face
   double sigma_m = 0;       // of the face along its normal

@@ -10,23 +10,24 @@ namespace {
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // Returns the means over squares of 2 r + 1 pixels about each; NaN where one of them is not valid, and at the border.
-ImagePlane SquareMeans(const LuminanceImage& photo, int r) {
-  const ImagePlane known =
-      photo.valid.select(photo.relative_luminance, ImagePlane::Constant(photo.valid.rows(), photo.valid.cols(), kUnknown));
+ImagePlane SquareMeans(const LuminanceImage& photo, Eigen::Index r) {
+  const ImagePlane known = photo.valid.select(
+      photo.relative_luminance, ImagePlane::Constant(photo.valid.rows(), photo.valid.cols(), kUnknown));
   const Eigen::Index rows = known.rows(), columns = known.cols();
   ImagePlane means = ImagePlane::Constant(rows, columns, kUnknown);
   if (rows <= 2 * r || columns <= 2 * r) return means;
   ImagePlane along = ImagePlane::Zero(rows, columns - 2 * r);
-  for (int d = 0; d <= 2 * r; ++d) along += known.middleCols(d, along.cols());
+  for (Eigen::Index d = 0; d <= 2 * r; ++d) along += known.middleCols(d, along.cols());
   ImagePlane sum = ImagePlane::Zero(rows - 2 * r, along.cols());
-  for (int d = 0; d <= 2 * r; ++d) sum += along.middleRows(d, sum.rows());
+  for (Eigen::Index d = 0; d <= 2 * r; ++d) sum += along.middleRows(d, sum.rows());
   means.block(r, r, sum.rows(), sum.cols()) = sum / static_cast<float>((2 * r + 1) * (2 * r + 1));
   return means;
 }
 
 // Returns the value between four pixels; NaN where one of them is unknown or lies outside.
 float Between(const ImagePlane& plane, const Eigen::Vector2d& p) {
-  const auto u = static_cast<Eigen::Index>(std::floor(p.x())), v = static_cast<Eigen::Index>(std::floor(p.y()));
+  const auto u = static_cast<Eigen::Index>(std::floor(p.x())),
+             v = static_cast<Eigen::Index>(std::floor(p.y()));
   if (!(u >= 0 && v >= 0 && u + 1 < plane.cols() && v + 1 < plane.rows())) return kUnknown;
   const auto a = static_cast<float>(p.x() - static_cast<double>(u)),
              b = static_cast<float>(p.y() - static_cast<double>(v));
@@ -45,8 +46,9 @@ void FillState(const LuminanceImage& photo, int r, const std::vector<Eigen::Vect
     if (mean > 0) {
       view.log_luminance[at] = std::log(mean);
       if (photo.variance.size() > 0)
-        view.variance[at] = photo.variance(static_cast<Eigen::Index>(p.y()), static_cast<Eigen::Index>(p.x())) /
-                            (count * mean * mean);
+        view.variance[at] =
+            photo.variance(static_cast<Eigen::Index>(p.y()), static_cast<Eigen::Index>(p.x())) /
+            (count * mean * mean);
     }
     at += static_cast<size_t>(view.states);
   }

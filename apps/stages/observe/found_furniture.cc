@@ -47,9 +47,9 @@ std::vector<Eigen::Vector3d> FreePlacesOf(const Session& session) {
 // Returns the box as a session gives it.
 std::string BoxText(const FoundBox& found) {
   const RoomBox& b = found.box;
-  std::string text = fmt::format(
-      "{{ name = \"{}\", min = [{:.2f}, {:.2f}, {:.2f}], max = [{:.2f}, {:.2f}, {:.2f}]", b.name,
-      b.min_m.x(), b.min_m.y(), b.min_m.z(), b.max_m.x(), b.max_m.y(), b.max_m.z());
+  std::string text =
+      fmt::format("{{ name = \"{}\", min = [{:.2f}, {:.2f}, {:.2f}], max = [{:.2f}, {:.2f}, {:.2f}]", b.name,
+                  b.min_m.x(), b.min_m.y(), b.min_m.z(), b.max_m.x(), b.max_m.y(), b.max_m.z());
   constexpr double kDegPerRad = 57.29577951308232;
   if (std::abs(b.turn_rad) > 1e-3) text += fmt::format(", turn_deg = {:.1f}", kDegPerRad * b.turn_rad);
   return text + " }";
@@ -99,7 +99,8 @@ std::vector<RoomBox> BoxesFromJson(const json& list) {
 std::vector<RoomBox> FurnitureKept(const Session& session, const LinearizedPhotos& photos,
                                    const RegisteredSession& registered, const Room& room,
                                    const SessionInputs& inputs, RunContext& context) {
-  if (!session.scene || !session.scene->finds_furniture || registered.registration.views.size() < 3) return {};
+  if (!session.scene || !session.scene->finds_furniture || registered.registration.views.size() < 3)
+    return {};
   if (const auto kept = KeptProduct("furniture", inputs.furniture, context)) return BoxesFromJson(*kept);
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks");

@@ -50,7 +50,8 @@ void Compare(const std::vector<SignatureView>& views, const std::vector<MeshAgre
         if (b == a) continue;
         const Eigen::Vector2d p = PixelOf(views[b], place);
         if (!p.allFinite()) continue;
-        if ((place - eyes[b]).norm() > cells[b].distance_m[cells[b].CellOf(p.x(), p.y())] + kOnMeshM) continue;
+        if ((place - eyes[b]).norm() > cells[b].distance_m[cells[b].CellOf(p.x(), p.y())] + kOnMeshM)
+          continue;
         if (!signatures.Add(views[b], p.x(), p.y())) continue;
         ++seen;
         agree += signatures.Agree(0, signatures.count() - 1, tolerance) ? 1 : 0;
@@ -70,7 +71,7 @@ Eigen::Vector3d RayOf(const SignatureView& view, int column, int row) {
 
 Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world) {
   const Eigen::Vector3d q = view.pixel_from_ray * (view.cam_from_world * p_in_world);
-  const Eigen::Vector2d p = q.head<2>() / q.z();
+  Eigen::Vector2d p = q.head<2>() / q.z();
   if (q.z() > 0.05 && p.x() >= 1 && p.y() >= 1 && p.x() < view.width_px - 2 && p.y() < view.height_px - 2)
     return p;
   return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -18,7 +18,7 @@ namespace luxfit {
 struct MeshAgreement {
   static constexpr int kCellPx = 2;
   int width = 0, height = 0;
-  std::vector<float> distance_m;   // from the eye to the mesh; infinity: there is none
+  std::vector<float> distance_m;  // from the eye to the mesh; infinity: there is none
   std::vector<char> is_explained;
   std::vector<char> is_compared;  // another view sees the place
 

@@ -109,8 +109,8 @@ PlaneVotes Sweep(const SweptViews& swept, const SweptPlane& plane) {
   size_t at = 0;
   for (int row = 0; row < plane.rows; ++row) {
     for (int column = 0; column < plane.columns; ++column, ++at)
-      result.votes(row, column) = static_cast<signed char>(
-          judge.VoteOn(plane.CenterOf(row, column), plane.normal, result.views[at]));
+      result.votes(row, column) =
+          static_cast<signed char>(judge.VoteOn(plane.CenterOf(row, column), plane.normal, result.views[at]));
   }
   return result;
 }

@@ -44,7 +44,8 @@ struct SweptPlane {
 
 struct PlaneVotes {
   VoteGrid votes;
-  std::vector<std::uint64_t> views;  // of each cell, row by row: those that agree and that the mesh does not explain
+  std::vector<std::uint64_t>
+      views;  // of each cell, row by row: those that agree and that the mesh does not explain
 };
 
 PlaneVotes Sweep(const SweptViews& swept, const SweptPlane& plane);

@@ -16,7 +16,8 @@ namespace luxfit {
 constexpr double kRefinedDepthM = 0.16;  // to each side of the given offset
 
 // Returns none where no rectangle reaches `least_m2`.
-std::optional<Face> RefineFace(const SweptViews& swept, const RoomAxes& axes, const Face& face, double least_m2);
+std::optional<Face> RefineFace(const SweptViews& swept, const RoomAxes& axes, const Face& face,
+                               double least_m2);
 
 }  // namespace luxfit
 

@@ -16,9 +16,9 @@
 namespace luxfit {
 
 struct RoomAxes {
-  double turn_rad = 0;               // of the first axis against the world's x, within 45 degrees
+  double turn_rad = 0;  // of the first axis against the world's x, within 45 degrees
   Eigen::Matrix3d world_from_axes = Eigen::Matrix3d::Identity();
-  Eigen::AlignedBox3d bounds;        // along the axes, m
+  Eigen::AlignedBox3d bounds;  // along the axes, m
 };
 
 inline RoomAxes AxesOf(const Scene& scene) {

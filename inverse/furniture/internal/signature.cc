@@ -30,7 +30,8 @@ bool Signatures::Add(const SignatureView& view, double u, double v) {
 }
 
 bool Signatures::Agree(int a, int b, double tolerance) const {
-  const auto i = static_cast<size_t>(a * states_), j = static_cast<size_t>(b * states_);
+  const auto states = static_cast<size_t>(states_);
+  const size_t i = static_cast<size_t>(a) * states, j = static_cast<size_t>(b) * states;
   const auto t2 = static_cast<float>(tolerance * tolerance);
   const auto most = static_cast<float>(states_);
   float sum = 0;

@@ -7,9 +7,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kThinM = 0.04;     // a table's top
-constexpr double kDeepestM = 1.2;   // a cupboard
-constexpr double kRimM = 0.06;      // views look past the edges of a box
+constexpr double kThinM = 0.04;    // a table's top
+constexpr double kDeepestM = 1.2;  // a cupboard
+constexpr double kRimM = 0.06;     // views look past the edges of a box
 constexpr double kMostBuriedM = 0.05, kLiftM = 5e-4;
 constexpr int kFewestRays = 20;     // fewer do not tell whether a box is hollow
 constexpr double kFreeShare = 0.5;  // of the rays through what would be solid

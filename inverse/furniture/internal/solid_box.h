@@ -23,8 +23,7 @@ struct SolidBox {
 
 // `rays`, `free_places`: along the room's axes.
 std::optional<SolidBox> SolidBehind(const Face& face, const RoomAxes& axes, const RayScene& mesh,
-                                    const SweptViews& swept,
-                                    const std::vector<ViewRay>& rays,
+                                    const SweptViews& swept, const std::vector<ViewRay>& rays,
                                     const std::vector<Eigen::Vector3d>& free_places);
 
 }  // namespace luxfit

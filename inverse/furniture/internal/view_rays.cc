@@ -12,7 +12,8 @@ std::vector<ViewRay> ViewRays(const std::vector<SignatureView>& views, const std
     const Eigen::Vector3d eye = views[v].Eye();
     for (int row = 0; row < mesh[v].height; row += kStep) {
       for (int column = 0; column < mesh[v].width; column += kStep) {
-        const auto at = static_cast<size_t>(row) * static_cast<size_t>(mesh[v].width) + static_cast<size_t>(column);
+        const auto at =
+            static_cast<size_t>(row) * static_cast<size_t>(mesh[v].width) + static_cast<size_t>(column);
         if (!mesh[v].is_compared[at]) continue;
         rays.push_back({axes_from_world * eye,
                         axes_from_world * (eye + mesh[v].distance_m[at] * RayOf(views[v], column, row)),

@@ -124,9 +124,9 @@ Eigen::MatrixXd OutlineBlock::RootOfViews(ViewErrors views) const {
   Eigen::MatrixXd root = Eigen::MatrixXd::Zero(Eigen::Index{view_count} * (kPose + 1),
                                                pose.cols() + (is_joint ? camera_count : view_count));
   for (int v = 0; v < view_count; ++v) {
-    const Eigen::Index first = Eigen::Index{v} * (kPose + 1);
-    if ((v + 1) * kPose <= pose.rows())
-      root.block(first, 0, kPose, pose.cols()) = pose.middleRows(Eigen::Index{v} * kPose, kPose);
+    const Eigen::Index first = Eigen::Index{v} * (kPose + 1), first_pose = Eigen::Index{v} * kPose;
+    if (first_pose + kPose <= pose.rows())
+      root.block(first, 0, kPose, pose.cols()) = pose.middleRows(first_pose, kPose);
     const auto camera = camera_of.find(v);
     if (camera != camera_of.end())
       root(first + kPose, pose.cols() + (is_joint ? camera->second : v)) = kOutlineGrowthPx;

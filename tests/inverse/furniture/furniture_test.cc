@@ -30,8 +30,8 @@ const std::vector<SignatureView>& OfficeViews() {
     for (const std::vector<std::string>& row : support::OfficeTable("photos.csv")) {
       if (row[0] == "file") continue;
       const int state = states.emplace(row[3], static_cast<int>(states.size())).first->second;
-      photos.push_back({row[2], 0, state,
-                        ToRelativeLuminance(ReadPhoto(kOfficeFolder + row[0]), std::stod(row[4]))});
+      photos.push_back(
+          {row[2], 0, state, ToRelativeLuminance(ReadPhoto(kOfficeFolder + row[0]), std::stod(row[4]))});
     }
     const Room room = MakeRoom(SceneFrom(OutlineOfBox({6, 4, 2.8})));
     const PhotoObservations observed =
@@ -58,9 +58,9 @@ double WorstSideM(const RoomBox& found, const Eigen::Vector3d& low, const Eigen:
 TEST(Furniture, TheOfficesCabinetAndDesksAreFoundFromItsThreeLengths) {
   const std::vector<FoundBox> found = FindFurniture(EmptyOffice(), OfficeViews());
   for (const FoundBox& f : found)
-    std::printf("%s: %.2f %.2f %.2f to %.2f %.2f %.2f, face %.2f m2 in %d views, +-%.3f m\n", f.box.name.c_str(),
-                f.box.min_m.x(), f.box.min_m.y(), f.box.min_m.z(), f.box.max_m.x(), f.box.max_m.y(),
-                f.box.max_m.z(), f.face_area_m2, f.views, f.sigma_m);
+    std::printf("%s: %.2f %.2f %.2f to %.2f %.2f %.2f, face %.2f m2 in %d views, +-%.3f m\n",
+                f.box.name.c_str(), f.box.min_m.x(), f.box.min_m.y(), f.box.min_m.z(), f.box.max_m.x(),
+                f.box.max_m.y(), f.box.max_m.z(), f.face_area_m2, f.views, f.sigma_m);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_TRUE(found[0].is_upright);
   EXPECT_FALSE(found[0].is_thin);
@@ -74,7 +74,8 @@ TEST(Furniture, TheOfficesCabinetAndDesksAreFoundFromItsThreeLengths) {
   const bool is_first = found[1].box.min_m.x() < found[2].box.min_m.x();
   const FoundBox& near = found[is_first ? 1 : 2];
   const FoundBox& far = found[is_first ? 2 : 1];
-  EXPECT_LT(WorstSideM(near.box, {0.8, 1.0, 0.70}, {2.4, 1.8, 0.74}), 0.17);  // one view alone sees its left end
+  EXPECT_LT(WorstSideM(near.box, {0.8, 1.0, 0.70}, {2.4, 1.8, 0.74}),
+            0.17);  // one view alone sees its left end
   EXPECT_LT(WorstSideM(far.box, {3.4, 2.3, 0.70}, {5.0, 3.1, 0.74}), 0.12);
 }
 

@@ -35,7 +35,8 @@ TEST(LargestRectangle, NoOtherRectangleHasALargerSum) {
   std::mt19937_64 rng = support::TestRng();
   for (int trial = 0; trial < 20; ++trial) {
     VoteGrid votes(7, 8);
-    for (signed char& vote : votes.reshaped()) vote = static_cast<signed char>(static_cast<int>(rng() % 3) - 1);
+    for (signed char& vote : votes.reshaped())
+      vote = static_cast<signed char>(static_cast<int>(rng() % 3) - 1);
     int most = 0;
     for (int row = 0; row < 7; ++row)
       for (int column = 0; column < 8; ++column)
