@@ -7,7 +7,7 @@
 // taken first; what it explains of the views' pixels takes no part in later ones. A view counts for a face only
 // where the mesh does not explain what it sees.
 //
-// Metres, world frame. Boxes stand along the room's main directions. Glossy, black and thin things, and what fewer
+// Metres, world frame. Boxes stand along the room's main directions. Mirrors, black and thin things, and what fewer
 // than three views see, are not found. What is not a box becomes the boxes of its large flat faces.
 // Source: own; Collins (1996) for the sweep, Bentley (1984) for rectangles.
 #ifndef LUXFIT_INVERSE_FURNITURE_FURNITURE_H_
