@@ -69,14 +69,14 @@ void AddFurniture(const std::vector<RoomBox>& boxes, Session& session, Room& roo
   RunContext with_boxes;
   with_boxes.is_quiet = true;
   room = LoadRoom(session, with_boxes);
-  // What was said of the mesh stands; the counts of patches are those of the whole.
+  // Findings on the mesh stay; choices that count patches are those of the room with boxes.
   for (const Choice& choice : with_boxes.choices) {
     for (Choice& said : context.choices)
       if (said.what == choice.what) said = choice;
   }
 }
 
-// What is observed depends on the boxes that were found.
+// Adds the found boxes to the inputs of observe, which depends on them.
 SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
   if (session.scene && !session.scene->furniture.empty())
     inputs.observe["found furniture"] = HashText(BoxesJson(session.scene->furniture).dump());

@@ -128,7 +128,7 @@ TEST_F(MisreadReadings, TheMistakeIsAWarningAndAVerdictOfTheCheck) {
   const json& explained = result["check"]["explained"];
   ASSERT_EQ(explained["by"].size(), 1u) << explained;
   EXPECT_EQ(explained["by"][0]["as_if"], "x and y were exchanged");
-  // What luminaires and patches leave between two solutions of one room.
+  // Two solutions of one room differ by this much, through their luminaires and patches.
   EXPECT_LT(explained["by"][0]["rms_percent"].get<double>(), 1.5);
   EXPECT_GT(explained["rms_percent_as_given"].get<double>(), 10);
   const support::ProgramRun run = Check();

@@ -1,4 +1,4 @@
-// What a fit is read as by its users, of fits made by hand.
+// Checks what users read from a fit, on fits made by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>

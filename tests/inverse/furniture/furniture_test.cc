@@ -79,6 +79,29 @@ TEST(Furniture, TheOfficesCabinetAndDesksAreFoundFromItsThreeLengths) {
   EXPECT_LT(WorstSideM(far.box, {3.4, 2.3, 0.70}, {5.0, 3.1, 0.74}), 0.12);
 }
 
+// The whole office turned by 30 degrees about the vertical: its boxes turn with it.
+TEST(Furniture, BoxesTurnWithTheRoom) {
+  const double turn_rad = 0.5235987755982988;
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()));
+  Scene scene = EmptyOffice();
+  for (Facet& facet : scene.facets) {
+    facet.origin = turned * facet.origin;
+    facet.edge_u = turned.linear() * facet.edge_u;
+    facet.edge_v = turned.linear() * facet.edge_v;
+  }
+  std::vector<SignatureView> views = OfficeViews();
+  for (SignatureView& view : views) view.cam_from_world = view.cam_from_world * turned.inverse();
+  const std::vector<FoundBox> found = FindFurniture(scene, views),
+                              upright = FindFurniture(EmptyOffice(), OfficeViews());
+  ASSERT_EQ(found.size(), upright.size());
+  for (size_t i = 0; i < found.size(); ++i) {
+    const RoomBox &a = found[i].box, &b = upright[i].box;
+    EXPECT_NEAR(a.turn_rad, turn_rad, 1e-9);
+    EXPECT_LT((0.5 * (a.min_m + a.max_m) - turned * (0.5 * (b.min_m + b.max_m))).norm(), 0.02) << a.name;
+    EXPECT_LT(((a.max_m - a.min_m) - (b.max_m - b.min_m)).norm(), 0.04) << a.name;
+  }
+}
+
 TEST(Furniture, NothingIsFoundWhereTheMeshHasIt) {
   EXPECT_TRUE(FindFurniture(ReadScene(kOfficeFolder + "room.obj"), OfficeViews()).empty());
 }
