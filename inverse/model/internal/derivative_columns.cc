@@ -3,22 +3,10 @@
 #include <algorithm>
 
 namespace luxfit {
-namespace {
-
-// Says whether the parameter is a size of a type of which outlines are rows.
-bool IsToldByOutlines(const Parameter& p, const std::vector<bool>& is_outlined) {
-  if (p.kind != ParameterKind::kLuminaire ||
-      (p.quantity != LuminaireQuantity::kSizeAlong && p.quantity != LuminaireQuantity::kSizeAcross))
-    return false;
-  const auto is_one = [&](int luminaire) { return is_outlined[static_cast<size_t>(luminaire)]; };
-  return is_one(p.index) || std::any_of(p.tied.begin(), p.tied.end(), is_one);
-}
-
-}  // namespace
 
 DerivativeColumns::DerivativeColumns(const LightState& state, const std::vector<Parameter>& parameters,
                                      const DimmingGroups& groups, bool reflected,
-                                     const std::vector<bool>& is_outlined)
+                                     const std::vector<bool>& is_told)
     : lit_(state.luminaires.size()), terms_(parameters.size()) {
   request_.reflected = reflected;
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
@@ -37,7 +25,7 @@ DerivativeColumns::DerivativeColumns(const LightState& state, const std::vector<
   const auto materials = std::count_if(parameters.begin(), parameters.end(), is_albedo);
   for (size_t i = 0; i < parameters.size(); ++i) {
     const Parameter& p = parameters[i];
-    if (IsToldByOutlines(p, is_outlined)) continue;
+    if (is_told[i]) continue;
     if (p.kind == ParameterKind::kLuminaire) {
       AddLuminaire(p, p.index, i);
       for (const int k : p.tied) AddLuminaire(p, k, i);

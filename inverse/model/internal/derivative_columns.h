@@ -5,7 +5,7 @@
 // rows need the columns of four luminaires for each reflectance and for each number of their type. A column holds
 // lx at the group's full dimming.
 //
-// Sizes that outlines tell have no columns: light far from a luminaire hardly depends on its size, so that small errors of
+// Sizes that rows of outlines depend on have no columns: light far from a luminaire hardly depends on its size, so that small errors of
 // its distribution or of reflectances would make it tell a wrong one, as surely as its rows are many. Information is cut
 // between the two kinds of rows.
 //
@@ -28,9 +28,9 @@ class DerivativeColumns {
     Eigen::Index group = 0, column = 0;
   };
 
-  // `reflected`: DerivativeRequest::reflected. `is_outlined`: the luminaires of which outlines are rows.
+  // `reflected`: DerivativeRequest::reflected. `is_told`: the parameters that outlines tell, so that light need not.
   DerivativeColumns(const LightState& state, const std::vector<Parameter>& parameters,
-                    const DimmingGroups& groups, bool reflected, const std::vector<bool>& is_outlined);
+                    const DimmingGroups& groups, bool reflected, const std::vector<bool>& is_told);
 
   const DerivativeRequest& request() const { return request_; }
   // Returns the columns of d_luminaire or d_albedo whose sum, each times its group's dimming, is the derivative of

@@ -276,12 +276,22 @@ Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& 
                             request);
 }
 
-std::vector<bool> LightModel::OutlinedLuminaires() const {
-  std::vector<bool> is_outlined(data_.dimming.empty() ? 0
-                                                      : static_cast<size_t>(data_.dimming.front().size()));
-  for (const LuminaireOutline& outline : data_.outlines)
-    is_outlined[static_cast<size_t>(outline.luminaire)] = true;
-  return is_outlined;
+std::vector<bool> LightModel::SizesThatOutlinesTell(const LightState& state,
+                                                    const std::vector<Parameter>& parameters) const {
+  std::vector<bool> is_told(parameters.size());
+  if (data_.outlines.empty()) return is_told;
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    if (p.kind != ParameterKind::kLuminaire ||
+        (p.quantity != LuminaireQuantity::kSizeAlong && p.quantity != LuminaireQuantity::kSizeAcross))
+      continue;
+    // A rectangle far longer than its outline is judged by its other sides alone: there the light has to bring it back.
+    for (const auto& block : blocks_) {
+      for (int row = 0; row < block->row_count() && !is_told[i]; ++row)
+        is_told[i] = block->OwnDerivative(state, p, 0, row) != 0;
+    }
+  }
+  return is_told;
 }
 
 const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
@@ -292,7 +302,8 @@ const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
 Prediction LightModel::Predict(const LightState& state, const std::vector<Parameter>& parameters,
                                bool with_jacobian) const {
   const std::vector<Parameter> asked = with_jacobian ? parameters : std::vector<Parameter>();
-  const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_, OutlinedLuminaires());
+  const DerivativeColumns columns(state, asked, groups_, reflects_derivatives_,
+                                  SizesThatOutlinesTell(state, asked));
   const Illuminance light = Light(state, columns.request());
   const ReceiverDerivative derivative(state, asked, light, columns, data_.dimming, groups_.dimming,
                                       data_.indirect_is_held);

@@ -102,8 +102,9 @@ class LightModel {
   void FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
-  // Returns by luminaire whether outlines of it are rows.
-  std::vector<bool> OutlinedLuminaires() const;
+  // Returns by parameter whether it is a size that rows of outlines depend on.
+  std::vector<bool> SizesThatOutlinesTell(const LightState& state,
+                                          const std::vector<Parameter>& parameters) const;
   // Returns illuminance per lumen at the receivers.
   Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
 

@@ -332,6 +332,29 @@ TEST_F(OutlineRows, LightTellsNoSizeThatOutlinesTell) {
   }
 }
 
+// Seen where it is small, a rectangle that has grown far across is judged by its sides along alone: light brings it back.
+TEST_F(OutlineRows, LightTellsASizeThatOutlinesDoNot) {
+  const Luminaire seen = FlatLuminaire(LuminaireShape::kRectangle);
+  data_.outlines = {{0, support::OutlineFrom({1.5, 0.5, 0.9}, seen)}};
+  Luminaire grown = seen;
+  grown.size_m.y() = 2;
+  state_.luminaires = {grown};
+  state_.free[0] = {true, true, false, true, false, false};
+  const std::vector<Parameter> parameters = FreeParameters(room_, state_);
+  LightModel model(room_, data_);
+  model.FreezeVisibility(state_);
+  const Eigen::RowVectorXd of_reading = model.Predict(state_, parameters, true).jacobian.row(0);
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    const double derivative = of_reading[static_cast<Eigen::Index>(p)];
+    if (parameters[p].quantity == LuminaireQuantity::kSizeAlong) {
+      EXPECT_EQ(derivative, 0);
+    }
+    if (parameters[p].quantity == LuminaireQuantity::kSizeAcross) {
+      EXPECT_NE(derivative, 0);
+    }
+  }
+}
+
 // A turned rectangle of 0.6 m x 0.3 m that three views see. The start is some centimetres and 10 degrees off.
 class SeenRectangle : public OutlineRows {
  protected:
