@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@
 namespace {
 
 // These are the exit statuses of docs/session-format.md.
-constexpr int kBadInput = 2, kMissingProgram = 3, kDefect = 70;
+constexpr int kBadInput = 2, kMissing = 3, kDefect = 70;
 
 int Run(const luxfit::Invocation& invocation) {
   const luxfit::ThreadLimit limit(invocation.threads);
@@ -27,7 +28,13 @@ int Run(const luxfit::Invocation& invocation) {
     return invocation.run();
   } catch (const luxfit::MissingProgram& e) {
     luxfit::PrintError(e.what());
-    return kMissingProgram;
+    return kMissing;
+  } catch (const std::bad_alloc&) {
+    luxfit::PrintError(
+        "expected more memory than there is left; end other programs, lift the limit (ulimit -v, the "
+        "container's), or ask "
+        "for less: a larger patch_size_m, fewer --threads, smaller photos");
+    return kMissing;
   } catch (const std::runtime_error& e) {
     luxfit::PrintError(e.what());
     return kBadInput;

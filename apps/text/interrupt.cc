@@ -38,6 +38,7 @@ InterruptListener::InterruptListener() {
 
 InterruptListener::~InterruptListener() {
   for (size_t i = 0; i < kWishes.size(); ++i) sigaction(kWishes[i], &before_[i], nullptr);
+  was_interrupted = false;  // the wish was for those who listened
 }
 
 bool InterruptListener::WasInterrupted() { return was_interrupted; }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,6 +16,7 @@
 #include <sstream>
 #include <thread>
 
+#include "apps/text/interrupt.h"
 #include "apps/text/seconds.h"
 
 namespace luxfit {
@@ -34,8 +36,11 @@ int OpenLog(const ProcessOptions& options, const std::vector<std::string>& words
 }
 
 // Between fork and exec only async-signal-safe calls are allowed, so everything is prepared before.
-[[noreturn]] void BecomeProgram(char* const* arguments, char* const* environment, int log) {
+[[noreturn]] void BecomeProgram(char* const* arguments, char* const* environment, int log, pid_t parent) {
   setpgid(0, 0);
+  // It ends with its caller, however that ends. A caller that ended before this line left it to another parent.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
   const int none = open("/dev/null", O_RDONLY);
   dup2(none, STDIN_FILENO);
   dup2(log, STDOUT_FILENO);
@@ -71,10 +76,9 @@ ProcessEnd WaitFor(pid_t child, double time_limit_s) {
     if (waited == child) break;
     if (waited < 0 && errno != EINTR)
       throw std::runtime_error(std::string("cannot wait for a process; ") + std::strerror(errno));
-    if (!end.timed_out && time_limit_s > 0 && NowS() - start_s > time_limit_s) {
-      end.timed_out = true;
-      kill(-child, SIGKILL);
-    }
+    if (!end.timed_out && time_limit_s > 0 && NowS() - start_s > time_limit_s) end.timed_out = true;
+    if (!end.interrupted && InterruptListener::WasInterrupted()) end.interrupted = true;
+    if (end.timed_out || end.interrupted) kill(-child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   if (WIFEXITED(status)) end.status = WEXITSTATUS(status);
@@ -95,6 +99,7 @@ bool IsInstalled(const std::string& program) {
 }
 
 std::string ProcessEnd::Describe() const {
+  if (interrupted) return "was stopped (Ctrl-C or SIGTERM)";
   if (timed_out) return "took longer than allowed and was stopped";
   if (signal != 0) return fmt::format("was ended by signal {} ({})", signal, strsignal(signal));
   return fmt::format("ended with status {}", status);
@@ -109,8 +114,8 @@ ProcessEnd RunProcess(const std::vector<std::string>& words, const ProcessOption
   const std::vector<char*> argument_pointers = Pointers(arguments),
                            environment_pointers = Pointers(environment);
   const int log = OpenLog(options, words);
-  const pid_t child = fork();
-  if (child == 0) BecomeProgram(argument_pointers.data(), environment_pointers.data(), log);
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) BecomeProgram(argument_pointers.data(), environment_pointers.data(), log, parent);
   close(log);
   if (child < 0) throw std::runtime_error(std::string("cannot start a process; ") + std::strerror(errno));
   return WaitFor(child, options.time_limit_s);

@@ -1,4 +1,5 @@
-// Runs a program as a child process, with its output in a log and its time limited.
+// Runs a program as a child process, with its output in a log and its time limited. The program ends with its caller, and
+// with the caller's wish to stop (apps/text/interrupt.h).
 //
 // Throws std::runtime_error where the process cannot be started or the log cannot be written.
 #ifndef LUXFIT_APPS_TEXT_PROCESS_H_
@@ -30,7 +31,8 @@ struct ProcessEnd {
   int status = -1;  // exit status; -1 where a signal ended it
   int signal = 0;
   bool timed_out = false;
-  bool IsSuccess() const { return status == 0 && !timed_out; }
+  bool interrupted = false;  // Ctrl-C or SIGTERM came while an InterruptListener lived
+  bool IsSuccess() const { return status == 0 && !timed_out && !interrupted; }
   std::string Describe()
       const;  // "ended with status 1", "was killed by signal 6", "took longer than allowed"
 };

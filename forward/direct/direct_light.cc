@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "forward/direct/internal/cell_sum.h"
+#include "forward/direct/internal/lobe_sum.h"
 #include "forward/direct/internal/luminous_surface.h"
 #include "forward/direct/internal/surface_rule.h"
 #include "forward/factors/internal/disc_factor.h"
@@ -102,13 +103,25 @@ double LxSummedOverSurface(const LuminousSurface& surface, const Eigen::Vector3d
   return lx;
 }
 
+// Returns the lobe of a surface with an extent, where it depends on the angle to the aim alone; nullptr else.
+IntensityAboutAim LobeOf(const LuminousSurface& surface) {
+  return surface.has_extent() ? AboutAimOf(surface.luminaire()) : nullptr;
+}
+
 }  // namespace
 
 double DirectLxPerLumen(const Luminaire& luminaire, const Eigen::Vector3d& p_in_world,
                         const Eigen::Vector3d& normal) {
   if (HasUnevenEmission(luminaire)) return DirectIlluminancePerLumen(luminaire, p_in_world, normal).lx_per_lm;
   const LuminousSurface surface(luminaire);
-  if (!HasClosedForm(surface, p_in_world)) return LxSummedOverSurface(surface, p_in_world, normal);
+  if (!HasClosedForm(surface, p_in_world)) {
+    const IntensityAboutAim lobe = LobeOf(surface);
+    if (lobe == nullptr) return LxSummedOverSurface(surface, p_in_world, normal);
+    const auto& rule = SurfaceRuleFor(surface, p_in_world, normal);
+    return LobeSumLx(surface, p_in_world, normal, rule, LobeAboutAim(luminaire, lobe));
+  }
+  if (const auto* rule = FarRuleFor(surface, p_in_world, normal))
+    return LobeSumLx(surface, p_in_world, normal, *rule, DiffuseLobe());
   if (surface.is_disc()) return LambertianDisc(surface, p_in_world, normal).lx_per_lm;
   return PointToPolygon(p_in_world, normal, PolygonOf(surface)) / surface.area_m2();
 }
@@ -121,7 +134,14 @@ DirectIlluminance DirectIlluminancePerLumen(const Luminaire& luminaire, const Ei
     });
   }
   const LuminousSurface surface(luminaire);
-  if (!HasClosedForm(surface, p_in_world)) return SumOverSurface(surface, p_in_world, normal);
+  if (!HasClosedForm(surface, p_in_world)) {
+    const IntensityAboutAim lobe = LobeOf(surface);
+    if (lobe == nullptr) return SumOverSurface(surface, p_in_world, normal);
+    const auto& rule = SurfaceRuleFor(surface, p_in_world, normal);
+    return LobeSum(surface, p_in_world, normal, rule, LobeAboutAim(luminaire, lobe));
+  }
+  if (const auto* rule = FarRuleFor(surface, p_in_world, normal))
+    return LobeSum(surface, p_in_world, normal, *rule, DiffuseLobe());
   return surface.is_disc() ? LambertianDisc(surface, p_in_world, normal)
                            : LambertianRectangle(surface, p_in_world, normal);
 }

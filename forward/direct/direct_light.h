@@ -7,9 +7,10 @@
 // where things stand between.
 //
 // Lambertian rectangles and discs have closed forms for values and derivatives, cut by the receiver's plane
-// or not (forward/factors/internal/polygon_factor.h, forward/factors/internal/disc_factor.h). Only if their
-// area is below 1e-8 of the squared distance are they summed too, as rounding would show. Other lobes are
-// sums over surface points.
+// or not (forward/factors/internal/polygon_factor.h, forward/factors/internal/disc_factor.h). From
+// 1.7 sides away, a few points of a rectangle give the same in less time: to 3e-5 of what a receiver that faces
+// it gets, and 3e-4 in derivatives (FarRuleFor). If the area is below 1e-8 of the squared distance both are
+// summed as other lobes are, as rounding would show. Other lobes are sums over surface points.
 //
 // From the distance of the luminaire's longer side on, these sums are within 0.1 % for lobes up to cos^100.
 // The error is relative to the illuminance, or to 1/1000 of that in the beam. Where the receiver's plane cuts

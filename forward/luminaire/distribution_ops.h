@@ -20,6 +20,9 @@
 
 namespace luxfit {
 
+// Returns the intensity by cos(gamma), of distributions that depend on it alone.
+using IntensityAboutAim = Intensity (*)(const Luminaire& luminaire, double cosine_gamma);
+
 struct DistributionOps {
   Distribution distribution = Distribution::kLambertian;
   const char* name = "";        // in choices, messages and labels
@@ -34,8 +37,7 @@ struct DistributionOps {
   bool is_diffuse = false;  // I = cos(gamma) / pi: the luminance of a flat surface is the same from all sides
   double last_gamma_deg = 90;  // dark beyond it: 90 or 180; a table has angles of its own
 
-  // Intensity by cos(gamma); nullptr: it depends on C, too.
-  Intensity (*about_aim)(const Luminaire& luminaire, double cosine_gamma) = nullptr;
+  IntensityAboutAim about_aim = nullptr;  // nullptr: it may depend on C, too
   // Intensity towards a unit vector in world.
   DirectedIntensity (*towards)(const Luminaire& luminaire, const LuminaireAxes& axes,
                                const Eigen::Vector3d& direction) = nullptr;
@@ -52,6 +54,9 @@ struct DistributionOps {
 // All distributions, in the order of Distribution: those with fewer parameters first.
 const std::array<DistributionOps, 4>& Distributions();
 const DistributionOps& OpsOf(Distribution distribution);
+
+// Returns about_aim, or that of a table with one plane about the aim. nullptr: the intensity may depend on C.
+IntensityAboutAim AboutAimOf(const Luminaire& luminaire);
 
 // The distribution that sessions and results call so; nullptr where none is.
 const DistributionOps* FindDistribution(const std::string& photometry);

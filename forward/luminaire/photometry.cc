@@ -88,7 +88,7 @@ Eigen::Vector3d DirectionOf(double c_rad, double gamma_rad) {
   return {std::sin(gamma_rad) * std::cos(c_rad), std::sin(gamma_rad) * std::sin(c_rad), -std::cos(gamma_rad)};
 }
 
-// Returns whether the table is one plane, repeated after a whole turn: fits of free tables ask for no other.
+// Returns whether the table is one plane, repeated after a whole turn.
 bool IsOnePlaneAllRound(const IntensityTable& table) {
   return table.c_rad.size() == 2 && table.c_rad.back() - table.c_rad.front() > 2 * M_PI - kSameAngle;
 }
@@ -208,6 +208,20 @@ TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector
                                    d_c / sine * Eigen::Vector3d(-sin_c, cos_c, 0);
   result.d_direction = table.table_from_luminaire.transpose() * in_table;
   return result;
+}
+
+bool IsOnePlaneAboutAim(const IntensityTable& table) {
+  return IsOnePlaneAllRound(table) && table.table_from_luminaire.isIdentity(0);
+}
+
+PlaneIntensity IntensityInOnePlane(const IntensityTable& table, double cosine_gamma) {
+  const double sine2 = 1 - cosine_gamma * cosine_gamma;
+  const double sine = sine2 < 0 ? 0 : std::sqrt(sine2);  // NaN stays
+  const TableCell g = CellOf(table.gamma_rad, PolarAngle(sine, cosine_gamma));
+  if (g.index < 0) return {};
+  const double* at = table.cd_per_lm.data() + g.index;
+  const double rise = at[1] - at[0];
+  return {at[0] + g.share * rise, sine < kSameAngle ? 0 : -rise / (g.width * sine)};
 }
 
 IntensityTable Resampled(const IntensityTable& table, int c_step_deg, int gamma_step_deg) {

@@ -67,6 +67,16 @@ struct TableIntensity {
 };
 TableIntensity IntensityTowards(const IntensityTable& table, const Eigen::Vector3d& direction);
 
+// Whether one plane stands for all, about the aim. Fits of free tables ask for no other.
+bool IsOnePlaneAboutAim(const IntensityTable& table);
+
+// The same by cos(gamma), of a table that is one plane about the aim.
+struct PlaneIntensity {
+  double cd_per_lm = 0;
+  double d_cosine = 0;  // 0 at gamma = 0 and pi
+};
+PlaneIntensity IntensityInOnePlane(const IntensityTable& table, double cosine_gamma);
+
 // The distribution on a whole circle of C and gamma from 0 to pi in the luminaire's own frame. Steps in
 // degrees divide 360 and 180. Between grid points it is interpolated anew: error of the order of the squared
 // step.

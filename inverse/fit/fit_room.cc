@@ -291,6 +291,10 @@ class RoomFitter {
     for (const AimChoice& c : choice.aims)
       RecordAim(given_, c, state.luminaires[static_cast<size_t>(c.luminaire)].aim, result_.findings);
     for (const Refinement& r : choice.refinements) RecordRefinement(given_, r, result_.findings);
+    if (!choice.stop_reason.empty()) {
+      best_ = choice.state;
+      throw FitStopped(choice.stop_reason);
+    }
     for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, Priors()))
       WarnOfContradiction(given_, c, result_.findings);
     return WithSidesAlike(choice.state, open_);

@@ -20,6 +20,7 @@
 #include "apps/stages/session_light.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/text_file.h"
 #include "apps/text/terminal.h"
 
 namespace luxfit {
@@ -107,6 +108,8 @@ double MakeReport(const RunContext& context, const std::function<FittedRoom()>& 
 RunContext MakeContext(const SessionCommandOptions& options, const Session& session) {
   RunContext context;
   context.out = std::filesystem::absolute(options.out).lexically_normal().string();
+  ExpectUtf8Path(session.path);
+  ExpectUtf8Path(context.out);
   ExpectOwnFolders(context.out);
   context.provenance = {options.command_line, session.input_files};
   context.expected_s = LastTimes(context.out);

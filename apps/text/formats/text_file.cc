@@ -26,6 +26,12 @@ std::string WithLineFeeds(const std::string& text) {
   return lines;
 }
 
+// Says which byte is not UTF-8, and what it may be.
+std::string WordsOf(const std::string& bytes, size_t at) {
+  return fmt::format("got the byte 0x{:02X}, which in Windows-1252 is \"{}\"",
+                     static_cast<unsigned char>(bytes[at]), Utf8Text(std::string_view(bytes).substr(at, 1)));
+}
+
 void ExpectUtf8(const std::string& path, const std::string& bytes) {
   const std::optional<size_t> at = FirstByteOfNoUnicode(bytes);
   if (!at) return;
@@ -33,9 +39,8 @@ void ExpectUtf8(const std::string& path, const std::string& bytes) {
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   throw InputError(
       {path, static_cast<int>(line)}, "",
-      fmt::format("expected text in UTF-8, got the byte 0x{:02X}, which in Windows-1252 is \"{}\"; save the "
-                  "file as UTF-8 (spreadsheets call it \"CSV UTF-8\")",
-                  static_cast<unsigned char>(bytes[*at]), Utf8Text(std::string_view(bytes).substr(*at, 1))));
+      fmt::format("expected text in UTF-8, {}; save the file as UTF-8 (spreadsheets call it \"CSV UTF-8\")",
+                  WordsOf(bytes, *at)));
 }
 
 }  // namespace
@@ -49,6 +54,14 @@ std::string ReadTextFile(const std::string& path, const std::string& what) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   ExpectUtf8(path, bytes);
   return WithLineFeeds(Utf8Text(bytes));
+}
+
+void ExpectUtf8Path(const std::string& path) {
+  const std::optional<size_t> at = FirstByteOfNoUnicode(path);
+  if (!at) return;
+  throw InputError({Utf8Text(path)}, "",
+                   fmt::format("expected a path in UTF-8, as results name their files, {}; rename the folder",
+                               WordsOf(path, *at)));
 }
 
 }  // namespace luxfit

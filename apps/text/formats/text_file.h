@@ -14,6 +14,9 @@ namespace luxfit {
 // `what`: what the file should be, for the error ("a table").
 std::string ReadTextFile(const std::string& path, const std::string& what);
 
+// Expects the name of a file or folder in UTF-8, as results can name no other.
+void ExpectUtf8Path(const std::string& path);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_APPS_TEXT_FORMATS_TEXT_FILE_H_

@@ -25,6 +25,19 @@ std::array<int, 2> OrdersFor(const LuminousSurface& surface, const Eigen::Vector
   return {order(surface.sides()[0]), order(surface.sides()[1])};
 }
 
+// Returns the points that a side needs in place of the closed form, by its squared distance in sides; 0: it is too near.
+int FarOrderFor(double sides_away2) {
+  if (sides_away2 > 8 * 8) return 2;
+  if (sides_away2 > 3 * 3) return 3;
+  return sides_away2 > 1.7 * 1.7 ? 4 : 0;
+}
+
+// Returns how far the surface reaches to either side of its centre along a normal, m.
+double ReachAlong(const LuminousSurface& surface, const Eigen::Vector3d& normal) {
+  return 0.5 * (std::abs(surface.sides()[0] * normal.dot(surface.axes().along)) +
+                std::abs(surface.sides()[1] * normal.dot(surface.axes().across)));
+}
+
 using RulesByOrder = std::array<std::vector<SurfaceSample>, kMaxOrder + 1>;
 
 // Returns the products of Gauss-Legendre rules, by order along and across.
@@ -65,14 +78,23 @@ const std::vector<SurfaceSample>& SurfaceRuleFor(const LuminousSurface& surface,
                                                  const Eigen::Vector3d& normal) {
   static const std::vector<SurfaceSample> none;
   const Luminaire& luminaire = surface.luminaire();
-  const LuminaireAxes& axes = surface.axes();
   const double height_of_centre = normal.dot(luminaire.position - p);
-  const double reach = 0.5 * (std::abs(surface.sides()[0] * normal.dot(axes.along)) +
-                              std::abs(surface.sides()[1] * normal.dot(axes.across)));
+  const double reach = ReachAlong(surface, normal);
   if (height_of_centre < -reach) return none;
   if (!surface.has_extent()) return SurfaceRule(luminaire.shape, 1, 1);
   const auto [along, across] = OrdersFor(surface, p, height_of_centre < reach);
   return SurfaceRule(luminaire.shape, along, across);
+}
+
+const std::vector<SurfaceSample>* FarRuleFor(const LuminousSurface& surface, const Eigen::Vector3d& p,
+                                             const Eigen::Vector3d& normal) {
+  if (surface.is_disc()) return nullptr;
+  const Eigen::Vector3d to_centre = surface.luminaire().position - p;
+  const Eigen::Array2d away2 = to_centre.squaredNorm() / surface.sides().array().square();
+  const int along = FarOrderFor(away2[0]), across = FarOrderFor(away2[1]);
+  // NaN is not far: it is left to the closed form.
+  if (along == 0 || across == 0 || !(normal.dot(to_centre) > ReachAlong(surface, normal))) return nullptr;
+  return &SurfaceRule(LuminaireShape::kRectangle, along, across);
 }
 
 }  // namespace luxfit

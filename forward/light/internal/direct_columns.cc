@@ -62,12 +62,15 @@ class ColumnFiller {
  public:
   ColumnFiller(const RayScene& rays, const std::vector<Luminaire>& luminaires,
                const DerivativeRequest& derivatives)
-      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives) {
+      : rays_(rays), luminaires_(luminaires), derivatives_(derivatives), is_derived_(luminaires.size()) {
     std::map<std::pair<int, LuminaireQuantity>, int> known;
     for (const LuminaireParameter& parameter : derivatives.parameters) {
       parts_of_parameter_.push_back(-1);
       const std::optional<PartKind> kind = PartKindOf(parameter.quantity);
-      if (!kind) continue;
+      if (!kind) {
+        is_derived_[static_cast<size_t>(parameter.luminaire)] = true;
+        continue;
+      }
       const auto [at, is_new] =
           known.try_emplace({parameter.luminaire, parameter.quantity}, static_cast<int>(parts_.size()));
       if (is_new)
@@ -90,6 +93,10 @@ class ColumnFiller {
     for (size_t k = 0; k < luminaires_.size(); ++k) {
       share[k] = static_cast<double>(visible[static_cast<Eigen::Index>(k)]);
       if (share[k] == 0) continue;
+      if (is_cosine && !is_derived_[k]) {
+        FillValue(spot.place, k, share[k], row);
+        continue;
+      }
       direct[k] = SensorIlluminancePerLumen(luminaires_[k], spot.place);
       row[static_cast<Eigen::Index>(k)] = static_cast<float>(share[k] * direct[k].lx_per_lm);
       if (!derivatives_.moving_shadows || derivatives_.parameters.empty() || share[k] == 1 || !is_cosine)
@@ -115,12 +122,15 @@ class ColumnFiller {
   template <typename Row, typename Shares>
   void FillValues(const Sensor& place, const Shares& visible, Row&& row) const {
     for (size_t k = 0; k < luminaires_.size(); ++k) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const double share = static_cast<double>(visible[column]);
-      if (share == 0) continue;
-      row[column] =
-          static_cast<float>(share * DirectLxPerLumen(luminaires_[k], place.position, place.normal));
+      const auto share = static_cast<double>(visible[static_cast<Eigen::Index>(k)]);
+      if (share != 0) FillValue(place, k, share, row);
     }
+  }
+
+  template <typename Row>
+  void FillValue(const Sensor& place, size_t k, double share, Row&& row) const {
+    row[static_cast<Eigen::Index>(k)] =
+        static_cast<float>(share * DirectLxPerLumen(luminaires_[k], place.position, place.normal));
   }
 
   struct Parts {
@@ -156,6 +166,7 @@ class ColumnFiller {
   const RayScene& rays_;
   const std::vector<Luminaire>& luminaires_;
   const DerivativeRequest& derivatives_;
+  std::vector<bool> is_derived_;  // by luminaire: its derivatives are asked for
   std::vector<Parts> parts_;
   std::vector<int> parts_of_parameter_;  // index of the parts; -1: a derivative of the whole
 };

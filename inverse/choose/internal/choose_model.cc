@@ -138,17 +138,25 @@ ModelChoice ChooseLuminaireModels(const Room& room, const LightData& data, const
   }
   const std::vector<std::vector<int>> types = TypesOf(start);
   std::vector<std::vector<ChosenType>> chosen(types.size());
+  std::vector<std::string> stop_reason(types.size());
   tbb::parallel_for(size_t{0}, types.size(), [&](size_t t) {
     const OpenChoice& of_first = open[static_cast<size_t>(types[t].front())];
     const auto rival = std::find_if(rivals.begin(), rivals.end(),
                                     [&](const TypePlaces& r) { return r.first == types[t].front(); });
-    chosen[t] = {
-        ChooseType(room, data, start, types[t], of_first, priors, rival == rivals.end() ? nullptr : &*rival)};
-    if (types[t].size() > 1 && chosen[t].front().model.fitted)
-      chosen[t] = OneOrSeveral(room, data, start, open, priors, chosen[t].front());
+    chosen[t] = {ChosenType{types[t]}};
+    try {
+      chosen[t] = {ChooseType(room, data, start, types[t], of_first, priors,
+                              rival == rivals.end() ? nullptr : &*rival)};
+      if (types[t].size() > 1 && chosen[t].front().model.fitted)
+        chosen[t] = OneOrSeveral(room, data, start, open, priors, chosen[t].front());
+    } catch (const FitStopped& stop) {
+      stop_reason[t] = stop.what();
+    }
   });
   ModelChoice result;
   result.state = start;
+  for (const std::string& reason : stop_reason)
+    if (!reason.empty()) result.stop_reason = reason;
   for (const std::vector<ChosenType>& of_type : chosen) {
     for (const ChosenType& type : of_type) {
       type.TakeOverInto(result);

@@ -12,11 +12,14 @@
 // photometry (inverse/choose/internal/refinement.h). Each is kept only where the data left out support it.
 // The function does not vary a distribution, shape or aim that the caller fixed.
 //
+// Where LightData::checkpoint ends it, types whose choice was not done stay as they were.
+//
 // Source: Breiman, Friedman, Olshen, Stone (1984), "Classification and Regression Trees", sec. 3.4
 // (one-standard-error rule).
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_MODEL_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_MODEL_H_
 
+#include <string>
 #include <vector>
 
 #include "inverse/choose/internal/luminaire_chooser.h"
@@ -37,6 +40,7 @@ struct ModelChoice {
   std::vector<AimChoice> aims;
   std::vector<Refinement> refinements;  // in the order they were tried, luminaire by luminaire
   std::vector<PlacesChoice> places;
+  std::string stop_reason;  // why it was ended early; empty: it was not
 };
 
 // Holds other places that the luminaires of a type may have: a second start.

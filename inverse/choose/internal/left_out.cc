@@ -148,6 +148,7 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   }
   problem.data.indirect_is_held = data.indirect_is_held;
   problem.data.pose_root = data.pose_root;
+  problem.data.checkpoint = data.checkpoint;
   const auto member_of = [&](int luminaire) {
     const auto at = std::find(luminaires.begin(), luminaires.end(), luminaire);
     return at == luminaires.end() ? -1 : problem.members[static_cast<size_t>(at - luminaires.begin())];
@@ -185,6 +186,7 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
   problem.data.dimming = data.dimming;
   problem.data.indirect_is_held = data.indirect_is_held;
   problem.data.pose_root = data.pose_root;
+  problem.data.checkpoint = data.checkpoint;
   if (data.observations.empty()) {
     AddReadings(data, every_state, problem);
   } else {

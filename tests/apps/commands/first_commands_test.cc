@@ -37,6 +37,24 @@ std::vector<std::string> CommandsOfHelp() {
   return commands;
 }
 
+// Results name the session's file. A name that is not UTF-8 was replaced in them, and the report at the end found no session.
+TEST(RunTest, AFolderWhoseNameIsNotUtf8IsNamedAtOnce) {
+  const TempFolder folder;
+  const std::string place = folder.Path("caf\xe9");
+  fs::create_directories(place);
+  fs::copy(kOffice, place, fs::copy_options::recursive);
+  const support::ProgramRun from =
+      support::RunProgram("run '" + place + "/session.toml' -o " + folder.Path("out"));
+  EXPECT_EQ(from.status, 2) << from.output;
+  EXPECT_THAT(from.output, AllOf(HasSubstr("caf\u00e9/session.toml: expected a path in UTF-8"),
+                                 HasSubstr("0xE9, which in Windows-1252 is \"\u00e9\"; rename the folder")));
+  const support::ProgramRun into =
+      support::RunProgram("run " + kOffice + "/session.toml -o '" + place + "/out'");
+  EXPECT_EQ(into.status, 2) << into.output;
+  EXPECT_FALSE(fs::exists(folder.Path("out")));
+  EXPECT_FALSE(fs::exists(place + "/out"));
+}
+
 TEST(InitTest, WritesASessionThatReads) {
   const TempFolder folder;
   const support::ProgramRun init = InitOffice(folder.Path("mine"));

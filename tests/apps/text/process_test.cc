@@ -1,10 +1,19 @@
 #include "apps/text/process.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
 
+#include "apps/text/interrupt.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -39,6 +48,42 @@ TEST_F(ProcessTest, WhatTakesTooLongIsStoppedWithItsChildren) {
   EXPECT_TRUE(end.timed_out);
   EXPECT_FALSE(end.IsSuccess());
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+}
+
+// As COLMAP is stopped by Ctrl-C during `luxfit run`.
+TEST_F(ProcessTest, AWishToStopStopsIt) {
+  const InterruptListener listener;
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessEnd end = Run(fmt::format("kill -INT {}; sleep 60 & wait", getpid()));
+  EXPECT_TRUE(end.interrupted);
+  EXPECT_FALSE(end.IsSuccess());
+  EXPECT_EQ(end.Describe(), "was stopped (Ctrl-C or SIGTERM)");
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 30);
+}
+
+// A caller that is killed cannot stop its program itself.
+TEST_F(ProcessTest, ItEndsWithItsCaller) {
+  const pid_t caller = fork();
+  if (caller == 0) {
+    Run("echo $$ > " + folder_.Path("pid") + ".new; mv " + folder_.Path("pid") + ".new " +
+        folder_.Path("pid") + "; exec sleep 60");
+    _exit(0);
+  }
+  const auto within = [](const auto& holds) {
+    for (int i = 0; i < 3000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return holds();
+  };
+  ASSERT_TRUE(within([&] { return std::filesystem::exists(folder_.Path("pid")); }));
+  const pid_t program = std::stoi(folder_.Read("pid"));
+  EXPECT_EQ(kill(program, 0), 0);
+  kill(caller, SIGKILL);
+  waitpid(caller, nullptr, 0);
+  // Its new parent may not have reaped it yet: what has ended has no command line.
+  const std::string command_line = fmt::format("/proc/{}/cmdline", program);
+  EXPECT_TRUE(within([&] {
+    std::ifstream file(command_line);
+    return !file || file.peek() == std::ifstream::traits_type::eof();
+  }));
 }
 
 TEST_F(ProcessTest, MissingProgramsNameTheirPackage) {

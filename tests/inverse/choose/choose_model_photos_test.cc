@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <string>
@@ -193,6 +195,39 @@ TEST_F(PhotographedRoom, AnOutlineTellsASquareThatTheLightDoesNot) {
   EXPECT_NEAR(support::LongShortHeading(found)[0], 0.12, 0.003);
   EXPECT_NEAR(support::LongShortHeading(found)[1], 0.12, 0.003);
   EXPECT_LT((found.position - square.position).norm(), 0.005);
+}
+
+// A stop ends the fits of single luminaires, too. What was chosen by then is kept, and the rest stays as it was.
+TEST_F(PhotographedRoom, AStopEndsTheChoiceOfModels) {
+  std::mt19937_64 rng = support::TestRng();
+  LightData data = Photograph(rng);
+  const LuminaireFit fit = FitLuminaires(room_, data, Start());
+  ASSERT_TRUE(fit.IsUsable()) << fit.message;
+  OpenChoice open;
+  open.aim = open.heading = false;
+  std::atomic<int> rounds = 0;
+  data.checkpoint = [&] { ++rounds; };
+  const ModelChoice whole = ChooseLuminaireModels(room_, data, fit.state, {open, open});
+  EXPECT_EQ(whole.stop_reason, "");
+  const int needed = rounds;
+  ASSERT_GT(needed, 20);
+  for (const double share : {0.0, 0.5, 0.9}) {
+    const int last = static_cast<int>(share * needed);
+    rounds = 0;
+    data.checkpoint = [&rounds, last] {
+      if (++rounds > last) throw FitStopped("the test asks for it");
+    };
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, fit.state, {open, open});
+    EXPECT_EQ(choice.stop_reason, "the test asks for it");
+    EXPECT_LE(rounds, last + 2);  // a round for each luminaire at most
+    EXPECT_LT(choice.choices.size(), 2u);
+    for (int k = 0; k < 2; ++k) {
+      const bool is_chosen = std::any_of(choice.choices.begin(), choice.choices.end(),
+                                         [&](const LuminaireChoice& c) { return c.luminaire == k; });
+      const auto at = static_cast<size_t>(k);
+      EXPECT_EQ(choice.state.luminaires[at].position == fit.state.luminaires[at].position, !is_chosen) << k;
+    }
+  }
 }
 
 }  // namespace
