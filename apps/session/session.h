@@ -23,6 +23,7 @@
 #include "calib/targets/tags.h"
 #include "forward/direct/sensor.h"
 #include "forward/room/outline.h"
+#include "forward/room/pieces.h"
 
 namespace luxfit {
 
@@ -35,6 +36,7 @@ struct SessionScene {
   std::optional<RoomOutline> outline;                       // from size or outline; m
   bool finds_furniture = true;                              // furniture = "find"
   std::vector<RoomBox> furniture;  // found in photos (apps/stages/observe/found_furniture.h), m
+  std::vector<PieceMove> moves;    // of the mesh's furniture, which photos show elsewhere or not at all
 };
 
 struct SessionTags {

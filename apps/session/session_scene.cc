@@ -67,8 +67,8 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
 }
 
 Scene SceneOf(const SessionScene& scene) {
-  return WithBoxes(scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit),
-                   scene.furniture);
+  Scene given = scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit);
+  return WithBoxes(WithPiecesMoved(std::move(given), scene.moves), scene.furniture);
 }
 
 std::string RoomText(const SessionScene& scene) {

@@ -20,7 +20,7 @@ double MetresPerUnit(const std::string& unit, const std::string& key);
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder);
 
-// Returns the room: its mesh, read, or its outline, made. m, world frame.
+// Returns the room: its mesh, read, or its outline, made; with what photos showed of its furniture. m, world frame.
 Scene SceneOf(const SessionScene& scene);
 
 // Names the room for people: the path of its mesh, or what its outline consists of.

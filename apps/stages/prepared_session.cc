@@ -62,24 +62,26 @@ void LeaveOutReadings(const std::set<int>& lines, std::vector<LuminaireReading>&
   for (LuminaireReading& reading : readings) reading.is_outside = lines.count(reading.given.line) > 0;
 }
 
-// Makes the room anew with boxes that photos show.
-void AddFurniture(const std::vector<RoomBox>& boxes, Session& session, Room& room, RunContext& context) {
-  if (boxes.empty()) return;
-  session.scene->furniture = boxes;
-  RunContext with_boxes;
-  with_boxes.is_quiet = true;
-  room = LoadRoom(session, with_boxes);
-  // Findings on the mesh stay; choices that count patches are those of the room with boxes.
-  for (const Choice& choice : with_boxes.choices) {
+// Makes the room anew with the furniture that photos show.
+void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room, RunContext& context) {
+  if (change.IsEmpty()) return;
+  session.scene->furniture = change.boxes;
+  session.scene->moves = change.moves;
+  RunContext changed;
+  changed.is_quiet = true;
+  room = LoadRoom(session, changed);
+  // Findings on the mesh stay; choices that count patches are those of the changed room.
+  for (const Choice& choice : changed.choices) {
     for (Choice& said : context.choices)
       if (said.what == choice.what) said = choice;
   }
 }
 
-// Adds the found boxes to the inputs of observe, which depends on them.
+// Adds the furniture that photos show to the inputs of observe, which depends on it.
 SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
-  if (session.scene && !session.scene->furniture.empty())
-    inputs.observe["found furniture"] = HashText(BoxesJson(session.scene->furniture).dump());
+  if (session.scene && !(session.scene->furniture.empty() && session.scene->moves.empty()))
+    inputs.observe["found furniture"] =
+        HashText(BoxesJson(session.scene->furniture).dump() + MovesJson(session.scene->moves).dump());
   return inputs;
 }
 
@@ -131,8 +133,8 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
-  AddFurniture(FurnitureKept(session, linearized.photos, registered, room, inputs, context), session, room,
-               context);
+  ChangeFurniture(FurnitureKept(session, linearized.photos, registered, room, inputs, context), session, room,
+                  context);
   SessionObservations observed =
       ObserveKept(session, linearized.photos, registered, room, WithFurniture(inputs, session), context);
   context.photos.reset();

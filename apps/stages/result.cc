@@ -262,6 +262,8 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["materials"] = MaterialsJson(session, room, fit);
   if (session.scene && !session.scene->furniture.empty())
     result["furniture"] = BoxesJson(session.scene->furniture);
+  if (session.scene && !session.scene->moves.empty())
+    result["furniture_moved"] = MovesJson(session.scene->moves);
   result["luminaires"] = LuminairesJson(session, fit, files);
   if (!fit.types.empty()) result["luminaire_types"] = TypesJson(fit);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.

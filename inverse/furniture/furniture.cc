@@ -16,21 +16,9 @@
 namespace luxfit {
 namespace {
 
-constexpr double kCellM = 0.08, kStepM = 0.02;
+constexpr double kSweptCellM = 0.08, kSweptStepM = 0.02;
 // Tolerance of the sweep over that of the refinement: its planes miss a face by up to 1 cm.
 constexpr double kCoarse = 2;
-
-std::vector<Eigen::Vector3d> EyesOf(const std::vector<SignatureView>& views) {
-  std::vector<Eigen::Vector3d> eyes;
-  eyes.reserve(views.size());
-  for (const SignatureView& view : views) eyes.push_back(view.Eye());
-  return eyes;
-}
-
-std::vector<Eigen::Vector3d> AlongAxes(const RoomAxes& axes, std::vector<Eigen::Vector3d> places) {
-  for (Eigen::Vector3d& p : places) p = axes.world_from_axes.transpose() * p;
-  return places;
-}
 
 // Finds one box after the other. It is a class because votes shrink as boxes explain views.
 class FurnitureFinder {
@@ -46,7 +34,7 @@ class FurnitureFinder {
         swept_{views, agreement_, EyesOf(views), kCoarse * options.tolerance, 3},
         refined_{views, agreement_, EyesOf(views), options.tolerance, 2},
         rays_(ViewRays(views, agreement_, axes_.world_from_axes.transpose())),
-        free_places_(AlongAxes(axes_, options.free_places)) {}
+        free_places_(AlongAxes(options.free_places, axes_)) {}
 
   std::vector<FoundBox> Run() {
     SweepAll();
@@ -78,9 +66,9 @@ class FurnitureFinder {
     for (const Facing& facing : kFacings) {
       Eigen::AlignedBox3d region = axes_.bounds;
       const double high = region.max()[facing.axis] - kOnMeshM;
-      for (double offset = region.min()[facing.axis] + kOnMeshM; offset < high; offset += kStepM) {
+      for (double offset = region.min()[facing.axis] + kOnMeshM; offset < high; offset += kSweptStepM) {
         region.min()[facing.axis] = region.max()[facing.axis] = offset;
-        planes_.push_back({facing, region, PlaneOf(axes_, facing, region, kCellM), {}});
+        planes_.push_back({facing, region, PlaneOf(axes_, facing, region, kSweptCellM), {}});
       }
     }
     tbb::parallel_for(size_t{0}, planes_.size(),
@@ -88,7 +76,7 @@ class FurnitureFinder {
   }
 
   std::optional<Face> Strongest() const {
-    const auto least = static_cast<int>(std::ceil(options_.least_face_m2 / (kCellM * kCellM)));
+    const auto least = static_cast<int>(std::ceil(options_.least_face_m2 / (kSweptCellM * kSweptCellM)));
     std::vector<VoteRectangle> best(planes_.size());
     tbb::parallel_for(size_t{0}, planes_.size(), [&](size_t i) {
       const VoteGrid& votes = planes_[i].votes.votes;
@@ -100,7 +88,7 @@ class FurnitureFinder {
     const Swept& at = planes_[static_cast<size_t>(largest - best.begin())];
     Face face;
     face.facing = at.facing;
-    face.region = RegionOf(at.facing, at.region, kCellM, *largest);
+    face.region = RegionOf(at.facing, at.region, kSweptCellM, *largest);
     return face;
   }
 

@@ -1,14 +1,14 @@
 #include "inverse/study/degrade.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "forward/room/pieces.h"
 
 namespace luxfit {
 namespace {
@@ -46,33 +46,6 @@ std::vector<Observation> Without(int dropped, int Observation::*of, std::vector<
   const auto is_out = [&](const Observation& o) { return out.count(o.*of) > 0; };
   observations.erase(std::remove_if(observations.begin(), observations.end(), is_out), observations.end());
   return observations;
-}
-
-std::vector<Eigen::Vector3d> CornersOf(const Facet& facet) {
-  std::vector<Eigen::Vector3d> corners{facet.PointAt(0, 0), facet.PointAt(1, 0), facet.PointAt(0, 1)};
-  if (facet.kind == FacetKind::kParallelogram) corners.push_back(facet.PointAt(1, 1));
-  return corners;
-}
-
-bool LiesOnBox(const Facet& facet, const Eigen::AlignedBox3d& box, double tolerance_m) {
-  const std::vector<Eigen::Vector3d> corners = CornersOf(facet);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double plane : {box.min()[axis], box.max()[axis]}) {
-      if (std::all_of(corners.begin(), corners.end(),
-                      [&](const Eigen::Vector3d& p) { return std::abs(p[axis] - plane) < tolerance_m; }))
-        return true;
-    }
-  }
-  return false;
-}
-
-bool ShareACorner(const Facet& a, const Facet& b, double tolerance_m) {
-  for (const Eigen::Vector3d& p : CornersOf(a)) {
-    for (const Eigen::Vector3d& q : CornersOf(b)) {
-      if ((p - q).norm() < tolerance_m) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -132,57 +105,16 @@ std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double s
   return survey;
 }
 
-std::vector<std::vector<int>> LoosePieces(const Scene& scene) {
-  constexpr double kToleranceM = 1e-3;
-  const Eigen::AlignedBox3d box = scene.Bounds();
-  std::vector<int> loose;
-  for (size_t f = 0; f < scene.facets.size(); ++f) {
-    if (!LiesOnBox(scene.facets[f], box, kToleranceM)) loose.push_back(static_cast<int>(f));
-  }
-  std::vector<size_t> piece(loose.size());
-  std::iota(piece.begin(), piece.end(), size_t{0});
-  for (size_t a = 0; a < loose.size(); ++a) {
-    for (size_t b = 0; b < a; ++b) {
-      if (piece[a] == piece[b] || !ShareACorner(scene.facets[static_cast<size_t>(loose[a])],
-                                                scene.facets[static_cast<size_t>(loose[b])], kToleranceM))
-        continue;
-      const size_t from = std::max(piece[a], piece[b]), to = std::min(piece[a], piece[b]);
-      std::replace(piece.begin(), piece.end(), from, to);
-    }
-  }
-  std::map<size_t, std::vector<int>> by_piece;
-  for (size_t i = 0; i < loose.size(); ++i) by_piece[piece[i]].push_back(loose[i]);
-  std::vector<std::vector<int>> pieces;
-  pieces.reserve(by_piece.size());
-  for (const auto& [key, facets] : by_piece) pieces.push_back(facets);
-  return pieces;
-}
-
 Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng) {
   const std::vector<std::vector<int>> pieces = LoosePieces(scene);
-  std::set<int> all, out;
+  std::set<int> all;
   for (size_t p = 0; p < pieces.size(); ++p) all.insert(static_cast<int>(p));
+  std::vector<int> out;
   for (const int p : Draw(all, dropped, rng)) {
-    for (const int f : pieces[static_cast<size_t>(p)]) out.insert(f);
+    const std::vector<int>& piece = pieces[static_cast<size_t>(p)];
+    out.insert(out.end(), piece.begin(), piece.end());
   }
-  Scene kept;
-  std::map<int, int> material_of, facet_of;  // old index, new index
-  for (size_t f = 0; f < scene.facets.size(); ++f) {
-    if (out.count(static_cast<int>(f)) > 0) continue;
-    Facet facet = scene.facets[f];
-    const auto [place, is_new] = material_of.try_emplace(facet.material, kept.materials.size());
-    if (is_new) kept.materials.push_back(scene.materials[static_cast<size_t>(facet.material)]);
-    facet.material = place->second;
-    facet_of[static_cast<int>(f)] = static_cast<int>(kept.facets.size());
-    kept.facets.push_back(facet);
-  }
-  for (SurfaceTriangle triangle : scene.surface) {
-    const auto place = facet_of.find(triangle.facet);
-    if (place == facet_of.end()) continue;
-    triangle.facet = place->second;
-    kept.surface.push_back(triangle);
-  }
-  return kept;
+  return WithoutFacets(scene, out);
 }
 
 std::vector<Luminaire> WithLuminairesTogether(std::vector<Luminaire> luminaires, double distance_m) {

@@ -40,10 +40,8 @@ int CountStates(const std::vector<Observation>& observations);
 
 std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double sigma_m, std::mt19937_64& rng);
 
-// Returns pieces of furniture as indices into scene.facets, one list for each piece. A piece is made of
-// facets that do not lie on the scene's bounding box, joined where they share a corner.
-std::vector<std::vector<int>> LoosePieces(const Scene& scene);
-// Returns the scene without `dropped` pieces, drawn at random, and without materials that then have no facet.
+// Returns the scene without `dropped` pieces of furniture (forward/room/pieces.h), drawn at random, and without materials that
+// then have no facet.
 Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng);
 
 // Moves the two luminaires that are nearest to each other along the line between them until they are

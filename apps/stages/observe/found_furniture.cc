@@ -7,9 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/session/session_scene.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/stage_cache.h"
-#include "inverse/furniture/furniture.h"
+#include "inverse/furniture/missing_pieces.h"
 #include "inverse/furniture/signature_view.h"
 
 namespace luxfit {
@@ -55,7 +56,7 @@ std::string BoxText(const FoundBox& found) {
   return text + " }";
 }
 
-void Record(const std::vector<FoundBox>& found, RunContext& context) {
+void RecordBoxes(const std::vector<FoundBox>& found, RunContext& context) {
   if (found.empty()) return;
   std::string words;
   for (const FoundBox& f : found) {
@@ -69,14 +70,45 @@ void Record(const std::vector<FoundBox>& found, RunContext& context) {
        "nothing"});
 }
 
+std::string PlaceOf(const Eigen::AlignedBox3d& bounds) {
+  return fmt::format("({:.2f}, {:.2f})", bounds.center().x(), bounds.center().y());
+}
+
+void RecordMove(const MissingPiece& piece, RunContext& context) {
+  const Eigen::AlignedBox3d& was = piece.move.bounds;
+  const Eigen::Vector3d size = was.sizes();
+  std::string words = fmt::format(
+      "furniture of material {}, {:.2f} m x {:.2f} m x {:.2f} m, is not at {}, where the mesh has it: {} "
+      "views "
+      "see through {:.1f} m2 of the {:.1f} m2 of it that they look at; ",
+      piece.material, size.x(), size.y(), size.z(), PlaceOf(was), piece.views, piece.through_m2,
+      piece.judged_m2);
+  if (piece.move.by_m) {
+    const Eigen::AlignedBox3d is(was.min() + *piece.move.by_m, was.max() + *piece.move.by_m);
+    words += fmt::format("it stands {:.2f} m from there, at {}, and the fit has it there",
+                         piece.move.by_m->norm(), PlaceOf(is));
+  } else {
+    words += "the fit leaves it out";
+  }
+  context.warnings.push_back(
+      {"furniture_moved", words,
+       "correct the mesh, or write furniture = \"given\" under [scene] where it is right"});
+}
+
+json PointJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+
+Eigen::Vector3d PointFromJson(const json& p) {
+  return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
+}
+
 }  // namespace
 
 json BoxesJson(const std::vector<RoomBox>& boxes) {
   json list = json::array();
   for (const RoomBox& b : boxes)
     list.push_back({{"name", b.name},
-                    {"min_m", {b.min_m.x(), b.min_m.y(), b.min_m.z()}},
-                    {"max_m", {b.max_m.x(), b.max_m.y(), b.max_m.z()}},
+                    {"min_m", PointJson(b.min_m)},
+                    {"max_m", PointJson(b.max_m)},
                     {"turn_rad", b.turn_rad}});
   return list;
 }
@@ -86,34 +118,56 @@ std::vector<RoomBox> BoxesFromJson(const json& list) {
   for (const json& entry : list) {
     RoomBox box;
     box.name = entry.at("name");
-    for (int i = 0; i < 3; ++i) {
-      box.min_m[i] = entry.at("min_m").at(static_cast<size_t>(i));
-      box.max_m[i] = entry.at("max_m").at(static_cast<size_t>(i));
-    }
+    box.min_m = PointFromJson(entry.at("min_m"));
+    box.max_m = PointFromJson(entry.at("max_m"));
     box.turn_rad = entry.at("turn_rad");
     boxes.push_back(box);
   }
   return boxes;
 }
 
-std::vector<RoomBox> FurnitureKept(const Session& session, const LinearizedPhotos& photos,
-                                   const RegisteredSession& registered, const Room& room,
-                                   const SessionInputs& inputs, RunContext& context) {
+json MovesJson(const std::vector<PieceMove>& moves) {
+  json list = json::array();
+  for (const PieceMove& move : moves)
+    list.push_back({{"min_m", PointJson(move.bounds.min())},
+                    {"max_m", PointJson(move.bounds.max())},
+                    {"moved_m", move.by_m ? PointJson(*move.by_m) : json()}});
+  return list;
+}
+
+std::vector<PieceMove> MovesFromJson(const json& list) {
+  std::vector<PieceMove> moves;
+  for (const json& entry : list) {
+    PieceMove move{{PointFromJson(entry.at("min_m")), PointFromJson(entry.at("max_m"))}, std::nullopt};
+    if (!entry.at("moved_m").is_null()) move.by_m = PointFromJson(entry.at("moved_m"));
+    moves.push_back(move);
+  }
+  return moves;
+}
+
+FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
+                              const RegisteredSession& registered, const Room& room,
+                              const SessionInputs& inputs, RunContext& context) {
   if (!session.scene || !session.scene->finds_furniture || registered.registration.views.size() < 3)
     return {};
-  if (const auto kept = KeptProduct("furniture", inputs.furniture, context)) return BoxesFromJson(*kept);
+  if (const auto kept = KeptProduct("furniture", inputs.furniture, context))
+    return {BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves"))};
   const StageMark mark(context);
-  const StageTimer timer(context, "furniture", "what views agree on and the room lacks");
+  const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
   FurnitureOptions options;
   options.free_places = FreePlacesOf(session);
-  const std::vector<FoundBox> found =
-      FindFurniture(room.scene, ViewsOf(session, photos, registered, context), options);
-  Record(found, context);
-  std::vector<RoomBox> boxes;
-  boxes.reserve(found.size());
-  for (const FoundBox& f : found) boxes.push_back(f.box);
-  KeepProduct("furniture", inputs.furniture, context, mark, BoxesJson(boxes));
-  return boxes;
+  const RevisedFurniture revised = ReviseFurniture(SceneOf(*session.scene), room.scene,
+                                                   ViewsOf(session, photos, registered, context), options);
+  FurnitureChange change;
+  for (const MissingPiece& piece : revised.missing) {
+    RecordMove(piece, context);
+    change.moves.push_back(piece.move);
+  }
+  RecordBoxes(revised.found, context);
+  for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
+  KeepProduct("furniture", inputs.furniture, context, mark,
+              {{"boxes", BoxesJson(change.boxes)}, {"moves", MovesJson(change.moves)}});
+  return change;
 }
 
 }  // namespace luxfit

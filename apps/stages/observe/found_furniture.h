@@ -1,8 +1,10 @@
-// Finds furniture of a session that its mesh lacks (inverse/furniture/furniture.h), and words it.
+// Finds furniture of a session that its mesh lacks, or has where the room has none (inverse/furniture/missing_pieces.h),
+// and words it.
 //
-// The boxes become part of the room where [scene] furniture is "find". Each is said in a warning
-// ("furniture_found"), in the lines of a session that would give it. Boxes are not found where the session has no
-// [scene], where fewer than three views are registered, or where furniture is "given".
+// Where [scene] furniture is "find", found boxes become part of the room, and pieces that views see through stand where
+// views show them, or are left out. Boxes are said in a warning ("furniture_found"), in the lines of a session that would
+// give them, and pieces in others ("furniture_moved"). Nothing is looked for where the session has no [scene], where fewer
+// than three views are registered, or where furniture is "given".
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
 
@@ -12,17 +14,26 @@
 #include "apps/stages/stage_inputs.h"
 #include "apps/stages/stages.h"
 #include "forward/room/outline.h"
+#include "forward/room/pieces.h"
 
 namespace luxfit {
 
-// Returns the boxes, and keeps them for the next run as the product "furniture".
-std::vector<RoomBox> FurnitureKept(const Session& session, const LinearizedPhotos& photos,
-                                   const RegisteredSession& registered, const Room& room,
-                                   const SessionInputs& inputs, RunContext& context);
+struct FurnitureChange {
+  std::vector<RoomBox> boxes;    // that the mesh lacks
+  std::vector<PieceMove> moves;  // of pieces that the mesh has elsewhere
+  bool IsEmpty() const { return boxes.empty() && moves.empty(); }
+};
 
-// Write boxes as a part of an artifact, and read them back.
+// Returns what differs, and keeps it for the next run as the product "furniture".
+FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
+                              const RegisteredSession& registered, const Room& room,
+                              const SessionInputs& inputs, RunContext& context);
+
+// Write boxes and moves as parts of an artifact, and read them back.
 nlohmann::json BoxesJson(const std::vector<RoomBox>& boxes);
 std::vector<RoomBox> BoxesFromJson(const nlohmann::json& json);
+nlohmann::json MovesJson(const std::vector<PieceMove>& moves);
+std::vector<PieceMove> MovesFromJson(const nlohmann::json& json);
 
 }  // namespace luxfit
 

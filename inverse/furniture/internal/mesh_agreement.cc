@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "inverse/furniture/internal/signature.h"
-
 namespace luxfit {
 namespace {
 
@@ -33,36 +31,31 @@ void Compare(const std::vector<SignatureView>& views, const std::vector<MeshAgre
              double tolerance, MeshAgreement& result) {
   const SignatureView& view = views[a];
   const Eigen::Vector3d eye = view.Eye();
-  std::vector<Eigen::Vector3d> eyes;
-  eyes.reserve(views.size());
-  for (const SignatureView& other : views) eyes.push_back(other.Eye());
+  const std::vector<Eigen::Vector3d> eyes = EyesOf(views);
   Signatures signatures(view.states);
   size_t at = 0;
   for (int row = 0; row < result.height; ++row) {
     for (int column = 0; column < result.width; ++column, ++at) {
       if (!(result.distance_m[at] < 1e6F)) continue;
       const Eigen::Vector3d place = eye + result.distance_m[at] * RayOf(view, column, row);
-      const Eigen::Vector2d own = PixelOf(view, place);
-      signatures.Clear();
-      if (!own.allFinite() || !signatures.Add(view, own.x(), own.y())) continue;
-      int seen = 0, agree = 0;
-      for (size_t b = 0; b < views.size(); ++b) {
-        if (b == a) continue;
-        const Eigen::Vector2d p = PixelOf(views[b], place);
-        if (!p.allFinite()) continue;
-        if ((place - eyes[b]).norm() > cells[b].distance_m[cells[b].CellOf(p.x(), p.y())] + kOnMeshM)
-          continue;
-        if (!signatures.Add(views[b], p.x(), p.y())) continue;
-        ++seen;
-        agree += signatures.Agree(0, signatures.count() - 1, tolerance) ? 1 : 0;
-      }
-      result.is_compared[at] = seen > 0;
-      result.is_explained[at] = seen > 0 && 2 * agree >= seen;
+      const OthersAt others =
+          CompareOthers(views, a, place, tolerance, signatures, [&](size_t b, const Eigen::Vector2d& p) {
+            return (place - eyes[b]).norm() <= cells[b].distance_m[cells[b].CellOf(p.x(), p.y())] + kOnMeshM;
+          });
+      result.is_compared[at] = others.seen > 0;
+      result.is_explained[at] = others.Explain();
     }
   }
 }
 
 }  // namespace
+
+std::vector<Eigen::Vector3d> EyesOf(const std::vector<SignatureView>& views) {
+  std::vector<Eigen::Vector3d> eyes;
+  eyes.reserve(views.size());
+  for (const SignatureView& view : views) eyes.push_back(view.Eye());
+  return eyes;
+}
 
 Eigen::Vector3d RayOf(const SignatureView& view, int column, int row) {
   const Eigen::Vector3d pixel(kCellPx * column + 0.5 * (kCellPx - 1), kCellPx * row + 0.5 * (kCellPx - 1), 1);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "forward/room/visibility.h"
+#include "inverse/furniture/internal/signature.h"
 #include "inverse/furniture/signature_view.h"
 
 namespace luxfit {
@@ -35,11 +36,40 @@ constexpr double kOnMeshM = 0.05;
 std::vector<MeshAgreement> FindMeshAgreement(const RayScene& mesh, const std::vector<SignatureView>& views,
                                              double tolerance);
 
+// Counts the other views that see a place, and those of them that show the same signature there as view `a`.
+struct OthersAt {
+  int seen = 0, agree = 0;
+  bool Explain() const { return seen > 0 && 2 * agree >= seen; }
+};
+// `sees(b, pixel)` tells whether no mesh hides the place from view b, which shows it at that pixel.
+template <typename Sees>
+OthersAt CompareOthers(const std::vector<SignatureView>& views, size_t a, const Eigen::Vector3d& place,
+                       double tolerance, Signatures& signatures, const Sees& sees);
+
+std::vector<Eigen::Vector3d> EyesOf(const std::vector<SignatureView>& views);
+
 // Returns the unit direction of a cell's pixel, world frame.
 Eigen::Vector3d RayOf(const SignatureView& view, int column, int row);
 
 // Returns the pixel of a place; NaN where the view does not show it a pixel within its edges.
 Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world);
+
+template <typename Sees>
+OthersAt CompareOthers(const std::vector<SignatureView>& views, size_t a, const Eigen::Vector3d& place,
+                       double tolerance, Signatures& signatures, const Sees& sees) {
+  OthersAt others;
+  const Eigen::Vector2d own = PixelOf(views[a], place);
+  signatures.Clear();
+  if (!own.allFinite() || !signatures.Add(views[a], own.x(), own.y())) return others;
+  for (size_t b = 0; b < views.size(); ++b) {
+    if (b == a) continue;
+    const Eigen::Vector2d p = PixelOf(views[b], place);
+    if (!p.allFinite() || !sees(b, p) || !signatures.Add(views[b], p.x(), p.y())) continue;
+    ++others.seen;
+    others.agree += signatures.Agree(0, signatures.count() - 1, tolerance) ? 1 : 0;
+  }
+  return others;
+}
 
 }  // namespace luxfit
 

@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kCellM = 0.02, kStepM = 0.01, kMarginM = 0.12;
+constexpr double kRefinedCellM = 0.02, kRefinedStepM = 0.01, kMarginM = 0.12;
 constexpr double kAsWell = 0.97;
 constexpr double kBlurPx = 1.5;
 
@@ -74,25 +74,25 @@ std::optional<Face> RefineFace(const SweptViews& swept, const RoomAxes& axes, co
   first.min()[axis] = first.max()[axis] = face.OffsetM() - kRefinedDepthM;
   const auto at = [&](double steps) {
     Eigen::AlignedBox3d region = first;
-    region.min()[axis] = region.max()[axis] = first.min()[axis] + steps * kStepM;
+    region.min()[axis] = region.max()[axis] = first.min()[axis] + steps * kRefinedStepM;
     return region;
   };
-  const auto count = static_cast<size_t>(2 * std::lround(kRefinedDepthM / kStepM) + 1);
+  const auto count = static_cast<size_t>(2 * std::lround(kRefinedDepthM / kRefinedStepM) + 1);
   std::vector<PlaneVotes> votes(count);
   std::vector<VoteRectangle> best(count);
   tbb::parallel_for(size_t{0}, count, [&](size_t i) {
-    votes[i] = Sweep(swept, PlaneOf(axes, face.facing, at(static_cast<double>(i)), kCellM));
+    votes[i] = Sweep(swept, PlaneOf(axes, face.facing, at(static_cast<double>(i)), kRefinedCellM));
     best[i] = FindLargestRectangle(votes[i].votes);
   });
   int most = 0;
   for (const VoteRectangle& r : best) most = std::max(most, r.sum);
-  if (kCellM * kCellM * most < least_m2) return std::nullopt;
+  if (kRefinedCellM * kRefinedCellM * most < least_m2) return std::nullopt;
   const Offsets offsets = BestOffsets(best, most);
   const auto nearest = static_cast<size_t>(std::lround(offsets.mean));
   Face fine = face;
-  fine.region = RegionOf(face.facing, at(offsets.mean), kCellM, best[nearest]);
-  fine.sigma_m = kStepM * offsets.sigma;
-  fine.area_m2 = kCellM * kCellM * best[nearest].sum;
+  fine.region = RegionOf(face.facing, at(offsets.mean), kRefinedCellM, best[nearest]);
+  fine.sigma_m = kRefinedStepM * offsets.sigma;
+  fine.area_m2 = kRefinedCellM * kRefinedCellM * best[nearest].sum;
   fine.views = ViewsOf(votes[nearest], best[nearest]);
   const double pixel_m = PixelM(swept, axes.world_from_axes * fine.region.center(), fine.views);
   fine.region = Grown(fine.region, axis, kBlurPx * pixel_m, axes);

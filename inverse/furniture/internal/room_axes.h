@@ -10,7 +10,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
+#include <vector>
 
+#include "forward/room/outline.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {
@@ -36,6 +38,29 @@ inline RoomAxes AxesOf(const Scene& scene) {
         axes.bounds.extend(axes.world_from_axes.transpose() * facet.PointAt(u, v));
   }
   return axes;
+}
+
+// Return places, the bounds of facets, and those of a box that stands along the axes, all along the room's axes.
+inline std::vector<Eigen::Vector3d> AlongAxes(std::vector<Eigen::Vector3d> places, const RoomAxes& axes) {
+  for (Eigen::Vector3d& p : places) p = axes.world_from_axes.transpose() * p;
+  return places;
+}
+inline Eigen::AlignedBox3d AlongAxes(const Scene& scene, const std::vector<int>& facets,
+                                     const RoomAxes& axes) {
+  Eigen::AlignedBox3d bounds;
+  for (const int f : facets) {
+    const Facet& facet = scene.facets[static_cast<size_t>(f)];
+    for (const double u : {0.0, 1.0})
+      for (const double v : {0.0, 1.0})
+        if (facet.kind == FacetKind::kParallelogram || u + v < 2)
+          bounds.extend(axes.world_from_axes.transpose() * facet.PointAt(u, v));
+  }
+  return bounds;
+}
+inline Eigen::AlignedBox3d AlongAxes(const RoomBox& box, const RoomAxes& axes) {
+  const Eigen::Vector3d center = axes.world_from_axes.transpose() * (0.5 * (box.min_m + box.max_m)),
+                        half = 0.5 * (box.max_m - box.min_m);
+  return {center - half, center + half};
 }
 
 }  // namespace luxfit

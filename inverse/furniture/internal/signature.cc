@@ -1,5 +1,7 @@
 #include "inverse/furniture/internal/signature.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace luxfit {
@@ -44,6 +46,22 @@ bool Signatures::Agree(int a, int b, double tolerance) const {
     if (sum >= most) return false;
   }
   return known >= FewestStates() && sum < static_cast<float>(known);
+}
+
+std::uint64_t Signatures::LargestAgreement(double tolerance) const {
+  const int among = std::min(count(), kMostViews);
+  std::array<std::uint64_t, kMostViews> agree{};
+  for (int a = 0; a < among; ++a) {
+    agree[static_cast<size_t>(a)] |= std::uint64_t{1} << a;
+    for (int b = a + 1; b < among; ++b) {
+      if (!Agree(a, b, tolerance)) continue;
+      agree[static_cast<size_t>(a)] |= std::uint64_t{1} << b;
+      agree[static_cast<size_t>(b)] |= std::uint64_t{1} << a;
+    }
+  }
+  return *std::max_element(agree.begin(), agree.begin() + among, [](std::uint64_t a, std::uint64_t b) {
+    return __builtin_popcountll(a) < __builtin_popcountll(b);
+  });
 }
 
 }  // namespace luxfit

@@ -6,6 +6,7 @@
 #ifndef LUXFIT_INVERSE_FURNITURE_INTERNAL_SIGNATURE_H_
 #define LUXFIT_INVERSE_FURNITURE_INTERNAL_SIGNATURE_H_
 
+#include <cstdint>
 #include <vector>
 
 #include "inverse/furniture/signature_view.h"
@@ -13,6 +14,7 @@
 namespace luxfit {
 
 constexpr int kFewestStates = 3;
+constexpr int kMostViews = 64;  // bits of a set of views
 
 // Holds the signatures of one place in several views, in a row of `states` numbers each.
 class Signatures {
@@ -24,6 +26,8 @@ class Signatures {
   // Samples a pixel of a view, which lies inside. Returns false, and adds nothing, where too few states are known.
   bool Add(const SignatureView& view, double u, double v);
   bool Agree(int a, int b, double tolerance) const;
+  // Returns those that agree with the one with which most agree, as bits. At most kMostViews are compared.
+  std::uint64_t LargestAgreement(double tolerance) const;
 
  private:
   int FewestStates() const { return states_ < kFewestStates ? states_ : kFewestStates; }

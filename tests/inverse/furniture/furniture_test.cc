@@ -5,50 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <map>
 #include <string>
 #include <vector>
 
-#include "apps/session/tag_map.h"
-#include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
-#include "forward/light/room.h"
-#include "inverse/observe/observe_photos.h"
 #include "tests/support/office_truth.h"
+#include "tests/support/office_views.h"
 
 namespace luxfit {
 namespace {
 
-using support::kOfficeFolder;
-
-// The office's views as they are registered in its surveyed tags.
-const std::vector<SignatureView>& OfficeViews() {
-  static const std::vector<SignatureView> views = [] {
-    const std::vector<Camera> cameras{ReadCamera(kOfficeFolder + "cam0.yaml")};
-    std::map<std::string, int> states;
-    std::vector<RoomPhoto> photos;
-    for (const std::vector<std::string>& row : support::OfficeTable("photos.csv")) {
-      if (row[0] == "file") continue;
-      const int state = states.emplace(row[3], static_cast<int>(states.size())).first->second;
-      photos.push_back(
-          {row[2], 0, state, ToRelativeLuminance(ReadPhoto(kOfficeFolder + row[0]), std::stod(row[4]))});
-    }
-    const Room room = MakeRoom(SceneFrom(OutlineOfBox({6, 4, 2.8})));
-    const PhotoObservations observed =
-        ObservePhotos(room, cameras, ReadTagMap(kOfficeFolder + "tags.json"), photos);
-    std::vector<SignatureView> of_office;
-    for (const RegisteredView& view : observed.registration.views) {
-      std::vector<const LuminanceImage*> images(states.size());
-      for (const RoomPhoto& photo : photos)
-        if (photo.view == view.view) images[static_cast<size_t>(photo.state)] = &photo.image;
-      of_office.push_back(MakeSignatureView(cameras[0], view.cam_from_world, images));
-    }
-    return of_office;
-  }();
-  return views;
-}
-
-Scene EmptyOffice() { return SceneFrom(OutlineOfBox({6, 4, 2.8})); }
+using support::EmptyOffice;
+using support::OfficeViews;
 
 // Returns by how much the sides of two boxes differ at most, m.
 double WorstSideM(const RoomBox& found, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -103,7 +70,7 @@ TEST(Furniture, BoxesTurnWithTheRoom) {
 }
 
 TEST(Furniture, NothingIsFoundWhereTheMeshHasIt) {
-  EXPECT_TRUE(FindFurniture(ReadScene(kOfficeFolder + "room.obj"), OfficeViews()).empty());
+  EXPECT_TRUE(FindFurniture(ReadScene(support::kOfficeFolder + "room.obj"), OfficeViews()).empty());
 }
 
 // Meters stood in the air under the desk's top and on it: the top moves to the latter; a box round the former is none.

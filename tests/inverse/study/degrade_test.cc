@@ -126,13 +126,6 @@ Scene Furnished() {
   return scene;
 }
 
-TEST(Degrade, FurnitureIsWhatTheRoomIsNot) {
-  const std::vector<std::vector<int>> pieces = LoosePieces(Furnished());
-  ASSERT_EQ(pieces.size(), 2u);
-  EXPECT_EQ(pieces[0].size(), 2u);
-  EXPECT_EQ(pieces[1].size(), 1u);
-}
-
 TEST(Degrade, WhatIsRemovedTakesItsMaterialAlong) {
   std::mt19937_64 rng = support::TestRng();
   const Scene whole = Furnished(), bare = WithoutPieces(whole, 2, rng);
