@@ -10,6 +10,7 @@
 #include "apps/session/session_scene.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/stage_cache.h"
+#include "apps/text/formats/artifact.h"
 #include "inverse/furniture/missing_pieces.h"
 #include "inverse/furniture/signature_view.h"
 
@@ -165,8 +166,9 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
   }
   RecordBoxes(revised.found, context);
   for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
-  KeepProduct("furniture", inputs.furniture, context, mark,
-              {{"boxes", BoxesJson(change.boxes)}, {"moves", MovesJson(change.moves)}});
+  const json product = {{"boxes", BoxesJson(change.boxes)}, {"moves", MovesJson(change.moves)}};
+  WriteJson(context.out + "/stages/furniture.json", product);  // without it, the kept product would not count
+  KeepProduct("furniture", inputs.furniture, context, mark, product);
   return change;
 }
 
