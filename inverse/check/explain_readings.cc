@@ -11,6 +11,7 @@
 
 #include "inverse/check/internal/factor_words.h"
 #include "inverse/check/internal/misreading.h"
+#include "inverse/select/contradicted.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
@@ -162,14 +163,6 @@ std::vector<Candidate> JudgeAll(const ReadingTable& table, const std::vector<Mis
   return candidates;
 }
 
-// Returns whether the rule takes the first scores instead of the others, which are of no greater complexity.
-bool Refuses(const GroupScores& scores, const GroupScores& others) {
-  SelectionOptions options;
-  options.standard_errors = 2;  // as for every contradiction of what is given
-  options.worth_having = 1;     // half of the score
-  return SimplestWithinOneStandardError({{others, 0, true}, {scores, 1, true}}, options).chosen == 1;
-}
-
 // Returns the mean score of the readings that stand in a state with one that sets the scale; 0 where there are none.
 // Where they are off with it, not the reading is wrong but what is on in that state.
 double ScoreBesideScale(const ReadingTable& table, const Candidate& candidate) {
@@ -188,14 +181,14 @@ double ScoreBesideScale(const ReadingTable& table, const Candidate& candidate) {
 std::vector<Candidate> Holding(const ReadingTable& table, std::vector<Candidate> candidates,
                                const GroupScores& as_given) {
   const auto fails = [&](const Candidate& c) {
-    return Mean(c.scores) > kExplains || !Refuses(c.scores, as_given) ||
+    return Mean(c.scores) > kExplains || !IsContradicted(as_given, c.scores) ||
            (c.misreading->has_own_scale && ScoreBesideScale(table, c) > kExplains);
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), fails), candidates.end());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return Mean(a.scores) < Mean(b.scores); });
   const auto is_refused = [&](const Candidate& c) {
-    return Mean(c.scores) > kByChance && Refuses(candidates.front().scores, c.scores);
+    return Mean(c.scores) > kByChance && IsContradicted(c.scores, candidates.front().scores);
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), is_refused), candidates.end());
   return candidates;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "calib/luminance/weighted_median.h"
 #include "inverse/check/internal/factor_words.h"
 
 namespace luxfit {
@@ -20,18 +21,6 @@ double RelativeSigma(const CheckedReading& r) {
 }
 
 bool IsComparable(const CheckedReading& r) { return r.predicted_lx > 0 && RelativeSigma(r) > 0; }
-
-// Returns the value below which half of the weight lies.
-double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
-  double total = 0, below = 0;
-  for (const auto& [value, weight] : value_and_weight) total += weight;
-  for (const auto& [value, weight] : value_and_weight) {
-    below += weight;
-    if (below >= total / 2) return value;
-  }
-  return 0;
-}
 
 constexpr double kNoneIsPredicted = std::numeric_limits<double>::infinity();
 
