@@ -62,6 +62,16 @@ void LeaveOutReadings(const std::set<int>& lines, std::vector<LuminaireReading>&
   for (LuminaireReading& reading : readings) reading.is_outside = lines.count(reading.given.line) > 0;
 }
 
+void LeaveOutPhotos(const std::vector<MisplacedPhoto>& misplaced, LinearizedPhotos& photos) {
+  const auto is_misplaced = [&](const LinearizedPhoto& photo) {
+    return std::any_of(misplaced.begin(), misplaced.end(), [&](const MisplacedPhoto& m) {
+      return m.view == photo.view && m.state == photo.state;
+    });
+  };
+  photos.photos.erase(std::remove_if(photos.photos.begin(), photos.photos.end(), is_misplaced),
+                      photos.photos.end());
+}
+
 // Makes the room anew with the furniture that photos show.
 void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room, RunContext& context) {
   if (change.IsEmpty()) return;
@@ -133,6 +143,7 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   context.photos = std::make_shared<PhotoStore>();
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
+  LeaveOutPhotos(registered.misplaced, linearized.photos);
   ChangeFurniture(FurnitureKept(session, linearized.photos, registered, room, inputs, context), session, room,
                   context);
   SessionObservations observed =

@@ -7,7 +7,9 @@
 #include "apps/stages/check_report.h"
 #include "apps/stages/check_warnings.h"
 #include "apps/stages/explain_check.h"
+#include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/found_furniture.h"
+#include "apps/stages/register/registration_json.h"
 #include "apps/stages/stages.h"
 #include "apps/text/formats/json_vectors.h"
 #include "forward/luminaire/distribution_ops.h"
@@ -249,7 +251,7 @@ json WarningsJson(const RunContext& context) {
 }
 
 json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings, const Room& room,
-                const RegisteredSession& registered, const RoomFit& fit,
+                const RegisteredSession& registered, const SessionObservations& observed, const RoomFit& fit,
                 const std::vector<LuminaireFiles>& files, RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;
@@ -257,6 +259,10 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   AddLuxmeter(readings, fit, ExplainCheck(session, readings, room, fit), context, result);
   AddStatus(context, result);
   if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
+  if (!registered.misplaced.empty()) result["misplaced_photos"] = MisplacedJson(registered.misplaced);
+  if (!observed.photos_as_if.empty())
+    result["photos_as_if"] = PhotosAsIfJson(session, registered.registration, observed.photos_as_if);
+  if (!observed.states_as_if.empty()) result["states_as_if"] = StatesAsIfJson(observed.states_as_if);
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);

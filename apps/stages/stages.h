@@ -31,7 +31,9 @@
 #include "forward/room/mesh_check.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/observe/observe.h"
+#include "inverse/observe/photos_as_if.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/states_as_if.h"
 
 namespace luxfit {
 
@@ -102,9 +104,17 @@ LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context);
 // Does the same, and removes ambient light from the readings.
 LinearizedSession LinearizeSession(const Session& session, RunContext& context);
 
+// Names a photo whose tags lie where another view shows them (calib/register/photos_of_views.h).
+struct MisplacedPhoto {
+  std::string view, state;  // as given
+  std::string as_if_view;
+  int tags = 0;  // that lie so
+};
+
 struct RegisteredSession {
   std::vector<Camera> cameras;
   Registration registration;
+  std::vector<MisplacedPhoto> misplaced;  // the poses know nothing of them
 };
 RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos& photos,
                                   RunContext& context);
@@ -133,7 +143,9 @@ struct SessionObservations {
   std::vector<Observation> observations;
   std::vector<SeenPlace> seen;
   std::vector<SeenOutline> outlines;
-  Eigen::MatrixXd pose_covariance;  // PoseErrorsOf
+  Eigen::MatrixXd pose_covariance;             // PoseErrorsOf
+  std::vector<PhotoAsIf> photos_as_if;         // left out of the above
+  std::vector<StateExplanation> states_as_if;  // what [states] gets wrong
 };
 SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
                                    const RegisteredSession& registered, const Room& room,
@@ -172,7 +184,8 @@ struct LuminaireFiles {
 // Return OUT/result.json and the tables for the terminal. `registered` may be empty (no photos); `files` is
 // by luminaire. ResultJson warns in `context` where the readings that check contradict the fit.
 nlohmann::json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings,
-                          const Room& room, const RegisteredSession& registered, const RoomFit& fit,
+                          const Room& room, const RegisteredSession& registered,
+                          const SessionObservations& observed, const RoomFit& fit,
                           const std::vector<LuminaireFiles>& files, RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);

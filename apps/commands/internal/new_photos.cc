@@ -164,7 +164,7 @@ std::map<std::string, Eigen::Isometry3d> PosesByTags(const FittedRoom& fitted, c
   RegisterViewsOptions surveyed;
   surveyed.surface = SurfaceOf(fitted.room.scene);
   const Registration registration = RegisterViews(
-      cameras, tags, DetectViews(session, linearized, cameras, PhotosByView(session, photos), context),
+      cameras, tags, DetectViews(session, linearized, cameras, PhotosByView(session, photos), context).views,
       surveyed);
   for (const RegistrationNote& note : registration.notes)
     context.warnings.push_back({note.code, note.message, note.remedy});

@@ -65,8 +65,8 @@ RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, Room
   const RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
   context.stop.reset();
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
-  json result =
-      ResultJson(session, linearized.readings, prepared.room, prepared.registered, fit, files, context);
+  json result = ResultJson(session, linearized.readings, prepared.room, prepared.registered, observed, fit,
+                           files, context);
   if (what == RoomRun::kFitAndAlbedo) {
     const json albedo = AlbedoOfRoom(session, prepared.room, fit, result, context);
     result = WithAlbedo(std::move(result), albedo, context);

@@ -35,7 +35,8 @@ void Simulate(UndegradedSession& whole, const TraceKey& key, const LightState& l
         TraceLight(whole.prepared.room, ElementsOf(whole.observed.observations), readings, light);
   const LightData data = SimulateLight(whole.prepared.room, whole.traced.at(key), light,
                                        whole.refit.fit.data.dimming, readings, rng);
-  c.observed = {data.observations, {}, {}, {}};  // simulated light has no pictures
+  c.observed = {};  // simulated light has no pictures
+  c.observed.observations = data.observations;
   for (size_t r = 0; r < data.readings.size(); ++r) {
     c.linearized.readings[r].illuminance_lx = data.readings[r].illuminance_lx;
     c.linearized.readings[r].ambient_lx = 0;

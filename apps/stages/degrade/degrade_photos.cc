@@ -32,7 +32,8 @@ void FalsifyExposures(UndegradedSession& whole, double percent, std::mt19937_64&
   nlohmann::json unused;
   c.observed.observations = WithSelfCalibration(
       c.session, c.linearized.photos, whole.prepared.registered, whole.prepared.room.patches,
-      WithExposureErrors(whole.observed.observations, percent / 100, rng), c.context, unused);
+      whole.observed.states_as_if, WithExposureErrors(whole.observed.observations, percent / 100, rng),
+      c.context, unused);
 }
 
 // Observes the photos again of which some observation is left: what they show of luminaires goes with them.

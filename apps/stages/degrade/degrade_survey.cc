@@ -22,7 +22,7 @@ void MoveTags(UndegradedSession& whole, double sigma_mm, std::mt19937_64& rng, D
   const LinearizedPhotos& photos = c.linearized.photos;
   if (!whole.detections)
     whole.detections =
-        DetectViews(c.session, photos, cameras, PhotosByView(c.session, photos.photos), c.context);
+        DetectViews(c.session, photos, cameras, PhotosByView(c.session, photos.photos), c.context).views;
   c.session.tags.survey = WithMovedTags(c.session.tags.survey, sigma_mm / 1000, rng);
   RegisteredSession registered;
   registered.cameras = cameras;

@@ -54,6 +54,9 @@ std::string ResponseCsv(const CameraResponse& response);
 
 // Returns the photo's name for messages: "photos.csv:12 (IMG_0012.png)".
 std::string PhotoName(const Session& session, const PhotoExposure& exposure);
+// Returns the same of the photo of a view and state; the view's name where there is none.
+std::string PhotoName(const Session& session, const LinearizedPhotos& photos, const std::string& view,
+                      const std::string& state);
 
 // Reads one file as relative luminance by its camera's response; its vignetting remains.
 LuminanceImage ReadExposure(const LinearizedCamera& camera, const PhotoExposure& exposure);

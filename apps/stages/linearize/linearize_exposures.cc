@@ -116,6 +116,13 @@ std::string PhotoName(const Session& session, const PhotoExposure& exposure) {
   return PhotoName(session, exposure.file, exposure.line);
 }
 
+std::string PhotoName(const Session& session, const LinearizedPhotos& photos, const std::string& view,
+                      const std::string& state) {
+  for (const LinearizedPhoto& photo : photos.photos)
+    if (photo.view == view && photo.state == state) return PhotoName(session, photo.bracket.front());
+  return view;
+}
+
 std::vector<SessionPhoto> RowsWithMetadata(const Session& session, RunContext& context) {
   std::vector<SessionPhoto> rows = session.photos;
   std::vector<ExposureMetadata> metadata(rows.size());

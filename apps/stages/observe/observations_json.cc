@@ -64,6 +64,39 @@ SeenOutline OutlineFromJson(const json& entry) {
   return outline;
 }
 
+json AsIfJson(const SessionObservations& observed) {
+  json photos = json::array(), states = json::array();
+  for (const PhotoAsIf& p : observed.photos_as_if)
+    photos.push_back({{"view", p.view},
+                      {"state", p.state},
+                      {"as_if", p.as_if},
+                      {"is_exchanged", p.is_exchanged},
+                      {"difference", p.difference},
+                      {"difference_as_if", p.difference_as_if}});
+  for (const StateExplanation& e : observed.states_as_if) {
+    json dimming = json::array();
+    for (const Eigen::VectorXd& row : e.dimming) dimming.push_back(VectorJson(row));
+    states.push_back({{"as_if", e.as_if},
+                      {"remedy", e.remedy},
+                      {"dimming", dimming},
+                      {"difference_as_given", e.difference_as_given},
+                      {"difference", e.difference}});
+  }
+  return {{"photos", photos}, {"states", states}};
+}
+
+void ReadAsIf(const json& in, SessionObservations& observed) {
+  for (const json& p : in.at("photos"))
+    observed.photos_as_if.push_back({p.at("view"), p.at("state"), p.at("as_if"), p.at("is_exchanged"),
+                                     p.at("difference"), p.at("difference_as_if")});
+  for (const json& e : in.at("states")) {
+    StateExplanation explanation{
+        e.at("as_if"), e.at("remedy"), {}, e.at("difference_as_given"), e.at("difference")};
+    for (const json& row : e.at("dimming")) explanation.dimming.push_back(VectorFromJson(row));
+    observed.states_as_if.push_back(std::move(explanation));
+  }
+}
+
 }  // namespace
 
 json ObservationsJson(const SessionObservations& observed) {
@@ -85,7 +118,10 @@ json ObservationsJson(const SessionObservations& observed) {
                     {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
   json outlines = json::array();
   for (const SeenOutline& outline : observed.outlines) outlines.push_back(OutlineJson(outline));
-  return {{"observations", json::binary(std::move(bytes))}, {"seen", seen}, {"outlines", outlines}};
+  return {{"observations", json::binary(std::move(bytes))},
+          {"seen", seen},
+          {"outlines", outlines},
+          {"as_if", AsIfJson(observed)}};
 }
 
 SessionObservations ObservationsFromJson(const json& in) {
@@ -111,6 +147,7 @@ SessionObservations ObservationsFromJson(const json& in) {
     observed.seen.push_back(place);
   }
   for (const json& entry : in.at("outlines")) observed.outlines.push_back(OutlineFromJson(entry));
+  ReadAsIf(in.at("as_if"), observed);
   return observed;
 }
 

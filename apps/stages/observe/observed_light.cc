@@ -71,7 +71,10 @@ std::vector<PhotoSample> SamplesInOneUnit(const std::vector<Observation>& observ
   return samples;
 }
 
-std::vector<Eigen::VectorXd> DimmingOrOne(const Session& session) {
+// Returns the states as the photos say that they were: self-calibration must not blame photos for the table's mistake.
+std::vector<Eigen::VectorXd> DimmingOrOne(const Session& session,
+                                          const std::vector<StateExplanation>& explained) {
+  if (!explained.empty()) return explained.front().dimming;
   if (session.luminaires.empty()) return {session.states.size(), Eigen::VectorXd::Ones(1)};
   return DimmingOf(session);
 }
@@ -302,13 +305,15 @@ nlohmann::json JsonOf(const Session& session, const StatedRadiometry& stated, co
 
 std::vector<Observation> WithSelfCalibration(const Session& session, const LinearizedPhotos& photos,
                                              const RegisteredSession& registered, const Patches& patches,
+                                             const std::vector<StateExplanation>& states_as_if,
                                              std::vector<Observation> observations, RunContext& context,
                                              nlohmann::json& artifact) {
   if (observations.empty()) return observations;
   const StatedRadiometry stated = StatedBy(session, photos, registered, observations);
   const std::vector<PhotoSample> samples = SamplesInOneUnit(observations, stated, patches, registered);
   const StageTimer timer(context, "self_calibration", "");
-  const SelfCalibration found = SelfCalibrate(patches, DimmingOrOne(session), samples, stated.open);
+  const SelfCalibration found =
+      SelfCalibrate(patches, DimmingOrOne(session, states_as_if), samples, stated.open);
   const RadiometryFindings findings = FindingsOf(found, stated.open, stated.vignetting);
   const std::vector<AppliedGain> gains = AppliedGains(stated, found);
   if (!gains.empty()) artifact["camera_gains"] = CameraGainsJson(session, gains);

@@ -17,8 +17,8 @@ namespace luxfit {
 // gains of cameras, and adds the variance of their gains. A correction applies where calib did not fix it (no
 // flat field, no response curve) and where the criterion selects it. Cameras' gains are decided before single
 // photos are judged. Each is a choice ("gain of cam1") and an entry of `camera_gains`. `observations` are in
-// one unit (apps/stages/linearize/camera_scale.h). inverse/choose/calibrated_observations.h judges what is
-// worth a warning:
+// one unit (apps/stages/linearize/camera_scale.h). Where `states_as_if` explains [states], its first explanation
+// takes the place of the table. inverse/choose/calibrated_observations.h judges what is worth a warning:
 //
 //   exposure_metadata              a photo whose exposure is off
 //   vignetting_found               vignetting that the session denies
@@ -29,6 +29,7 @@ namespace luxfit {
 //   camera_scales_contradict       two cameras whose given factors the photos contradict
 std::vector<Observation> WithSelfCalibration(const Session& session, const LinearizedPhotos& photos,
                                              const RegisteredSession& registered, const Patches& patches,
+                                             const std::vector<StateExplanation>& states_as_if,
                                              std::vector<Observation> observations, RunContext& context,
                                              nlohmann::json& artifact);
 

@@ -10,6 +10,7 @@
 
 #include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/linearize/linearize.h"
+#include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/observed_light.h"
 #include "apps/stages/stages.h"
 #include "apps/text/suggest.h"
@@ -68,10 +69,13 @@ void RecordAmbient(const Session& session, const LinearizedPhotos& photos, RunCo
        "photograph these views with all luminaires off too"});
 }
 
-std::vector<PhotoBlobs> ListBlobs(std::vector<std::optional<PhotoBlobs>> blobs) {
+// Lists the blobs of all photos but those left out.
+std::vector<PhotoBlobs> ListBlobs(std::vector<std::optional<PhotoBlobs>> blobs,
+                                  const std::vector<PhotoAsIf>& left_out) {
   std::vector<PhotoBlobs> photos;
   for (std::optional<PhotoBlobs>& photo : blobs) {
-    if (photo) photos.push_back(std::move(*photo));
+    const auto is_of = [&](const PhotoAsIf& p) { return p.view == photo->view && p.state == photo->state; };
+    if (photo && std::none_of(left_out.begin(), left_out.end(), is_of)) photos.push_back(std::move(*photo));
   }
   return photos;
 }
@@ -144,14 +148,22 @@ SessionObservations ObserveSession(const Session& session, const LinearizedPhoto
     artifact["photos"].push_back(
         {{"file", photos.photos[i].file}, {"elements_observed", by_photo[i].size()}});
   }
-  observations = WithSelfCalibration(session, photos, registered, room.patches,
-                                     InOneUnit(std::move(observations), photos, views), context, artifact);
-  const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs));
+  observations = InOneUnit(std::move(observations), photos, views);
+  std::vector<PhotoAsIf> photos_as_if = FindPhotosAsIf(room.patches, observations);
+  WarnOfPhotos(session, photos, registered, photos_as_if, context);
+  observations = WithoutPhotos(observations, photos_as_if);
+  std::vector<StateExplanation> states_as_if = ExplainStates(session, room.patches, observations, context);
+  observations = WithSelfCalibration(session, photos, registered, room.patches, states_as_if,
+                                     std::move(observations), context, artifact);
+  const std::vector<PhotoBlobs> seen = ListBlobs(std::move(blobs), photos_as_if);
   SeenLuminairesOptions seen_options;
   seen_options.tags = session.tags.survey;
-  SessionObservations observed{
-      std::move(observations), FindSeenLuminaires(room, registered.cameras, views, seen, seen_options),
-      FindSeenOutlines(registered.cameras, views, seen), PoseErrorsOf(registered.registration)};
+  SessionObservations observed{std::move(observations),
+                               FindSeenLuminaires(room, registered.cameras, views, seen, seen_options),
+                               FindSeenOutlines(registered.cameras, views, seen),
+                               PoseErrorsOf(registered.registration),
+                               std::move(photos_as_if),
+                               std::move(states_as_if)};
   artifact["seen_luminaires"] = SeenJson(session, observed.seen);
   WriteJson(context.out + "/stages/observe.json", artifact);
   return observed;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/session/session_scene.h"
 #include "apps/stages/register/colmap_run.h"
@@ -25,13 +26,17 @@ constexpr double kMaxSigmaOfWorst =
 class RegistrationJob {
  public:
   RegistrationJob(const Session& session, const LinearizedPhotos& photos, const std::vector<Camera>& cameras,
-                  const ViewPhotos& views, RunContext& context)
-      : session_(session), photos_(photos), cameras_(cameras), views_(views), context_(context) {
-    detections_ = HasTags() ? DetectViews(session, photos, cameras, views, context) : ViewsWithoutTags(views);
+                  const ViewPhotos& views, std::vector<ViewDetections> detections, RunContext& context)
+      : session_(session),
+        photos_(photos),
+        cameras_(cameras),
+        views_(views),
+        context_(context),
+        detections_(std::move(detections)) {
     if (HasTags()) ExpectTags();
   }
 
-  bool HasTags() const { return !session_.tags.survey.empty() || session_.tags.size_m > 0; }
+  bool HasTags() const { return luxfit::HasTags(session_); }
   bool HasModel() const { return !session_.registration.colmap_model.empty(); }
 
   bool HasStart() const { return !session_.registration.start_positions_m.empty(); }
@@ -198,8 +203,8 @@ Registration Auto(const RegistrationJob& job) {
 
 Registration ChooseRegistration(const Session& session, const LinearizedPhotos& photos,
                                 const std::vector<Camera>& cameras, const ViewPhotos& views,
-                                RunContext& context) {
-  const RegistrationJob job(session, photos, cameras, views, context);
+                                std::vector<ViewDetections> detections, RunContext& context) {
+  const RegistrationJob job(session, photos, cameras, views, std::move(detections), context);
   const std::string& method = session.registration.method;
   const bool by_features_alone = method == "colmap" && job.HasStart();
   if (!job.HasTags() && (method == "tags" || method == "both"))

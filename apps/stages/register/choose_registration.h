@@ -16,9 +16,10 @@ namespace luxfit {
 
 // Throws std::runtime_error where the session asks for what it does not give, and MissingProgram where COLMAP
 // is asked for and not installed.
+// `detections`: the tags of `views`, in their order.
 Registration ChooseRegistration(const Session& session, const LinearizedPhotos& photos,
                                 const std::vector<Camera>& cameras, const ViewPhotos& views,
-                                RunContext& context);
+                                std::vector<ViewDetections> detections, RunContext& context);
 
 }  // namespace luxfit
 

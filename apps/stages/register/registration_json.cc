@@ -131,6 +131,16 @@ json NoteJson(const RegistrationNote& note) {
 
 }  // namespace
 
+json MisplacedJson(const std::vector<MisplacedPhoto>& photos) {
+  json list = json::array();
+  for (const MisplacedPhoto& photo : photos)
+    list.push_back({{"view", photo.view},
+                    {"state", photo.state},
+                    {"as_if_view", photo.as_if_view},
+                    {"tags", photo.tags}});
+  return list;
+}
+
 json RegistrationJson(const Session& session, const RegisteredSession& registered) {
   const Registration& r = registered.registration;
   json out = {{"converged", r.converged},
@@ -148,6 +158,7 @@ json RegistrationJson(const Session& session, const RegisteredSession& registere
               {"views", json::array()},
               {"pose_covariance", TriangleJson(r.pose_covariance)},
               {"placed_tags", json::array()},
+              {"misplaced_photos", MisplacedJson(registered.misplaced)},
               {"notes", json::array()}};
   for (size_t c = 0; c < registered.cameras.size(); ++c)
     out["cameras"].push_back(CameraJson(session.cameras[c].id, registered.cameras[c]));
@@ -176,6 +187,9 @@ RegisteredSession RegistrationFromJson(const json& in) {
   r.pose_covariance =
       MatrixFromTriangle(in.at("pose_covariance"), static_cast<Eigen::Index>(6 * r.views.size()));
   for (const json& tag : in.at("placed_tags")) r.placed_tags.push_back(TagFromJson(tag));
+  for (const json& photo : in.at("misplaced_photos"))
+    registered.misplaced.push_back(
+        {photo.at("view"), photo.at("state"), photo.at("as_if_view"), photo.at("tags")});
   for (const json& note : in.at("notes"))
     r.notes.push_back(
         {note.at("view"), note.at("tag"), note.at("code"), note.at("message"), note.at("remedy")});

@@ -11,10 +11,14 @@
 #define LUXFIT_APPS_STAGES_REGISTER_REGISTRATION_JSON_H_
 
 #include <nlohmann/json_fwd.hpp>
+#include <vector>
 
 #include "apps/stages/stages.h"
 
 namespace luxfit {
+
+// The same in register.json and result.json.
+nlohmann::json MisplacedJson(const std::vector<MisplacedPhoto>& photos);
 
 // `session` gives the cameras' ids.
 nlohmann::json RegistrationJson(const Session& session, const RegisteredSession& registered);

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/stages/calibrate/stage_calibrate.h"
+#include "apps/stages/linearize/linearize.h"
 #include "apps/stages/register/choose_registration.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/register/view_tags.h"
@@ -69,6 +71,30 @@ void RecordTagsOnSurfaces(const TagsOnSurfaces& laid, RunContext& context) {
       {"tags on surfaces", tags(laid.used), {tags(0), "up to " + tags(laid.candidates)}, laid.reason});
 }
 
+void WarnOfMisplaced(const Session& session, const LinearizedPhotos& photos,
+                     const std::vector<MisplacedPhoto>& misplaced, RunContext& context) {
+  for (const MisplacedPhoto& photo : misplaced)
+    context.warnings.push_back(
+        {"photo_of_other_view",
+         fmt::format(
+             "{} shows view {}, not {}: {} of its tags lie where the other photos of {} show them, and "
+             "none where those of {} do; it was not used",
+             PhotoName(session, photos, photo.view, photo.state), photo.as_if_view, photo.view, photo.tags,
+             photo.as_if_view, photo.view),
+         fmt::format("correct its view in the photo table, or take {} in state {} again", photo.view,
+                     photo.state)});
+}
+
+// Features come from the photos that remain; of a view, one at least does.
+void LeaveOutMisplaced(const std::vector<MisplacedPhoto>& misplaced, ViewPhotos& views) {
+  for (const MisplacedPhoto& m : misplaced) {
+    std::vector<const LinearizedPhoto*>& photos = views.at(m.view);
+    photos.erase(std::remove_if(photos.begin(), photos.end(),
+                                [&](const LinearizedPhoto* photo) { return photo->state == m.state; }),
+                 photos.end());
+  }
+}
+
 }  // namespace
 
 std::string MethodOf(const RegisteredView& view) {
@@ -80,11 +106,17 @@ RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos
                                   RunContext& context) {
   RegisteredSession registered;
   if (photos.photos.empty()) return registered;
-  const ViewPhotos views = PhotosByView(session, photos.photos);
+  ViewPhotos views = PhotosByView(session, photos.photos);
   const StageTimer timer(context, "register",
                          fmt::format("{} views, {} surveyed tags", views.size(), session.tags.survey.size()));
   registered.cameras = CamerasOf(session, photos, context);
-  registered.registration = ChooseRegistration(session, photos, registered.cameras, views, context);
+  DetectedViews detected = HasTags(session) ? DetectViews(session, photos, registered.cameras, views, context)
+                                            : DetectedViews{ViewsWithoutTags(views), {}};
+  registered.misplaced = std::move(detected.photos);
+  WarnOfMisplaced(session, photos, registered.misplaced, context);
+  LeaveOutMisplaced(registered.misplaced, views);
+  registered.registration =
+      ChooseRegistration(session, photos, registered.cameras, views, std::move(detected.views), context);
   for (const RegistrationNote& note : registered.registration.notes) {
     context.warnings.push_back({note.code, note.message, note.remedy});
   }

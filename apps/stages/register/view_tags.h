@@ -20,11 +20,18 @@ std::map<std::string, std::vector<const Photo*>> PhotosByView(const Session& ses
                                                               const std::vector<Photo>& photos);
 using ViewPhotos = std::map<std::string, std::vector<const LinearizedPhoto*>>;
 
-// Detects tags in every photo of a view, refines and combines them. Returns one entry for each view, in that
-// order. `views` are of `photos`.
-std::vector<ViewDetections> DetectViews(const Session& session, const LinearizedPhotos& photos,
-                                        const std::vector<Camera>& cameras, const ViewPhotos& views,
-                                        const RunContext& context);
+struct DetectedViews {
+  std::vector<ViewDetections> views;   // in the order of ViewPhotos
+  std::vector<MisplacedPhoto> photos;  // they show other views; their tags are in none
+};
+
+// Detects tags in every photo of a view, refines and combines them. `views` are of `photos`.
+DetectedViews DetectViews(const Session& session, const LinearizedPhotos& photos,
+                          const std::vector<Camera>& cameras, const ViewPhotos& views,
+                          const RunContext& context);
+
+// Returns whether the session says what tags there are.
+bool HasTags(const Session& session);
 
 // Returns the same entries without tags.
 std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views);

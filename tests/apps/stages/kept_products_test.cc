@@ -142,6 +142,8 @@ TEST(KeptProductsTest, Observations) {
   place.states = {0, 2};
   place.area_m2 = std::numeric_limits<double>::quiet_NaN();
   before.seen = {place};
+  before.photos_as_if = {{3, 0, 1, true, 1.0 / 7, 0.01}};
+  before.states_as_if = {{"A was off", "take it out", {Eigen::Vector2d(0, 1.0 / 3)}, 0.3, 0.02}};
   const SessionObservations after = ObservationsFromJson(ThroughCbor(ObservationsJson(before)));
   ASSERT_EQ(after.observations.size(), 2U);
   EXPECT_EQ(after.observations[0].element, o.element);
@@ -152,6 +154,14 @@ TEST(KeptProductsTest, Observations) {
   ASSERT_EQ(after.seen.size(), 1U);
   EXPECT_EQ(after.seen[0].states, place.states);
   EXPECT_TRUE(std::isnan(after.seen[0].area_m2));
+  ASSERT_EQ(after.photos_as_if.size(), 1U);
+  EXPECT_EQ(after.photos_as_if[0].as_if, 1);
+  EXPECT_TRUE(after.photos_as_if[0].is_exchanged);
+  EXPECT_EQ(after.photos_as_if[0].difference, 1.0 / 7);
+  ASSERT_EQ(after.states_as_if.size(), 1U);
+  EXPECT_EQ(after.states_as_if[0].as_if, "A was off");
+  EXPECT_EQ(after.states_as_if[0].dimming.at(0), Eigen::Vector2d(0, 1.0 / 3));
+  EXPECT_EQ(after.states_as_if[0].difference_as_given, 0.3);
 }
 
 }  // namespace

@@ -302,7 +302,7 @@ class ObservedLightTest : public LinearizeTest {
 
   std::vector<Observation> Calibrated(bool vignetted, const std::vector<double>& exposure_factor) {
     nlohmann::json artifact;
-    return WithSelfCalibration(session_, photos_, registered_, wall_.patches,
+    return WithSelfCalibration(session_, photos_, registered_, wall_.patches, {},
                                wall_.Observe(vignetted, exposure_factor, rng_), context_, artifact);
   }
 
@@ -360,7 +360,7 @@ class ObservedRigTest : public ObservedLightTest {
   std::vector<Observation> Observed() { return wall_.Observe(false, factors_, rng_); }
 
   std::vector<Observation> Calibrated(std::vector<Observation> observations) {
-    return WithSelfCalibration(session_, photos_, registered_, wall_.patches,
+    return WithSelfCalibration(session_, photos_, registered_, wall_.patches, {},
                                InOneUnit(std::move(observations), photos_, wall_.views), context_, artifact_);
   }
 

@@ -1,0 +1,33 @@
+// Says where the session describes its photos wrongly, before anything is corrected or fitted.
+//
+//   photos_as_if   a photo shows the light of another state (inverse/observe/photos_as_if.h)
+//   states_as_if   [states] says something else than the photos add up to (inverse/observe/states_as_if.h)
+//
+// Both are warnings, `photos_as_if` and `states_as_if` in result.json. Where the table of states is explained, the result is
+// undetermined: nothing in it was changed.
+#ifndef LUXFIT_APPS_STAGES_OBSERVE_EXPLAINED_PHOTOS_H_
+#define LUXFIT_APPS_STAGES_OBSERVE_EXPLAINED_PHOTOS_H_
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "apps/stages/stages.h"
+
+namespace luxfit {
+
+// Warns of the photos. Who calls leaves them out.
+void WarnOfPhotos(const Session& session, const LinearizedPhotos& photos, const RegisteredSession& registered,
+                  const std::vector<PhotoAsIf>& found, RunContext& context);
+
+// Explains the table of states, and warns. Luminaires that nobody names yet explain nothing.
+std::vector<StateExplanation> ExplainStates(const Session& session, const Patches& patches,
+                                            const std::vector<Observation>& observations,
+                                            RunContext& context);
+
+nlohmann::json PhotosAsIfJson(const Session& session, const Registration& registration,
+                              const std::vector<PhotoAsIf>& photos);
+nlohmann::json StatesAsIfJson(const std::vector<StateExplanation>& explanations);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_APPS_STAGES_OBSERVE_EXPLAINED_PHOTOS_H_

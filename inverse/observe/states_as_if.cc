@@ -1,0 +1,103 @@
+#include "inverse/observe/states_as_if.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "inverse/observe/internal/superposed_columns.h"
+#include "inverse/observe/internal/table_mistake.h"
+#include "inverse/select/contradicted.h"
+
+namespace luxfit {
+namespace {
+
+constexpr int kSuperposedElements = 500;
+constexpr Eigen::Index kFewestColumns = 30;
+constexpr double kExplainsStates = 3;  // highest score of an explanation
+
+void ExpectWhole(const StateTable& table, const std::vector<Observation>& observations) {
+  const auto luminaires = static_cast<Eigen::Index>(table.luminaires.size());
+  bool is_whole = table.states.size() == table.dimming.size();
+  for (const Eigen::VectorXd& row : table.dimming) is_whole = is_whole && row.size() == luminaires;
+  for (const Observation& o : observations)
+    is_whole = is_whole && o.state >= 0 && o.state < static_cast<int>(table.states.size());
+  if (!is_whole)
+    throw std::invalid_argument("FindStatesAsIf: expected one dimming value for each state and luminaire");
+}
+
+Eigen::MatrixXd DimmingOfRows(const StateTable& table, const SuperposedColumns& columns) {
+  Eigen::MatrixXd dimming(static_cast<Eigen::Index>(columns.states.size()),
+                          static_cast<Eigen::Index>(table.luminaires.size()));
+  for (Eigen::Index i = 0; i < dimming.rows(); ++i)
+    dimming.row(i) = table.dimming[static_cast<size_t>(columns.states[static_cast<size_t>(i)])].transpose();
+  return dimming;
+}
+
+struct JudgedMistake {
+  TableMistake mistake;
+  SuperpositionScore score;
+};
+
+std::vector<JudgedMistake> Holding(std::vector<TableMistake> mistakes, const SuperposedColumns& columns,
+                                   const GroupScores& as_given, int rank) {
+  std::vector<JudgedMistake> holding;
+  for (TableMistake& mistake : mistakes) {
+    if (RankOf(mistake.dimming) > rank) continue;  // it would explain more for being freer
+    SuperpositionScore score = ScoreOf(columns, mistake.dimming);
+    if (Mean(score.scores) <= kExplainsStates && IsContradicted(as_given, score.scores))
+      holding.push_back({std::move(mistake), std::move(score)});
+  }
+  std::stable_sort(holding.begin(), holding.end(), [](const JudgedMistake& a, const JudgedMistake& b) {
+    return Mean(a.score.scores) < Mean(b.score.scores);
+  });
+  const auto is_refused = [&](const JudgedMistake& m) {
+    return Mean(m.score.scores) > 1 && IsContradicted(m.score.scores, holding.front().score.scores);
+  };
+  holding.erase(std::remove_if(holding.begin(), holding.end(), is_refused), holding.end());
+  return holding;
+}
+
+}  // namespace
+
+std::vector<StateExplanation> FindStatesAsIf(const Patches& patches,
+                                             const std::vector<Observation>& observations,
+                                             const StateTable& table) {
+  ExpectWhole(table, observations);
+  const SuperposedColumns columns = ColumnsOf(patches, ThinElements(observations, kSuperposedElements));
+  if (columns.luminance.cols() < kFewestColumns) return {};
+  const Eigen::MatrixXd dimming = DimmingOfRows(table, columns);
+  const int rank = RankOf(dimming);
+  if (rank >= dimming.rows()) return {};
+  const SuperpositionScore as_given = ScoreOf(columns, dimming);
+  if (Mean(as_given.scores) <= 1) return {};
+  const std::vector<JudgedMistake> holding =
+      Holding(TableMistakes(table, columns, dimming), columns, as_given.scores, rank);
+  if (std::all_of(holding.begin(), holding.end(),
+                  [](const JudgedMistake& m) { return m.mistake.is_of_whole_state; }))
+    return {};
+  std::vector<StateExplanation> explanations;
+  for (const JudgedMistake& m : holding) {
+    StateExplanation e{m.mistake.as_if, m.mistake.remedy, table.dimming, as_given.relative_difference,
+                       m.score.relative_difference};
+    for (Eigen::Index i = 0; i < m.mistake.dimming.rows(); ++i)
+      e.dimming[static_cast<size_t>(columns.states[static_cast<size_t>(i)])] =
+          m.mistake.dimming.row(i).transpose();
+    explanations.push_back(std::move(e));
+  }
+  return explanations;
+}
+
+std::string InWords(const std::vector<StateExplanation>& explanations) {
+  std::string text = "the photos look as if ";
+  for (size_t i = 0; i < explanations.size(); ++i)
+    text += (i > 0 ? ", or as if " : "") + explanations[i].as_if;
+  if (explanations.size() > 1) text += ", which explain them equally";
+  return text + fmt::format(
+                    ": so read, they differ by {:.1f} % from what states add up to, and by {:.0f} % "
+                    "as given",
+                    100 * explanations.front().difference, 100 * explanations.front().difference_as_given);
+}
+
+}  // namespace luxfit

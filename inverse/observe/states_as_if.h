@@ -1,0 +1,54 @@
+// Finds what a table of states gets wrong, where the photos of some states do not add up to those of others.
+//
+//   Y_s = sum_k d_sk B_k        as given, and with one mistake undone (inverse/observe/internal/table_mistake.h):
+//                               one dimming value is another one; two states, or two luminaires of a state, are exchanged;
+//                               all of a state is off by a factor
+//   score = mean min(z^2, 9), by patch      inverse/observe/internal/superposed_columns.h
+//
+// No light is fitted: what each luminaire gives to an element in a view is free. A mistake holds where it contradicts the
+// table as given (inverse/select/contradicted.h), its own score is below 3, and a value that it frees differs by a tenth.
+// Those that the best one does not contradict, or whose score is what chance gives, are returned beside it: they explain
+// the photos equally.
+//
+// A state all of whose photos are off by one factor may be dimmed otherwise, or its exposures are wrong. Where that alone
+// explains the photos, nothing is returned: self-calibration takes it out, and either way the fluxes are right.
+//
+// Tells nothing where the table has as many independent states as states. A tone curve in the photos hides mistakes.
+// Source: superposition of light; the rule's.
+#ifndef LUXFIT_INVERSE_OBSERVE_STATES_AS_IF_H_
+#define LUXFIT_INVERSE_OBSERVE_STATES_AS_IF_H_
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "forward/room/patches.h"
+#include "inverse/observe/observe.h"
+
+namespace luxfit {
+
+struct StateTable {
+  std::vector<std::string> states, luminaires;
+  std::vector<Eigen::VectorXd> dimming;  // one vector for each state, by luminaire
+};
+
+struct StateExplanation {
+  std::string as_if;                     // completes "the photos look as if ..."
+  std::string remedy;                    // a clause without a full stop
+  std::vector<Eigen::VectorXd> dimming;  // as it would be
+  // By how much the photos differ from what adds up, relative, rms: by the table as given, and so read.
+  double difference_as_given = 0, difference = 0;
+};
+
+// Returns the explanations that hold, the best first. Throws std::invalid_argument for names and dimming of different
+// numbers, and for a state out of range.
+std::vector<StateExplanation> FindStatesAsIf(const Patches& patches,
+                                             const std::vector<Observation>& observations,
+                                             const StateTable& table);
+
+// Says in one sentence, without a full stop, what explains the photos. `explanations`: one or more.
+std::string InWords(const std::vector<StateExplanation>& explanations);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_OBSERVE_STATES_AS_IF_H_

@@ -1,0 +1,76 @@
+// The office that an independent renderer photographed, its session with one mistake: `luxfit fit` names it, and blames no
+// exposure.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/apps/program.h"
+#include "tests/support/office_truth.h"
+#include "tests/support/temp_folder.h"
+
+namespace luxfit {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+
+class MisdescribedSession : public testing::Test {
+ protected:
+  MisdescribedSession() {
+    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
+                          std::filesystem::copy_options::recursive);
+  }
+
+  json Fit(int status) const {
+    const support::ProgramRun run = support::RunProgram(
+        fmt::format("fit '{}' -o '{}'", folder_.Path("office/session.toml"), folder_.Path("out")));
+    EXPECT_EQ(run.status, status) << run.output;
+    return json::parse(folder_.Read("out/result.json"));
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(MisdescribedSession, ExchangedPhotosAreLeftOutAndTheRestIsRight) {
+  folder_.Replace("office/photos.csv", "v03_A.png,cam0,v03,A,", "v03_A.png,cam0,v03,other,");
+  folder_.Replace("office/photos.csv", "v03_B.png,cam0,v03,B,", "v03_B.png,cam0,v03,A,");
+  folder_.Replace("office/photos.csv", "v03_A.png,cam0,v03,other,", "v03_A.png,cam0,v03,B,");
+  const json result = Fit(0);
+  ASSERT_TRUE(result.contains("photos_as_if")) << result["warnings"].dump(1);
+  ASSERT_EQ(result["photos_as_if"].size(), 2u);
+  for (const json& photo : result["photos_as_if"]) {
+    EXPECT_EQ(photo["view"], "v03");
+    EXPECT_TRUE(photo["exchanged"]);
+  }
+  const std::string warnings = result["warnings"].dump();
+  EXPECT_THAT(warnings, HasSubstr("(v03_A.png) look exchanged"));
+  EXPECT_THAT(warnings, Not(HasSubstr("exposure_metadata")));
+  for (const json& lamp : support::OfficeTruth()["lamps"]) {
+    for (const json& found : result["luminaires"]) {
+      if (found["id"] != lamp["id"]) continue;
+      const double flux_lm = lamp["flux_lm"];
+      // 1.5 times the office's own error, with all photos (1.1 %).
+      EXPECT_NEAR(found["flux_lm"].get<double>(), flux_lm, 0.017 * flux_lm) << lamp["id"];
+    }
+  }
+}
+
+TEST_F(MisdescribedSession, AWrongDimmingValueLeavesTheResultUndetermined) {
+  folder_.Replace("office/session.toml", "A = 0.3", "A = 1.0");
+  const json result = Fit(1);
+  EXPECT_THAT(result["status_because"].dump(), HasSubstr("states_as_if"));
+  ASSERT_TRUE(result.contains("states_as_if")) << result["warnings"].dump(1);
+  ASSERT_EQ(result["states_as_if"].size(), 1u);
+  EXPECT_THAT(result["states_as_if"][0]["as_if"].get<std::string>(),
+              HasSubstr("A was at 0.30 in state evening"));
+  EXPECT_THAT(result["warnings"].dump(), Not(HasSubstr("exposure_metadata")));
+}
+
+}  // namespace
+}  // namespace luxfit
