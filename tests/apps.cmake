@@ -63,6 +63,8 @@ luxfit_test(apps/commands advise_office_test SLOW WHOLE LINK luxfit::forward nlo
 add_dependencies(apps_advise_office_test luxfit)
 luxfit_test(apps/commands check_test LINK fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_check_test luxfit)
+luxfit_test(apps/commands luminance_pictures_test WHOLE LINK Eigen3::Eigen luxfit::forward nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
+add_dependencies(apps_luminance_pictures_test luxfit)
 luxfit_test(apps/commands misread_readings_test LINK fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_misread_readings_test luxfit)
 luxfit_test(apps/commands misread_office_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)

@@ -1,4 +1,5 @@
 luxfit_test(calib/luminance image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
+luxfit_test(calib/luminance radiance_picture_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance raw_photo_test LINK luxfit::calib)
 luxfit_test(calib/luminance heif_photo_test LINK luxfit::calib exiv2lib PkgConfig::LIBHEIF)
 luxfit_test(calib/luminance luminance_test LINK luxfit::calib)
@@ -15,6 +16,7 @@ luxfit_test(calib/luminance capture_test LINK luxfit::calib exiv2lib opencv_core
 luxfit_test(calib/luminance exposure_gains_test LINK luxfit::calib)
 luxfit_test(calib/luminance estimate_vignetting_test LINK luxfit::calib)
 luxfit_test(calib/lens camera_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/lens picture_view_test LINK luxfit::calib opencv_core opencv_calib3d opencv_imgproc)
 luxfit_test(calib/lens camera_file_test LINK luxfit::calib)
 luxfit_test(calib/lens lens_family_test LINK luxfit::calib)
 luxfit_test(calib/register colmap_model_test LINK luxfit::calib)

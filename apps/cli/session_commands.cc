@@ -113,6 +113,11 @@ void AddCalibrate(CLI::App& app, Invocation& invocation) {
 void AddLinearize(CLI::App& app, Invocation& invocation) {
   const auto linearize = AddSessionCommand(
       app, invocation, "linearize", "photos to luminance: exposures, response, vignetting", LinearizeCommand);
+  linearize.command->add_flag("--hdr", linearize.options->writes_pictures,
+                              "write every photo, or merged bracket, as a picture of luminance into "
+                              "OUT/luminance: Radiance .hdr with its "
+                              "view (cd/m2 = 179 (0.265 R + 0.670 G + 0.065 B)) and .exr; relative where "
+                              "cdm2_per_count_s is unknown");
   AddExample(*linearize.command, "luxfit linearize office/session.toml -o out",
              "session office: 49 views and states\ncamera cam0: response linear");
 }

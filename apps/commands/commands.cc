@@ -10,6 +10,7 @@
 
 #include "apps/commands/internal/photo_session.h"
 #include "apps/commands/internal/room_run.h"
+#include "apps/commands/internal/session_pictures.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/albedo/stage_stereo.h"
 #include "apps/stages/calibrate/calibration_table.h"
@@ -122,13 +123,19 @@ int ChartCommand(const ChartCommandOptions& options) {
   return 0;
 }
 
-int LinearizeCommand(const SessionCommandOptions& options) {
+int LinearizeCommand(const LinearizeCommandOptions& options) {
   const Session session = ReadSession(options.session);
   RunContext context = MakeContext(options, session);
   if (session.photos.empty())
     throw std::runtime_error(options.session + ": photos: expected photos, got none; add [photos]");
-  LinearizeSession(session, context);
-  const nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
+  const LinearizedPhotos photos = LinearizeSession(session, context).photos;
+  nlohmann::json artifact = ReadJson(context.out + "/stages/linearize.json");
+  if (options.writes_pictures) {
+    artifact["pictures"] = WriteSessionPictures(session, photos, context);
+    artifact["warnings"] = WarningsJson(context);
+    artifact["choices"] = ChoicesJson(context);
+    WriteJson(context.out + "/stages/linearize.json", artifact);
+  }
   PrintText(options.json ? JsonText(artifact) : LinearizeTable(session, artifact) + WarningText(artifact));
   return 0;
 }

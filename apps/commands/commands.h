@@ -56,8 +56,11 @@ struct ChartCommandOptions : SessionCommandOptions {
 // against time (apps/commands/study/stage_fit_chart.h).
 int ChartCommand(const ChartCommandOptions& options);
 
+struct LinearizeCommandOptions : SessionCommandOptions {
+  bool writes_pictures = false;  // OUT/luminance/VIEW_STATE.hdr and .exr (apps/export/luminance_pictures.h)
+};
 // Converts pixels to luminance by exposures, response and vignetting; writes OUT/stages/linearize.json.
-int LinearizeCommand(const SessionCommandOptions& options);
+int LinearizeCommand(const LinearizeCommandOptions& options);
 struct CalibrateCommandOptions : SessionCommandOptions {
   std::vector<std::string>
       inputs;         // one session file; or photos of a board and folders of them, `session` being empty

@@ -5,6 +5,7 @@
 //   patches      patches and elements with light and reflectance: .vtp, .ply
 //   radiance     the room as a scene of Radiance, with the luxmeter's points and how to run it
 //   luxmaps      an illuminance of every pixel of every photo: .exr, false colours as .png
+//   luminance    the luminance of every photo: Radiance .hdr with its view, .exr
 //   csv          everything tabular, units in the headers
 //   cameras      cameras and poses: OpenCV, mrcal, COLMAP, Kalibr
 //
@@ -34,6 +35,7 @@ ExportedFiles ExportLuminaires(const FittedRoom& fitted, const std::string& fold
 ExportedFiles ExportPatches(const FittedRoom& fitted, const std::string& folder);
 ExportedFiles ExportRadiance(const FittedRoom& fitted, const std::string& folder);
 ExportedFiles ExportLuxMaps(const FittedRoom& fitted, const std::string& folder, RunContext& context);
+ExportedFiles ExportLuminance(const FittedRoom& fitted, const std::string& folder, RunContext& context);
 ExportedFiles ExportTables(const FittedRoom& fitted, const std::string& folder);
 ExportedFiles ExportCameras(const FittedRoom& fitted, const std::string& folder);
 

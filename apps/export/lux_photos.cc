@@ -2,6 +2,7 @@
 
 #include "apps/export/exr_channels.h"
 #include "apps/export/false_colours.h"
+#include "apps/text/file_stem.h"
 #include "apps/version.h"
 #include "inverse/observe/observe.h"
 
@@ -13,6 +14,12 @@ PhotoView ViewOf(const FittedRoom& fitted, int camera, const PixelDirections& di
   const std::vector<PixelQuad> tags = TagQuads(fitted.session.tags.survey, of, cam_from_world);
   return {MapPixels(of, directions, cam_from_world, fitted.room, tags, DensePixels()),
           MapPixels(of, directions, cam_from_world, fitted.room, tags)};
+}
+
+std::vector<std::string> PhotoStems(const LinearizedPhotos& photos) {
+  std::vector<std::string> names;
+  for (const LinearizedPhoto& photo : photos.photos) names.push_back(photo.view + "_" + photo.state);
+  return DistinctFileStems(names);
 }
 
 std::vector<std::string> WriteLuxMap(const LuxMap& lux, const std::string& path_stem,

@@ -20,6 +20,9 @@ struct PhotoView {
 PhotoView ViewOf(const FittedRoom& fitted, int camera, const PixelDirections& directions,
                  const Eigen::Isometry3d& cam_from_world);
 
+// Returns a stem for the files of each photo, VIEW_STATE; no two are alike.
+std::vector<std::string> PhotoStems(const LinearizedPhotos& photos);
+
 // Writes STEM.exr (illuminance_lx, sigma_lx, gap; docs/exports.md) and STEM.png (false colours with their
 // scale). Returns the paths.
 std::vector<std::string> WriteLuxMap(const LuxMap& lux, const std::string& path_stem,

@@ -230,6 +230,7 @@ vignetting = "flat.png"
 table = "photos.csv"
 """)
     luxfit("linearize", folder / "session.toml", "-o", OUT / "bracket")
+    luxfit("linearize", REPO / "fixtures/office/session.toml", "--hdr", "-o", OUT / "pictures")
 
 
 def run_object():

@@ -27,11 +27,9 @@ Export Plain(ExportedFiles (*of)(const FittedRoom&, const std::string&)) {
 }
 
 std::vector<std::pair<std::string, Export>> Exports() {
-  return {{"luminaires", Plain(ExportLuminaires)},
-          {"patches", Plain(ExportPatches)},
-          {"radiance", Plain(ExportRadiance)},
-          {"luxmaps", ExportLuxMaps},
-          {"csv", Plain(ExportTables)},
+  return {{"luminaires", Plain(ExportLuminaires)}, {"patches", Plain(ExportPatches)},
+          {"radiance", Plain(ExportRadiance)},     {"luxmaps", ExportLuxMaps},
+          {"luminance", ExportLuminance},          {"csv", Plain(ExportTables)},
           {"cameras", Plain(ExportCameras)}};
 }
 

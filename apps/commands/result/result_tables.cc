@@ -62,6 +62,22 @@ std::string MaterialTable(const json& result) {
   return text;
 }
 
+// Says where the luminance pictures of `luxfit linearize --hdr` lie and what their values are.
+std::string PicturesLine(const json& pictures) {
+  const auto count = [&pictures](const char* key) {
+    return std::count_if(pictures.begin(), pictures.end(),
+                         [key](const json& picture) { return picture[key].get<bool>(); });
+  };
+  const auto absolute = static_cast<size_t>(count("is_absolute"));
+  std::string unit = "in cd/m2";
+  if (absolute < pictures.size()) {
+    unit = absolute == 0 ? "RELATIVE" : fmt::format("{} of them RELATIVE", pictures.size() - absolute);
+    unit += ": cdm2_per_count_s of the camera is not known";
+  }
+  return fmt::format("{} luminance pictures in luminance/, {} with a pose, {}\n", pictures.size(),
+                     count("has_pose"), unit);
+}
+
 }  // namespace
 
 std::string LuxmeterTable(const json& result) {
@@ -141,7 +157,7 @@ std::string LinearizeTable(const Session& session, const json& artifact) {
   for (const json& gain : artifact["exposure_gains"])
     text += fmt::format("{:<40} exposure x {:.4f} +- {:.4f}\n", gain["file"].get<std::string>(),
                         gain["factor"].get<double>(), gain["relative_sigma"].get<double>());
-  return text;
+  return artifact.contains("pictures") ? text + PicturesLine(artifact["pictures"]) : text;
 }
 
 std::string StatusLine(const json& result) {
