@@ -103,9 +103,9 @@ TEST(ScannedOffice, ACabinetThatTheMeshHasElsewhereIsPutBack) {
   const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
     MoveGroups(folder.Path("office/room.obj"), "cabinet", {0, 1, 0});
   });
-  EXPECT_LT(errors.luminaires.worst_position_mm, 9.9);
-  EXPECT_LT(errors.luminaires.worst_flux_percent, 1.6);
-  EXPECT_LT(errors.readings_percent, 1.5);
+  EXPECT_LT(errors.luminaires.worst_position_mm, 13);    // 8.7 mm
+  EXPECT_LT(errors.luminaires.worst_flux_percent, 1.8);  // 1.17 %
+  EXPECT_LT(errors.readings_percent, 1.5);               // 0.98 %
   EXPECT_EQ(errors.boxes_found, 0);
   ASSERT_EQ(errors.moved.size(), 1u);
   EXPECT_NEAR(errors.moved[0]["moved_m"][1], -1, 0.03);
