@@ -230,7 +230,11 @@ vignetting = "flat.png"
 table = "photos.csv"
 """)
     luxfit("linearize", folder / "session.toml", "-o", OUT / "bracket")
-    luxfit("linearize", REPO / "fixtures/office/session.toml", "--hdr", "-o", OUT / "pictures")
+    office = IN / "pictures"
+    shutil.copytree(REPO / "fixtures/office", office, ignore=shutil.ignore_patterns("photos.csv"))
+    head, *rows = (REPO / "fixtures/office/photos.csv").read_text().splitlines()
+    write(office / "photos.csv", "\n".join([head, *(row for row in rows if ",all," in row)][:3]) + "\n")
+    luxfit("linearize", office / "session.toml", "--hdr", "-o", OUT / "pictures")
 
 
 def run_object():
