@@ -24,7 +24,7 @@ std::string VectorText(const Eigen::Vector3d& v) {
 }
 
 // Returns colours whose brightness is `per_unit` times the photo's relative luminance.
-std::array<ImagePlane, 3> Colours(const LuminanceImage& image, double per_unit) {
+std::array<ImagePlane, 3> PictureColours(const LuminanceImage& image, double per_unit) {
   std::array<ImagePlane, 3> rgb;
   for (size_t c = 0; c < 3; ++c) rgb[c] = image.relative_rgb[c].max(0.0f);
   const ImagePlane brightness = RadianceBrightness(rgb);
@@ -112,7 +112,7 @@ std::vector<LuminancePicture> WriteLuminancePictures(const LinearizedPhotos& pho
     if (view) cam_from_world = view->cam_from_world;
     const LuminanceImage image = ReadCorrected(photos, photo, registered.cameras[c], options.corrections);
     const double per_unit = cdm2_per_unit ? *cdm2_per_unit / kRadianceEfficacy : 1;
-    std::array<ImagePlane, 3> rgb = Colours(image, per_unit);
+    std::array<ImagePlane, 3> rgb = PictureColours(image, per_unit);
     for (ImagePlane& plane : rgb) plane = Resampled(plane, places[c], views[c]);
     pictures[i] = {
         options.folder + "/" + stems[i],
