@@ -13,7 +13,6 @@ import base64
 import concurrent.futures
 import hashlib
 import os
-import pathlib
 import re
 import shutil
 import subprocess
@@ -21,32 +20,33 @@ import sys
 import sysconfig
 import tempfile
 import zipfile
+from pathlib import Path
 
 # What a system has that runs Python: glibc, and the C++ library, which a program takes from the newest compiler.
 SYSTEM_LIBRARIES = re.compile(r"(ld-linux-x86-64|libc|libm|libdl|librt|libpthread|libresolv|libutil|libstdc\+\+|libgcc_s)\.so\.\d+$")
 
 
-def output_of(*command):
+def output_of(*command: object) -> str:
     return subprocess.run([str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
-def libraries_of(module):
+def libraries_of(module: Path) -> dict[str, Path]:
     """The libraries that the module needs, also by way of others: path by name."""
     text = output_of("ldd", module)
     missing = re.findall(r"^\s*(\S+) => not found", text, re.M)
     if missing:
         sys.exit(f"{module}: expected all of its libraries, {', '.join(missing)} is not there; run ldconfig")
     found = dict(re.findall(r"^\s*(\S+) => (/\S+)", text, re.M))
-    return {name: pathlib.Path(path).resolve() for name, path in found.items() if not SYSTEM_LIBRARIES.match(name)}
+    return {name: Path(path).resolve() for name, path in found.items() if not SYSTEM_LIBRARIES.match(name)}
 
 
-def own_name(name, path):
+def own_name(name: str, path: Path) -> str:
     """libtbb.so.12 -> libtbb-0123abcd.so.12"""
     stem, dot, rest = name.partition(".so")
     return f"{stem}-{hashlib.sha256(path.read_bytes()).hexdigest()[:8]}{dot}{rest}"
 
 
-def point_to_own(library, own_names, folder):
+def point_to_own(library: Path, own_names: dict[str, str], folder: str) -> None:
     """Makes a library load those that come along, from that folder."""
     needed = output_of("patchelf", "--print-needed", library).split()
     replaced = [word for name in needed if name in own_names for word in ("--replace-needed", name, own_names[name])]
@@ -56,13 +56,13 @@ def point_to_own(library, own_names, folder):
     output_of("patchelf", "--set-rpath", folder, library)
 
 
-def bring_along(module, root):
+def bring_along(module: Path, root: Path) -> list[Path]:
     libraries = libraries_of(module)
     own_names = {name: own_name(name, path) for name, path in libraries.items()}
     folder = root / "luxfit.libs"
     folder.mkdir()
 
-    def vendor(name):
+    def vendor(name: str) -> None:
         target = folder / own_names[name]
         shutil.copyfile(libraries[name], target)
         point_to_own(target, own_names, "$ORIGIN")
@@ -77,21 +77,21 @@ def bring_along(module, root):
     return sorted(set(libraries.values()))
 
 
-def copyrights_of(paths):
+def copyrights_of(paths: list[Path]) -> dict[str, Path]:
     """The copyright files of the Debian packages that these libraries are of, by package."""
     # Debian's records know some libraries by their place before /lib was merged into /usr.
     names = [str(path) for path in paths] + [str(path).removeprefix("/usr") for path in paths]
     owners = subprocess.run(["dpkg", "-S", *names], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=False).stdout
-    files = {}
+    files: dict[str, Path] = {}
     for line in owners.splitlines():
         package = line.split(":")[0]
-        file = pathlib.Path("/usr/share/doc") / package / "copyright"
+        file = Path("/usr/share/doc") / package / "copyright"
         if file.exists():
             files[package] = file
     return files
 
 
-def metadata(version):
+def metadata(version: str) -> str:
     return f"""Metadata-Version: 2.1
 Name: luxfit
 Version: {version}
@@ -102,12 +102,12 @@ Requires-Dist: numpy
 """
 
 
-def record_line(root, path):
+def record_line(root: Path, path: Path) -> str:
     digest = base64.urlsafe_b64encode(hashlib.sha256(path.read_bytes()).digest()).rstrip(b"=").decode()
     return f"{path.relative_to(root)},sha256={digest},{path.stat().st_size}\n"
 
 
-def add_information(root, version, tag, own_license, paths):
+def add_information(root: Path, version: str, tag: str, own_license: str, paths: list[Path]) -> None:
     info = root / f"luxfit-{version}.dist-info"
     licenses = info / "licenses"
     licenses.mkdir(parents=True)
@@ -121,7 +121,7 @@ def add_information(root, version, tag, own_license, paths):
     record.write_text("".join(record_line(root, path) for path in files) + f"{record.relative_to(root)},,\n")
 
 
-def pack(root, wheel):
+def pack(root: Path, wheel: Path) -> None:
     """Packs the folder, the same for the same content."""
     part = wheel.with_suffix(".part")
     with zipfile.ZipFile(part, "w") as archive:
@@ -133,19 +133,19 @@ def pack(root, wheel):
     part.rename(wheel)
 
 
-def main():
-    module, stubs, version, own_license, out = sys.argv[1:]
+def main() -> None:
+    module, stubs, version, own_license, out_folder = sys.argv[1:]
     if not shutil.which("patchelf"):
         sys.exit("expected the program patchelf, found none; install the package patchelf")
-    glibc = os.confstr("CS_GNU_LIBC_VERSION").split()[1].replace(".", "_")
+    glibc = str(os.confstr("CS_GNU_LIBC_VERSION")).split()[1].replace(".", "_")
     python = sysconfig.get_config_var("py_version_nodot")
     tag = f"cp{python}-cp{python}-manylinux_{glibc}_x86_64"
-    out = pathlib.Path(out)
+    out = Path(out_folder)
     out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
-        root = pathlib.Path(work) / "wheel"
+        root = Path(work) / "wheel"
         root.mkdir()
-        paths = bring_along(pathlib.Path(module), root)
+        paths = bring_along(Path(module), root)
         (root / "luxfit-stubs").mkdir()
         shutil.copyfile(stubs, root / "luxfit-stubs" / "__init__.pyi")
         add_information(root, version, tag, own_license, paths)

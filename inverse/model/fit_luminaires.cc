@@ -93,7 +93,7 @@ class OuterLoop {
     bool settled = false;
     ReflectDerivatives(!options_.steps_by_direct_light);
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
-      if (data_.checkpoint) data_.checkpoint();
+      if (data_.checkpoint) data_.checkpoint(data_.is_part);
       ++fit_.outer_iterations;
       const LightState before = fit_.state;
       Recentre();

@@ -52,7 +52,8 @@ struct LightData {
   bool indirect_is_held = false;
   // Called before each round of a fit to these data, from any thread. It ends the fit by throwing FitStopped.
   // Empty: no calls.
-  std::function<void()> checkpoint = {};
+  std::function<void(bool is_part)> checkpoint = {};
+  bool is_part = false;  // what concerns a luminaire or a few, to compare models
 };
 
 // Says which quantities of one luminaire are free.

@@ -154,7 +154,7 @@ CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const 
   }
   try {
     for (int count = least; count <= options.max_count; ++count) {
-      if (data.checkpoint) data.checkpoint();
+      if (data.checkpoint) data.checkpoint(data.is_part);
       found = search.Find(0, count, found.sources);
       if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
         break;

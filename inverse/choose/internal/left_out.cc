@@ -149,6 +149,7 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
   problem.data.indirect_is_held = data.indirect_is_held;
   problem.data.pose_root = data.pose_root;
   problem.data.checkpoint = data.checkpoint;
+  problem.data.is_part = true;
   const auto member_of = [&](int luminaire) {
     const auto at = std::find(luminaires.begin(), luminaires.end(), luminaire);
     return at == luminaires.end() ? -1 : problem.members[static_cast<size_t>(at - luminaires.begin())];
@@ -187,6 +188,7 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
   problem.data.indirect_is_held = data.indirect_is_held;
   problem.data.pose_root = data.pose_root;
   problem.data.checkpoint = data.checkpoint;
+  problem.data.is_part = true;
   if (data.observations.empty()) {
     AddReadings(data, every_state, problem);
   } else {

@@ -4,10 +4,10 @@
 
 namespace luxfit {
 
-std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason,
-                                   std::atomic<int>& rounds) {
-  return [stop_reason, &rounds] {
-    ++rounds;
+std::function<void(bool is_part)> CheckpointOf(const std::function<std::string()>& stop_reason,
+                                               std::atomic<int>& rounds) {
+  return [stop_reason, &rounds](bool is_part) {
+    if (!is_part) ++rounds;
     const std::string reason = stop_reason ? stop_reason() : "";
     if (!reason.empty()) throw FitStopped(reason);
   };

@@ -12,7 +12,8 @@ namespace luxfit {
 
 // Returns a LightData::checkpoint that counts rounds and throws FitStopped with the reason that stop_reason
 // (FitRoomOptions::stop_reason, which may be empty) gives. `rounds` has to outlive it.
-std::function<void()> CheckpointOf(const std::function<std::string()>& stop_reason, std::atomic<int>& rounds);
+std::function<void(bool is_part)> CheckpointOf(const std::function<std::string()>& stop_reason,
+                                               std::atomic<int>& rounds);
 
 // Warns ("fit_stopped") that the fit is not done. What was asked for is then undetermined.
 void WarnOfStop(const EarlyStop& stop, Findings& findings);

@@ -129,7 +129,8 @@ TEST(LuminaireParts, UnevenPanelIsTheSumOfItsCellsClosedForms) {
       expected += support::LambertianRectangleLx(lamp.emission(i, j), centre, 0.3, 0.2, kPlace);
     }
   }
-  EXPECT_NEAR(LxAt(lamp), expected, 1e-9 * expected);
+  EXPECT_NEAR(LxAt(lamp), expected,
+              3e-5 * expected);  // what direct_light.h promises of a rectangle some sides away
 }
 
 TEST(LuminaireParts, DerivativesOfAnUnevenPanelAreCentralDifferences) {

@@ -206,7 +206,7 @@ TEST_F(PhotographedRoom, AStopEndsTheChoiceOfModels) {
   OpenChoice open;
   open.aim = open.heading = false;
   std::atomic<int> rounds = 0;
-  data.checkpoint = [&] { ++rounds; };
+  data.checkpoint = [&](bool is_part) { rounds += is_part ? 1 : 0; };
   const ModelChoice whole = ChooseLuminaireModels(room_, data, fit.state, {open, open});
   EXPECT_EQ(whole.stop_reason, "");
   const int needed = rounds;
@@ -214,7 +214,7 @@ TEST_F(PhotographedRoom, AStopEndsTheChoiceOfModels) {
   for (const double share : {0.0, 0.5, 0.9}) {
     const int last = static_cast<int>(share * needed);
     rounds = 0;
-    data.checkpoint = [&rounds, last] {
+    data.checkpoint = [&rounds, last](bool) {
       if (++rounds > last) throw FitStopped("the test asks for it");
     };
     const ModelChoice choice = ChooseLuminaireModels(room_, data, fit.state, {open, open});

@@ -67,7 +67,8 @@ std::vector<SignatureView> Views(const Scene& scene, const std::string& mirror =
   std::vector<SignatureView> views;
   for (const Eigen::Vector3d& eye :
        {Eigen::Vector3d(0.3, 0.3, 1.6), Eigen::Vector3d(0.3, 2.7, 1.7), Eigen::Vector3d(3.7, 0.3, 1.5),
-        Eigen::Vector3d(3.7, 2.7, 1.8), Eigen::Vector3d(2, 0.2, 1.9), Eigen::Vector3d(2, 2.8, 2)})
+        Eigen::Vector3d(3.7, 2.7, 1.8), Eigen::Vector3d(2, 0.2, 1.9), Eigen::Vector3d(2, 2.8, 2),
+        Eigen::Vector3d(3.7, 1.5, 1.6)})
     views.push_back(Draw(scene, eye, mirror));
   return views;
 }

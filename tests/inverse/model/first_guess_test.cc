@@ -136,7 +136,7 @@ TEST(GuessLuminaires, ASpentBudgetLeavesThePlacesThatPhotosShow) {
   const Room room = MakeRoom(Scene{});
   LightData data = TwoLamps({Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)});
   int searched = 0;
-  data.checkpoint = [&] {
+  data.checkpoint = [&](bool) {
     if (++searched > 1) throw FitStopped("its budget is spent");
   };
   const FirstGuess guess = GuessLuminaires(room, data);

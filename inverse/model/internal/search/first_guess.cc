@@ -88,7 +88,7 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
 
 bool GoesOn(const LightData& data) {
   try {
-    if (data.checkpoint) data.checkpoint();
+    if (data.checkpoint) data.checkpoint(data.is_part);
   } catch (const FitStopped&) {
     return false;
   }
