@@ -167,7 +167,9 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
   RecordBoxes(revised.found, context);
   for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
   const json product = {{"boxes", BoxesJson(change.boxes)}, {"moves", MovesJson(change.moves)}};
-  WriteJson(context.out + "/stages/furniture.json", product);  // without it, the kept product would not count
+  json artifact = ProvenanceJson("luxfit-furniture-1", context.provenance);
+  artifact.update(product);
+  WriteJson(context.out + "/stages/furniture.json", artifact);  // without it, the kept product does not count
   KeepProduct("furniture", inputs.furniture, context, mark, product);
   return change;
 }
