@@ -5,8 +5,8 @@
 //   seen through   not confirmed, and in 60 % of them other views show the same signature where the ray meets the mesh
 //                  without the piece, 10 cm or more behind
 //
-// What mirrors is neither: views do not agree on it, nor with what lies behind. What lies flat on a wall is never seen
-// through.
+// A mirror is neither: views agree neither on it nor with what lies behind. Views never see through a thing that lies
+// flat on a wall.
 #ifndef LUXFIT_INVERSE_FURNITURE_INTERNAL_SEE_THROUGH_H_
 #define LUXFIT_INVERSE_FURNITURE_INTERNAL_SEE_THROUGH_H_
 

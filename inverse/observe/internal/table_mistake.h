@@ -6,8 +6,8 @@
 //   two luminaires written for each other in one state
 //   all of a state by a factor f = median (Y_s / sum_j d_sj B_j): dimming or exposures
 //
-// What the only luminaire of a state is at is the state's factor, and is listed once, as that. Values are at most 1. Values that change by less than a tenth
-// are left out: dimmers are no more exact.
+// A state of one luminaire has a factor alone: the list has its dimming value once, as that factor. Values are at most
+// 1. The list leaves out values that change by less than a tenth: dimmers are no more exact.
 #ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_TABLE_MISTAKE_H_
 #define LUXFIT_INVERSE_OBSERVE_INTERNAL_TABLE_MISTAKE_H_
 
