@@ -8,6 +8,7 @@
 #include "forward/direct/internal/expect_sensor.h"
 #include "forward/direct/internal/luminaire_sight.h"
 #include "forward/direct/internal/sensor_rows.h"
+#include "forward/light/internal/clustered_room.h"
 #include "forward/light/internal/room_again.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
 #include "forward/radiosity/internal/sparse_transport.h"
@@ -46,14 +47,16 @@ Room SparseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOpt
   form_factors.rays = sparse->rays();
   TransportGeometry transport{PatchAreas(patches), PatchMaterials(patches), {}};
   return {std::move(scene),     std::move(rays),   std::move(patches), std::move(form_factors),
-          std::move(transport), std::move(sparse), std::nullopt};
+          std::move(transport), std::move(sparse), std::nullopt,       nullptr};
 }
 
 Room DenseRoom(Scene scene, RayScene rays, Patches patches, const FormFactorOptions& options) {
   FormFactors form_factors = ComputeFormFactors(rays, patches, options);
   TransportGeometry transport = MakeTransportGeometry(patches, form_factors);
-  return {std::move(scene),     std::move(rays), std::move(patches), std::move(form_factors),
-          std::move(transport), nullptr,         std::nullopt};
+  Room room{std::move(scene),     std::move(rays), std::move(patches), std::move(form_factors),
+            std::move(transport), nullptr,         std::nullopt,       nullptr};
+  if (HasClusters(room.patches)) room.clusters = std::make_shared<const Room>(ClusteredRoom(room));
+  return room;
 }
 
 }  // namespace

@@ -48,6 +48,9 @@ struct Room {
   // those of kMalley, and indirect light is the same all over a patch.
   std::shared_ptr<const SparseTransport> sparse;
   std::optional<LaidOnPlanes> on_planes;  // how the given mesh became `scene`
+  // The same elements with patches about twice as large, for callers that exchange light often; null: they would be
+  // hardly fewer. See internal/clustered_room.h.
+  std::shared_ptr<const Room> clusters;
 };
 // Makes a room. A mesh finer than patches is laid onto planes first where the options ask for it (LayOnPlanes); of any
 // other, facets drawn on one another are cut (WithoutOverlaps). So `scene` may differ from the given one.

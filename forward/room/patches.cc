@@ -88,6 +88,8 @@ struct FreeCell {
   double Share() const { return covered * free; }
 };
 
+constexpr int kClusterSide = 2;  // patches
+
 // An element that covers this much of the box round it counts as a rectangle of its area, and so does a patch, which is
 // larger. What covers less than the least of a cell is part of the next one.
 constexpr double kFillsElement = 0.4, kFillsPatch = 0.6, kLeastCovered = 0.1;
@@ -138,8 +140,13 @@ class Subdivision {
     free_cells_.assign(grid.element_of_cell.size(), {});
     coverage_.clear();
     if (surface) coverage_ = CoverageOf(*surface, grid.cells_u, grid.cells_v);
+    const int clusters_u = (patches_u + kClusterSide - 1) / kClusterSide,
+              clusters_v = (patches_v + kClusterSide - 1) / kClusterSide;
+    clusters_.assign(static_cast<size_t>(clusters_u) * static_cast<size_t>(clusters_v), -1);
     for (int j = 0; j < patches_v; ++j) {
       for (int i = 0; i < patches_u; ++i) {
+        cluster_ = static_cast<size_t>(j / kClusterSide) * static_cast<size_t>(clusters_u) +
+                   static_cast<size_t>(i / kClusterSide);
         const int left = i * elements_u, low = j * elements_v;
         if (!triangle) {
           AddBlock({left, left + elements_u, low, low + elements_v});
@@ -282,6 +289,8 @@ class Subdivision {
     }
     patch.center /= patch.area_m2;
     if (!coverage_.empty()) Fit(patch);
+    if (clusters_[cluster_] < 0) clusters_[cluster_] = cluster_count_++;
+    patch.cluster = clusters_[cluster_];
     result.patches.push_back(patch);
   }
 
@@ -340,6 +349,9 @@ class Subdivision {
   const Scene& scene_;
   const RayScene& rays_;
   const PatchesOptions& options_;
+  std::vector<int> clusters_;  // numbers of those of the facet at hand; -1: no patch yet
+  size_t cluster_ = 0;         // where the one at hand is in them
+  int cluster_count_ = 0;
   std::vector<FreeCell> free_cells_;    // those of the facet at hand
   std::vector<CellCoverage> coverage_;  // likewise; empty: all of it is covered
 };

@@ -38,6 +38,8 @@ struct Patch {
   int material = 0;
   int first_element = 0;
   int element_count = 0;
+  int cluster =
+      0;  // of up to 2 x 2 neighbours in one facet; clusters are numbered from 0 in the order of the patches
 };
 
 struct Element {

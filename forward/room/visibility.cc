@@ -101,38 +101,36 @@ struct RayScene::State {
   }
 };
 
-RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+RayScene::RayScene(const Scene& scene) {
   ExpectValid(scene);
-  state_->device = rtcNewDevice("");
-  if (state_->device == nullptr)
+  const auto state = std::make_shared<State>();
+  state->device = rtcNewDevice("");
+  if (state->device == nullptr)
     throw std::runtime_error("Embree: expected a device, got none (SSE2 is needed)");
-  state_->scene = rtcNewScene(state_->device);
+  state->scene = rtcNewScene(state->device);
   // Robust: rays through the common edge of two facets must hit one of them.
-  rtcSetSceneFlags(state_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
   std::vector<RayCorner> triangles, quads;
   for (const SurfaceTriangle& triangle : scene.surface) {
     const Facet& facet = scene.facets[static_cast<size_t>(triangle.facet)];
     for (const Eigen::Vector2d& corner : triangle.corners)
       triangles.push_back(ToRayCorner(facet.PointAt(corner.x(), corner.y())));
-    state_->facet_of_triangle.push_back(triangle.facet);
+    state->facet_of_triangle.push_back(triangle.facet);
     const auto& [a, b, c] = triangle.corners;
-    state_->corners.push_back({a.cast<float>(), b.cast<float>(), c.cast<float>()});
+    state->corners.push_back({a.cast<float>(), b.cast<float>(), c.cast<float>()});
   }
   for (size_t f = 0; f < scene.facets.size() && scene.surface.empty(); ++f) {
     const Facet& facet = scene.facets[f];
     const bool quad = facet.kind == FacetKind::kParallelogram;
     std::vector<RayCorner>& vertices = quad ? quads : triangles;
     for (const Eigen::Vector3d& corner : CornersOf(facet)) vertices.push_back(ToRayCorner(corner));
-    (quad ? state_->facet_of_quad : state_->facet_of_triangle).push_back(static_cast<int>(f));
+    (quad ? state->facet_of_quad : state->facet_of_triangle).push_back(static_cast<int>(f));
   }
-  state_->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);
-  state_->Attach(RTC_GEOMETRY_TYPE_QUAD, kQuads, 4, quads);
-  rtcCommitScene(state_->scene);
+  state->Attach(RTC_GEOMETRY_TYPE_TRIANGLE, kTriangles, 3, triangles);
+  state->Attach(RTC_GEOMETRY_TYPE_QUAD, kQuads, 4, quads);
+  rtcCommitScene(state->scene);
+  state_ = state;
 }
-
-RayScene::~RayScene() = default;
-RayScene::RayScene(RayScene&&) noexcept = default;
-RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 RayHit RayScene::Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
   RTCRayHit query{};

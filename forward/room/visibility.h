@@ -56,9 +56,6 @@ inline Eigen::Vector3d LiftedOff(const Eigen::Vector3d& p, const Eigen::Vector3d
 class RayScene {
  public:
   explicit RayScene(const Scene& scene);
-  ~RayScene();
-  RayScene(RayScene&&) noexcept;
-  RayScene& operator=(RayScene&&) noexcept;
 
   RayHit Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
   // Tells whether anything lies between the two points (the last 10 um before `to` do not count).
@@ -70,7 +67,7 @@ class RayScene {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<const State> state_;  // copies share it
 };
 
 }  // namespace luxfit

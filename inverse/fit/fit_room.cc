@@ -46,7 +46,11 @@ namespace {
 class RoomFitter {
  public:
   RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
-      : room_(room), given_(given), options_(options), light_(LightOf(room, given)) {
+      : room_(room),
+        coarse_(room.clusters ? *room.clusters : room),
+        given_(given),
+        options_(options),
+        light_(LightOf(room, given)) {
     RecordLabels(room, light_.labels, result_.findings);
     RecordBetweenViews(light_, result_.findings);
     RecordReadings(given.meter, light_, result_.findings);
@@ -130,11 +134,11 @@ class RoomFitter {
   // measured indirect light is held. Readings alone need the radiosity.
   LightState StartByParts() {
     const bool photos = !result_.data.observations.empty();
-    LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
+    LightData data = photos ? WithMeasuredIndirect(coarse_, result_.data) : result_.data;
     result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason, rounds_);
     {
       const auto step = Begin("guess", "where the luminaires may be");
-      start_ = StartFit(room_, given_, light_, data, result_.findings);
+      start_ = StartFit(coarse_, given_, light_, data, result_.findings);
       result_.luminaire_found = start_.luminaire_found;
     }
     best_ = start_.state;
@@ -148,10 +152,10 @@ class RoomFitter {
     quick.covariance = false;
     quick.has_texture = false;
     quick.on_round = KeepBest();
-    LuminaireFit fit = FitLuminaires(room_, part, state, Priors(), quick);
+    LuminaireFit fit = FitLuminaires(coarse_, part, state, Priors(), quick);
     if (photos && fit.status != FitStatus::kNoData) {
-      const auto lit = WithTwoSides(room_, data, fit.state, OpenDistributions(), Priors());
-      if (lit) fit = FitLuminaires(room_, part, *lit, Priors(), quick);
+      const auto lit = WithTwoSides(coarse_, data, fit.state, OpenDistributions(), Priors());
+      if (lit) fit = FitLuminaires(coarse_, part, *lit, Priors(), quick);
     }
     quick.has_texture = true;
     if (fit.status == FitStatus::kNoData) return start_.state;
@@ -160,13 +164,13 @@ class RoomFitter {
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
       quick.steps_by_direct_light = true;
-      fit = FitLuminaires(room_, part, fit.state, Priors(), quick);
+      fit = FitLuminaires(coarse_, part, fit.state, Priors(), quick);
       is_textured_ = IsTextured(fit);
-      data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
+      data = WithoutTexture(coarse_, WithModelledIndirect(coarse_, result_.data, fit.state), fit, Priors());
     }
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts =
-        FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
+        FitFromSeveralStarts(coarse_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
@@ -280,7 +284,7 @@ class RoomFitter {
                        found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
     const LightState typed = TypedBySwitching(data, state, open_);
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, Priors(),
+    const ModelChoice choice = ChooseLuminaireModels(coarse_, data, typed, open_, Priors(),
                                                      SeenPlacesOfTypes(given_.seen, data, typed));
     for (const PlacesChoice& c : choice.places) {
       RecordPlaces(given_, c, result_.findings);
@@ -295,7 +299,7 @@ class RoomFitter {
       best_ = choice.state;
       throw FitStopped(choice.stop_reason);
     }
-    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, Priors()))
+    for (const Contradiction& c : FindContradictions(coarse_, data, choice.state, open_, Priors()))
       WarnOfContradiction(given_, c, result_.findings);
     return WithSidesAlike(choice.state, open_);
   }
@@ -339,16 +343,16 @@ class RoomFitter {
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
     FitLuminairesOptions from_models = OfPart();
     from_models.start_is_near = true;  // each model was fitted with the others held
-    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), from_models);
+    LuminaireFit near = FitLuminaires(coarse_, part, sized, Priors(), from_models);
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
     near = WithoutNeedless(part, std::move(near));
     near = WithOneOfLikeTypes(part, std::move(near));
     const ColourChoice colour =
-        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), Priors());
+        ChooseColour(coarse_, part, near, EstimateAlbedoRgb(coarse_, part, near), Priors());
     RecordTransportColour(colour, result_.findings);
-    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, Priors());
+    const BodyChoice bodies = ChooseBodies(coarse_, part, colour.fit, Priors());
     RecordBodies(bodies, result_.findings);
     FitLuminairesOptions options;
     options.on_round = KeepBest();
@@ -369,19 +373,19 @@ class RoomFitter {
     TypedState typed = WithMergedTypes(fit, open_);
     RecordTypes(typed, result_.findings);
     if (typed.merged.empty() && typed.turned_alike.empty()) return fit;
-    return FitLuminaires(room_, part, typed.state, Priors(), OfPart(&fit));
+    return FitLuminaires(coarse_, part, typed.state, Priors(), OfPart(&fit));
   }
 
   // Lets photos tell squares from discs where the light did not.
   LuminaireFit WithSeenRectangles(const LightData& part, LuminaireFit fit) {
     const std::optional<LightState> rectangles = WithRectangles(open_, part, fit);
     if (!rectangles) return fit;
-    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, Priors(), OfPart(&fit));
+    LuminaireFit squared = FitLuminaires(coarse_, part, *rectangles, Priors(), OfPart(&fit));
     const LightState kept = WithExplainedRectangles(part, fit, squared, result_.findings);
     const auto is_alike = [](const Luminaire& a, const Luminaire& b) { return a.shape == b.shape; };
     if (std::equal(kept.luminaires.begin(), kept.luminaires.end(), rectangles->luminaires.begin(), is_alike))
       return squared;
-    return FitLuminaires(room_, part, kept, Priors(), OfPart(&fit));
+    return FitLuminaires(coarse_, part, kept, Priors(), OfPart(&fit));
   }
 
   // Takes outlines that the fit does not explain out of the data, and fits again without them.
@@ -389,7 +393,7 @@ class RoomFitter {
     result_.data.outlines = ExplainedOutlines(given_, part, fit, result_.findings);
     if (result_.data.outlines.size() == part.outlines.size()) return fit;
     part.outlines = result_.data.outlines;
-    return FitLuminaires(room_, part, fit.state, Priors(), OfPart(&fit));
+    return FitLuminaires(coarse_, part, fit.state, Priors(), OfPart(&fit));
   }
 
   // `near`: a fit to the same part, from which the fit starts.
@@ -411,7 +415,7 @@ class RoomFitter {
     SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
     RecordNeedless(given_, simplified.needless, result_.findings);
     if (!simplified.needless.empty())
-      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
+      fit = FitLuminaires(coarse_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
                           OfPart(&fit));
     fit.state = WithoutVanishedSizes(fit.state);
     return fit;
@@ -464,6 +468,7 @@ class RoomFitter {
   }
 
   const Room& room_;
+  const Room& coarse_;  // for all fits but the last
   const RoomObservations& given_;
   const FitRoomOptions& options_;
   RoomLight light_;

@@ -146,7 +146,9 @@ Sight PatchSightOf(const Patches& patches, int patch, const Luminaire& luminaire
                    const std::vector<Blocker>& blockers) {
   const Patch& of = patches.patches[static_cast<size_t>(patch)];
   const Facet& facet = patches.facets[static_cast<size_t>(of.facet)];
-  const ConvexPolygon polygon = MakePolygon(of.origin, of.edge_u, of.edge_v, facet.kind);
+  // What is left of a patch that is not whole lies in its parallelogram, and may lie outside its triangle.
+  const ConvexPolygon polygon =
+      MakePolygon(of.origin, of.edge_u, of.edge_v, of.is_whole ? facet.kind : FacetKind::kParallelogram);
   const std::optional<Outline> outline = OutlineTowards(luminaire, polygon);
   if (!outline) return Sight::kPartial;
   Shaft shaft(polygon, facet.Normal(), outline->polygon, outline->normal);

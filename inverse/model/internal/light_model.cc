@@ -105,7 +105,11 @@ bool ConcernsResponse(const Parameter& parameter) {
 }  // namespace
 
 LightModel::LightModel(const Room& room, const LightData& data)
-    : room_(room), data_(data), blocks_(RowBlocksOf(room, data)), groups_(GroupByDimming(data.dimming)) {
+    : room_(room),
+      exchange_(room.clusters ? *room.clusters : room),
+      data_(data),
+      blocks_(RowBlocksOf(room, data)),
+      groups_(GroupByDimming(data.dimming)) {
   if (data.indirect_is_held && !data.readings.empty())
     throw std::invalid_argument("LightModel: expected no readings where the indirect light was measured");
   std::vector<int> elements;
@@ -134,7 +138,9 @@ LightModel::LightModel(const Room& room, const LightData& data)
                                elements.begin());
   }
   receivers_ = MakeReceivers(room, elements, sensors);
-  if (!data.indirect_is_held) PrepareGather(room, receivers_);
+  if (data.indirect_is_held) return;
+  if (room.clusters) of_patches_ = receivers_;
+  PrepareGather(exchange_, receivers_);
 }
 
 void LightModel::FreezeVisibility(const LightState& state, int order) {
@@ -186,16 +192,20 @@ void LightModel::FreezeReflected(const LightState& state) {
   hidden_.resize(0), reflected_.resize(0), colour_.resize(0);
   reflected_at_ = {state.luminaires, state.albedo};
   if (data_.indirect_is_held || room_.sparse) return;
-  const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0;
+  const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0 || of_patches_;
   if (!departs && state.bodies == BodyPresence::kNone) return;
-  const std::vector<Transport> channels = departs ? ChannelsOf(state) : std::vector<Transport>();
-  std::vector<const Transport*> transports{&TransportFor(state.albedo)};
-  transports.reserve(4);
+  const Eigen::MatrixXf grey =
+      ComputeTotals(exchange_, receivers_, visibility_, state.luminaires, {&TransportFor(state.albedo)})
+          .front();
+  if (state.bodies != BodyPresence::kNone) FreezeBodies(state, grey);
+  if (!departs) return;
+  const std::vector<Transport> channels = ChannelsOf(state);
+  std::vector<const Transport*> transports;
+  transports.reserve(channels.size());
   for (const Transport& channel : channels) transports.push_back(&channel);
-  const std::vector<Eigen::MatrixXf> totals =
-      ComputeTotals(room_, receivers_, visibility_, state.luminaires, transports);
-  if (state.bodies != BodyPresence::kNone) FreezeBodies(state, totals.front());
-  if (departs) FreezeColour(state, totals);
+  FreezeColour(state, grey,
+               ComputeTotals(room_, of_patches_ ? *of_patches_ : receivers_, visibility_, state.luminaires,
+                             transports));
 }
 
 std::vector<Transport> LightModel::ChannelsOf(const LightState& state) const {
@@ -211,7 +221,8 @@ std::vector<Transport> LightModel::ChannelsOf(const LightState& state) const {
   return channels;
 }
 
-void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals) {
+void LightModel::FreezeColour(const LightState& state, const Eigen::MatrixXf& grey,
+                              const std::vector<Eigen::MatrixXf>& totals) {
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   colour_.setOnes(row_count());
   for (Eigen::Index i = 0; i < row_count(); ++i) {
@@ -222,10 +233,10 @@ void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::
         state.tint.size() > 0
             ? Eigen::VectorXd(blocks_[static_cast<size_t>(row.block)]->ChannelWeightsOf(state, row.place))
             : Eigen::VectorXd::Ones(1);
-    const double grey_lx = totals[0].row(row.receiver).cast<double>().dot(lumens);
+    const double grey_lx = grey.row(row.receiver).cast<double>().dot(lumens);
     double sum_lx = 0;
     for (Eigen::Index c = 0; c < weights.size(); ++c)
-      sum_lx += weights[c] * totals[static_cast<size_t>(c) + 1].row(row.receiver).cast<double>().dot(lumens);
+      sum_lx += weights[c] * totals[static_cast<size_t>(c)].row(row.receiver).cast<double>().dot(lumens);
     if (grey_lx > 0) colour_[i] = sum_lx / grey_lx;
   }
 }
@@ -233,7 +244,7 @@ void LightModel::FreezeColour(const LightState& state, const std::vector<Eigen::
 void LightModel::FreezeBodies(const LightState& state, const Eigen::MatrixXf& total) {
   const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room_, state.luminaires);
   if (surfaces.empty()) return;
-  const CoveredLight covered = ComputeCoveredLight(room_, receivers_, visibility_, state.luminaires,
+  const CoveredLight covered = ComputeCoveredLight(exchange_, receivers_, visibility_, state.luminaires,
                                                    TransportFor(state.albedo), surfaces);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   hidden_.setZero(row_count()), reflected_.setZero(row_count());
@@ -272,7 +283,7 @@ std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
 Illuminance LightModel::Light(const LightState& state, const DerivativeRequest& request) const {
   if (data_.indirect_is_held)
     return ComputeDirectIlluminance(room_, receivers_, visibility_, state.luminaires, request);
-  return ComputeIlluminance(room_, receivers_, visibility_, state.luminaires, TransportFor(state.albedo),
+  return ComputeIlluminance(exchange_, receivers_, visibility_, state.luminaires, TransportFor(state.albedo),
                             request);
 }
 
@@ -295,7 +306,7 @@ std::vector<bool> LightModel::SizesThatOutlinesTell(const LightState& state,
 }
 
 const Transport& LightModel::TransportFor(const Eigen::VectorXd& albedo) const {
-  if (!transport_ || transport_->albedo() != albedo) transport_.emplace(room_.transport, albedo);
+  if (!transport_ || transport_->albedo() != albedo) transport_.emplace(exchange_.transport, albedo);
   return *transport_;
 }
 
@@ -346,7 +357,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
 
 RowMajorMatrix LightModel::LightReflectedBy(const LightState& state,
                                             const std::vector<CoveredSurface>& surfaces) const {
-  const CoveredLight light = ComputeCoveredLight(room_, receivers_, visibility_, state.luminaires,
+  const CoveredLight light = ComputeCoveredLight(exchange_, receivers_, visibility_, state.luminaires,
                                                  TransportFor(state.albedo), surfaces);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   Eigen::VectorXd albedo(static_cast<Eigen::Index>(surfaces.size()));

@@ -10,7 +10,8 @@
 // exchanged in three channels between coloured surfaces, over that of light between grey ones:
 //   k = sum_c v_c E_c / E        v: the channel's weight in the row, E_c: illuminance by rho_c = tint_c rho
 // E_c is that of patches whose reflectance departs from their material's where the caller names them; k then exists
-// for grey surfaces, too.
+// for grey surfaces, too. In rooms that have clusters, E is that of light exchanged between those and E_c that between
+// patches: k is then what clusters miss, too (defect correction).
 // Photos hardly tell rho_body from the fluxes: it is held at kBodyAlbedo, and its sigma is a part of every
 // covariance.
 //
@@ -97,9 +98,10 @@ class LightModel {
   bool IsReflectedStale(const LightState& state, double still_m) const;
   // Returns the transports of the three channels, or of grey surfaces.
   std::vector<Transport> ChannelsOf(const LightState& state) const;
-  // Computes what coloured and textured surfaces add to each row's light. `totals`: of plain grey surfaces, then
-  // of each channel, or of grey.
-  void FreezeColour(const LightState& state, const std::vector<Eigen::MatrixXf>& totals);
+  // Computes what coloured and textured surfaces, and patches instead of clusters, add to each row's light. `grey`: of
+  // plain grey surfaces; `totals`: of each channel, or of grey.
+  void FreezeColour(const LightState& state, const Eigen::MatrixXf& grey,
+                    const std::vector<Eigen::MatrixXf>& totals);
   // Returns the transport for the reflectances, factored once for those of the last call.
   const Transport& TransportFor(const Eigen::VectorXd& albedo) const;
   // Returns by parameter whether it is a size that rows of outlines depend on.
@@ -109,11 +111,13 @@ class LightModel {
   Illuminance Light(const LightState& state, const DerivativeRequest& request) const;
 
   const Room& room_;
+  const Room& exchange_;  // whose patches exchange light: room_, or its clusters
   const LightData& data_;
   std::vector<std::unique_ptr<RowBlock>> blocks_;
   std::vector<Row> rows_;
   DimmingGroups groups_;
   Receivers receivers_;
+  std::optional<Receivers> of_patches_;  // the same where `exchange_` has clusters, to gather from patches
   LuminaireVisibility visibility_;
   std::vector<Luminaire> frozen_;  // those of `visibility_`
   int frozen_order_ = 0;
