@@ -105,6 +105,8 @@ Session FittedSession(const json& result, const std::string& given, const std::s
   ExpectSameRoom(result, session, path);
   if (session.scene && result.contains("furniture"))
     session.scene->furniture = BoxesFromJson(result.at("furniture"));
+  if (session.scene && result.contains("walls_moved"))
+    session.scene->walls = WallsFromJson(result.at("walls_moved"));
   if (session.scene && result.contains("furniture_moved"))
     session.scene->moves = MovesFromJson(result.at("furniture_moved"));
   if (session.count_is_estimated)

@@ -24,6 +24,7 @@
 #include "forward/direct/sensor.h"
 #include "forward/room/outline.h"
 #include "forward/room/pieces.h"
+#include "forward/room/plane_moves.h"
 
 namespace luxfit {
 
@@ -36,6 +37,7 @@ struct SessionScene {
   std::optional<RoomOutline> outline;                       // from size or outline; m
   bool finds_furniture = true;                              // furniture = "find"
   std::vector<RoomBox> furniture;  // found in photos (apps/stages/observe/found_furniture.h), m
+  std::vector<PlaneMove> walls;    // of the mesh, which photos show elsewhere
   std::vector<PieceMove> moves;    // of the mesh's furniture, which photos show elsewhere or not at all
 };
 

@@ -68,7 +68,8 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
 
 Scene SceneOf(const SessionScene& scene) {
   Scene given = scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit);
-  return WithBoxes(WithPiecesMoved(std::move(given), scene.moves), scene.furniture);
+  Scene standing = WithPiecesMoved(WithPlanesMoved(std::move(given), scene.walls), scene.moves);
+  return WithBoxes(standing, scene.furniture);
 }
 
 std::string RoomText(const SessionScene& scene) {

@@ -77,6 +77,7 @@ void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room
   if (change.IsEmpty()) return;
   session.scene->furniture = change.boxes;
   session.scene->moves = change.moves;
+  session.scene->walls = change.walls;
   RunContext changed;
   changed.is_quiet = true;
   room = LoadRoom(session, changed);
@@ -89,9 +90,11 @@ void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room
 
 // Adds the furniture that photos show to the inputs of observe, which depends on it.
 SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
-  if (session.scene && !(session.scene->furniture.empty() && session.scene->moves.empty()))
-    inputs.observe["found furniture"] =
-        HashText(BoxesJson(session.scene->furniture).dump() + MovesJson(session.scene->moves).dump());
+  if (!session.scene) return inputs;
+  const SessionScene& scene = *session.scene;
+  if (!(scene.furniture.empty() && scene.moves.empty() && scene.walls.empty()))
+    inputs.observe["found furniture"] = HashText(
+        BoxesJson(scene.furniture).dump() + MovesJson(scene.moves).dump() + WallsJson(scene.walls).dump());
   return inputs;
 }
 

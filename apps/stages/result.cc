@@ -268,6 +268,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["materials"] = MaterialsJson(session, room, fit);
   if (session.scene && !session.scene->furniture.empty())
     result["furniture"] = BoxesJson(session.scene->furniture);
+  if (session.scene && !session.scene->walls.empty()) result["walls_moved"] = WallsJson(session.scene->walls);
   if (session.scene && !session.scene->moves.empty())
     result["furniture_moved"] = MovesJson(session.scene->moves);
   result["luminaires"] = LuminairesJson(session, fit, files);

@@ -25,6 +25,8 @@ constexpr int kSignatureWidthPx = 480;
 struct SignatureView {
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d pixel_from_ray = Eigen::Matrix3d::Identity();  // of the pinhole
+  // Of the pose, as RegisteredView has it: (rotation vector in world axes rad, eye in world m).
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int width_px = 0, height_px = 0, states = 0;
   std::vector<float> log_luminance;  // height x width x states
   std::vector<float> variance;       // of log_luminance, by the photos' noise
@@ -32,7 +34,7 @@ struct SignatureView {
   Eigen::Vector3d Eye() const { return cam_from_world.inverse().translation(); }
 };
 
-// `photos`: of one pose, by state; null where there is none.
+// `photos`: of one pose, by state; null where there is none. The caller sets the pose's covariance, where it is known.
 SignatureView MakeSignatureView(const Camera& camera, const Eigen::Isometry3d& cam_from_world,
                                 const std::vector<const LuminanceImage*>& photos);
 

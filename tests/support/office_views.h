@@ -39,6 +39,7 @@ inline const std::vector<SignatureView>& OfficeViews() {
       for (const RoomPhoto& photo : photos)
         if (photo.view == view.view) images[static_cast<size_t>(photo.state)] = &photo.image;
       of_office.push_back(MakeSignatureView(cameras[0], view.cam_from_world, images));
+      of_office.back().pose_covariance = view.covariance;
     }
     return of_office;
   }();

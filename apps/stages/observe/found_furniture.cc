@@ -12,6 +12,7 @@
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
 #include "inverse/furniture/missing_pieces.h"
+#include "inverse/furniture/moved_walls.h"
 #include "inverse/furniture/signature_view.h"
 
 namespace luxfit {
@@ -34,6 +35,7 @@ std::vector<SignatureView> ViewsOf(const Session& session, const LinearizedPhoto
       images[state] = kept[state].get();
     }
     signatures[v] = MakeSignatureView(camera, views[v].cam_from_world, images);
+    signatures[v].pose_covariance = views[v].covariance;
   });
   return signatures;
 }
@@ -96,10 +98,72 @@ void RecordMove(const MissingPiece& piece, RunContext& context) {
        "correct the mesh, or write furniture = \"given\" under [scene] where it is right"});
 }
 
+// Says how a wall is called: by its material, and by the way it faces.
+std::string WallName(const MovedWall& wall) {
+  constexpr double kLevel = 0.95;
+  const Eigen::Vector3d& n = wall.move.normal;
+  std::string kind = fmt::format("wall that faces ({:.2f}, {:.2f}, {:.2f})", n.x(), n.y(), n.z());
+  if (n.z() > kLevel) kind = "floor";
+  if (n.z() < -kLevel) kind = "ceiling";
+  for (int axis = 0; axis < 2; ++axis)
+    if (std::abs(n[axis]) > 1 - 1e-6)
+      kind = fmt::format("wall that faces {}{}", n[axis] > 0 ? '+' : '-', "xy"[axis]);
+  return fmt::format("{} (material {}, {:.1f} m2)", kind, wall.material, wall.area_m2);
+}
+
+// Says where a plane lies: on an axis, or how far from the origin along its normal.
+std::string PlaneText(const Eigen::Vector3d& normal, double offset_m) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(normal[axis]) > 1 - 1e-6)
+      return fmt::format("{} = {:.3f} m", "xyz"[axis], offset_m / normal[axis]);
+  return fmt::format("{:.3f} m from the origin along its normal", offset_m);
+}
+
+void RecordWall(const MovedWall& wall, RunContext& context) {
+  const PlaneMove& move = wall.move;
+  std::string words = fmt::format(
+      "the {} stands {:.1f} +- {:.1f} cm farther {} than the mesh has it: the mesh has it at {}, and {} "
+      "views show "
+      "it at {}",
+      WallName(wall), 100 * std::abs(move.by_m), 100 * wall.sigma_m, move.by_m > 0 ? "in" : "out",
+      PlaneText(move.normal, move.offset_m), wall.views, PlaneText(move.normal, move.offset_m + move.by_m));
+  if (wall.tags > 0)
+    words += fmt::format(", where {} surveyed tag{} too", wall.tags, wall.tags == 1 ? " lies" : "s lie");
+  context.warnings.push_back({"wall_moved", words + "; the fit has it there",
+                              "correct the mesh: move the corners of that surface; or write furniture = "
+                              "\"given\" under [scene] where "
+                              "the mesh is right"});
+}
+
 json PointJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 Eigen::Vector3d PointFromJson(const json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
+}
+
+// Finds walls, then furniture in the room that they leave.
+FurnitureChange FindChange(const Session& session, const std::vector<SignatureView>& views, const Room& room,
+                           RunContext& context) {
+  MovedWallsOptions walls;
+  walls.survey = session.tags.survey;
+  FurnitureOptions options;
+  options.free_places = FreePlacesOf(session);
+  FurnitureChange change;
+  Scene mesh = SceneOf(*session.scene);
+  for (const MovedWall& wall : FindMovedWalls(mesh, views, walls)) {
+    RecordWall(wall, context);
+    change.walls.push_back(wall.move);
+  }
+  mesh = WithPlanesMoved(std::move(mesh), change.walls);
+  const RevisedFurniture revised =
+      ReviseFurniture(mesh, change.walls.empty() ? room.scene : mesh, views, options);
+  for (const MissingPiece& piece : revised.missing) {
+    RecordMove(piece, context);
+    change.moves.push_back(piece.move);
+  }
+  RecordBoxes(revised.found, context);
+  for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
+  return change;
 }
 
 }  // namespace
@@ -146,27 +210,35 @@ std::vector<PieceMove> MovesFromJson(const json& list) {
   return moves;
 }
 
+json WallsJson(const std::vector<PlaneMove>& walls) {
+  json list = json::array();
+  for (const PlaneMove& wall : walls)
+    list.push_back({{"normal", PointJson(wall.normal)}, {"offset_m", wall.offset_m}, {"moved_m", wall.by_m}});
+  return list;
+}
+
+std::vector<PlaneMove> WallsFromJson(const json& list) {
+  std::vector<PlaneMove> walls;
+  for (const json& entry : list)
+    walls.push_back({PointFromJson(entry.at("normal")), entry.at("offset_m"), entry.at("moved_m")});
+  return walls;
+}
+
 FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
                               const RegisteredSession& registered, const Room& room,
                               const SessionInputs& inputs, RunContext& context) {
   if (!session.scene || !session.scene->finds_furniture || registered.registration.views.size() < 3)
     return {};
   if (const auto kept = KeptProduct("furniture", inputs.furniture, context))
-    return {BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves"))};
+    return {BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves")),
+            WallsFromJson(kept->at("walls"))};
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
-  FurnitureOptions options;
-  options.free_places = FreePlacesOf(session);
-  const RevisedFurniture revised = ReviseFurniture(SceneOf(*session.scene), room.scene,
-                                                   ViewsOf(session, photos, registered, context), options);
-  FurnitureChange change;
-  for (const MissingPiece& piece : revised.missing) {
-    RecordMove(piece, context);
-    change.moves.push_back(piece.move);
-  }
-  RecordBoxes(revised.found, context);
-  for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
-  const json product = {{"boxes", BoxesJson(change.boxes)}, {"moves", MovesJson(change.moves)}};
+  const FurnitureChange change =
+      FindChange(session, ViewsOf(session, photos, registered, context), room, context);
+  const json product = {{"boxes", BoxesJson(change.boxes)},
+                        {"moves", MovesJson(change.moves)},
+                        {"walls", WallsJson(change.walls)}};
   json artifact = ProvenanceJson("luxfit-furniture-1", context.provenance);
   artifact.update(product);
   WriteJson(context.out + "/stages/furniture.json", artifact);  // without it, the kept product does not count

@@ -1,9 +1,9 @@
-// Finds furniture of a session that its mesh lacks, or has where the room has none (inverse/furniture/missing_pieces.h),
-// and words it.
+// Finds walls of a session that stand elsewhere than its mesh has them (inverse/furniture/moved_walls.h), and furniture that
+// the mesh lacks, or has where the room has none (inverse/furniture/missing_pieces.h), and words it.
 //
 // Where [scene] furniture is "find", found boxes become part of the room, and pieces that views see through stand where
 // views show them, or are left out. Boxes are said in a warning ("furniture_found"), in the lines of a session that would
-// give them, and pieces in others ("furniture_moved"). Nothing is looked for where the session has no [scene], where fewer
+// give them, pieces and walls in others ("furniture_moved", "wall_moved"). Nothing is looked for where the session has no [scene], where fewer
 // than three views are registered, or where furniture is "given".
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
@@ -15,13 +15,15 @@
 #include "apps/stages/stages.h"
 #include "forward/room/outline.h"
 #include "forward/room/pieces.h"
+#include "forward/room/plane_moves.h"
 
 namespace luxfit {
 
 struct FurnitureChange {
   std::vector<RoomBox> boxes;    // that the mesh lacks
   std::vector<PieceMove> moves;  // of pieces that the mesh has elsewhere
-  bool IsEmpty() const { return boxes.empty() && moves.empty(); }
+  std::vector<PlaneMove> walls;  // that the mesh has elsewhere, in the order in which they move
+  bool IsEmpty() const { return boxes.empty() && moves.empty() && walls.empty(); }
 };
 
 // Returns what differs, and keeps it for the next run as the product "furniture".
@@ -29,11 +31,13 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
                               const RegisteredSession& registered, const Room& room,
                               const SessionInputs& inputs, RunContext& context);
 
-// Write boxes and moves as parts of an artifact, and read them back.
+// Write boxes, moves and walls as parts of an artifact, and read them back.
 nlohmann::json BoxesJson(const std::vector<RoomBox>& boxes);
 std::vector<RoomBox> BoxesFromJson(const nlohmann::json& json);
 nlohmann::json MovesJson(const std::vector<PieceMove>& moves);
 std::vector<PieceMove> MovesFromJson(const nlohmann::json& json);
+nlohmann::json WallsJson(const std::vector<PlaneMove>& walls);
+std::vector<PlaneMove> WallsFromJson(const nlohmann::json& json);
 
 }  // namespace luxfit
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace luxfit {
 
@@ -26,9 +27,13 @@ bool Signatures::Add(const SignatureView& view, double u, double v) {
     known += std::isfinite(value) ? 1 : 0;
   }
   if (known >= FewestStates()) return true;
+  DropLast();
+  return false;
+}
+
+void Signatures::DropLast() {
   value_.resize(value_.size() - static_cast<size_t>(states_));
   variance_.resize(value_.size());
-  return false;
 }
 
 bool Signatures::Agree(int a, int b, double tolerance) const {
@@ -46,6 +51,21 @@ bool Signatures::Agree(int a, int b, double tolerance) const {
     if (sum >= most) return false;
   }
   return known >= FewestStates() && sum < static_cast<float>(known);
+}
+
+double Signatures::Difference(int a, int b, double tolerance) const {
+  const auto states = static_cast<size_t>(states_);
+  const size_t i = static_cast<size_t>(a) * states, j = static_cast<size_t>(b) * states;
+  const auto t2 = static_cast<float>(tolerance * tolerance);
+  double sum = 0;
+  int known = 0;
+  for (size_t s = 0; s < states; ++s) {
+    const float d = value_[i + s] - value_[j + s];
+    if (!std::isfinite(d)) continue;
+    ++known;
+    sum += d * d / (t2 + variance_[i + s] + variance_[j + s]);
+  }
+  return known < FewestStates() ? std::numeric_limits<double>::quiet_NaN() : sum / known;
 }
 
 std::uint64_t Signatures::LargestAgreement(double tolerance) const {

@@ -25,7 +25,10 @@ class Signatures {
   int count() const { return static_cast<int>(value_.size()) / states_; }
   // Samples a pixel of a view, which lies inside. Returns false, and adds nothing, where too few states are known.
   bool Add(const SignatureView& view, double u, double v);
+  void DropLast();
   bool Agree(int a, int b, double tolerance) const;
+  // Returns the mean that Agree compares with 1; NaN where both know too few states.
+  double Difference(int a, int b, double tolerance) const;
   // Returns those that agree with the one with which most agree, as bits. At most kMostViews are compared.
   std::uint64_t LargestAgreement(double tolerance) const;
 

@@ -20,5 +20,14 @@ TEST(FoundFurniture, MovesAreReadAsTheyWereWritten) {
   EXPECT_FALSE(moves[1].by_m.has_value());
 }
 
+TEST(FoundFurniture, WallsAreReadAsTheyWereWritten) {
+  const nlohmann::json json = WallsJson({{{-1, 0, 0}, -6.05, 0.0511}});
+  const std::vector<PlaneMove> walls = WallsFromJson(nlohmann::json::parse(json.dump()));
+  ASSERT_EQ(walls.size(), 1u);
+  EXPECT_EQ(walls[0].normal, Eigen::Vector3d(-1, 0, 0));
+  EXPECT_EQ(walls[0].offset_m, -6.05);
+  EXPECT_EQ(walls[0].by_m, 0.0511);
+}
+
 }  // namespace
 }  // namespace luxfit

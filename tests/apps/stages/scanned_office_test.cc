@@ -1,5 +1,5 @@
 // `luxfit run` on the photos of fixtures/office without its mesh, as a user runs it, against the truth: with a scan,
-// with the room's three lengths alone, and with a mesh that has its cabinet a metre off.
+// with the room's three lengths alone, and with meshes that have the cabinet a metre and a wall 5 cm off.
 //
 // The scan: triangles of 9 cm, bumps of 5 mm, jitter of 2 mm, 3 % holes, no materials. Limits are 1.5 times what was
 // measured (docs/accuracy.md).
@@ -30,7 +30,8 @@ struct OfficeErrors {
   TruthComparison luminaires;
   double readings_percent = 0;
   int boxes_found = 0;
-  json moved;  // furniture_moved of the result
+  json moved, walls;  // furniture_moved and walls_moved of the result
+  bool warns_of_wall = false;
 };
 
 // Runs the office of which `change` changed the session, and compares luminaires and readings with the truth. Surfaces have
@@ -50,7 +51,10 @@ OfficeErrors RunOffice(const Change& change) {
   truth["materials"].clear();
   OfficeErrors errors{CompareWithTruth(result, truth), result["summary"]["mean_abs_error_percent"],
                       static_cast<int>(result.value("furniture", json::array()).size()),
-                      result.value("furniture_moved", json::array())};
+                      result.value("furniture_moved", json::array()),
+                      result.value("walls_moved", json::array())};
+  for (const json& warning : result["warnings"])
+    errors.warns_of_wall = errors.warns_of_wall || warning["code"] == "wall_moved";
   std::printf("worst position %.2f mm, worst flux %.2f %%, readings %.2f %%\n",
               errors.luminaires.worst_position_mm, errors.luminaires.worst_flux_percent,
               errors.readings_percent);
@@ -81,8 +85,9 @@ TEST(ScannedOffice, ThreeLengthsAreEnough) {
   EXPECT_EQ(errors.boxes_found, 3);
 }
 
-// Moves what a group of an OBJ file has, whose vertices stand before each of its faces.
-void MoveGroups(const std::string& path, const std::string& groups, const Eigen::Vector3d& by_m) {
+// Moves vertices of some groups of an OBJ file, which stand before each of their faces.
+template <typename Move>
+void MoveVertices(const std::string& path, const std::string& groups, const Move& move) {
   std::ifstream in(path);
   std::string text, line;
   bool moves = false;
@@ -90,7 +95,7 @@ void MoveGroups(const std::string& path, const std::string& groups, const Eigen:
     if (line.rfind("g ", 0) == 0) moves = line.rfind("g " + groups, 0) == 0;
     Eigen::Vector3d p;
     if (moves && std::sscanf(line.c_str(), "v %lf %lf %lf", &p.x(), &p.y(), &p.z()) == 3) {
-      p += by_m;
+      move(p);
       line = fmt::format("v {:.4f} {:.4f} {:.4f}", p.x(), p.y(), p.z());
     }
     text += line + "\n";
@@ -101,7 +106,7 @@ void MoveGroups(const std::string& path, const std::string& groups, const Eigen:
 
 TEST(ScannedOffice, ACabinetThatTheMeshHasElsewhereIsPutBack) {
   const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
-    MoveGroups(folder.Path("office/room.obj"), "cabinet", {0, 1, 0});
+    MoveVertices(folder.Path("office/room.obj"), "cabinet", [](Eigen::Vector3d& p) { p.y() += 1; });
   });
   EXPECT_LT(errors.luminaires.worst_position_mm, 13);    // 8.7 mm
   EXPECT_LT(errors.luminaires.worst_flux_percent, 1.8);  // 1.17 %
@@ -109,6 +114,23 @@ TEST(ScannedOffice, ACabinetThatTheMeshHasElsewhereIsPutBack) {
   EXPECT_EQ(errors.boxes_found, 0);
   ASSERT_EQ(errors.moved.size(), 1u);
   EXPECT_NEAR(errors.moved[0]["moved_m"][1], -1, 0.03);
+}
+
+// Left at x = 6.05 m, the wall cost 12 mm and 1.6 %.
+TEST(ScannedOffice, AWallThatTheMeshHasElsewhereIsPutBack) {
+  const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
+    MoveVertices(folder.Path("office/room.obj"), "room", [](Eigen::Vector3d& p) {
+      if (p.x() == 6) p.x() = 6.05;
+    });
+  });
+  EXPECT_LT(errors.luminaires.worst_position_mm, 3.8);   // 2.5 mm
+  EXPECT_LT(errors.luminaires.worst_flux_percent, 1.5);  // 0.98 %
+  EXPECT_LT(errors.readings_percent, 1.5);               // 0.98 %
+  EXPECT_EQ(errors.boxes_found, 0);
+  EXPECT_TRUE(errors.warns_of_wall);
+  ASSERT_EQ(errors.walls.size(), 1u);
+  EXPECT_NEAR(errors.walls[0]["moved_m"], 0.05, 0.003);  // 1.1 mm
+  EXPECT_NEAR(errors.walls[0]["offset_m"], -6.05, 1e-9);
 }
 
 }  // namespace
