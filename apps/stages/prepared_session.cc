@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -88,6 +89,17 @@ void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room
   }
 }
 
+// Judges readings anew in a room whose walls moved: a floor that the mesh has too high buried them.
+void CheckReadingsAgain(const Session& session, const Room& room, std::vector<LuminaireReading>& readings,
+                        RunContext& context) {
+  const auto is_of_readings = [](const Warning& warning) { return warning.code == "reading_outside"; };
+  std::vector<Warning>& said = context.warnings;
+  said.erase(std::remove_if(said.begin(), said.end(), is_of_readings), said.end());
+  const SessionCheck check = CheckSession(session, room.rays);
+  std::copy_if(check.warnings.begin(), check.warnings.end(), std::back_inserter(said), is_of_readings);
+  LeaveOutReadings(check.readings.lines, readings);
+}
+
 // Adds the furniture that photos show to the inputs of observe, which depends on it.
 SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
   if (!session.scene) return inputs;
@@ -147,8 +159,9 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
   LeaveOutPhotos(registered.misplaced, linearized.photos);
-  ChangeFurniture(FurnitureKept(session, linearized.photos, registered, room, inputs, context), session, room,
-                  context);
+  const FurnitureChange change = FurnitureKept(session, linearized.photos, registered, room, inputs, context);
+  ChangeFurniture(change, session, room, context);
+  if (!change.walls.empty()) CheckReadingsAgain(session, room, linearized.readings, context);
   SessionObservations observed =
       ObserveKept(session, linearized.photos, registered, room, WithFurniture(inputs, session), context);
   context.photos.reset();

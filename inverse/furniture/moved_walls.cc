@@ -14,8 +14,8 @@
 namespace luxfit {
 namespace {
 
-constexpr size_t kFewestViewsOfMesh = 3, kMostMoves = 12;
-constexpr double kTagFacesAlike = 0.99;                   // 8 degrees
+constexpr size_t kFewestViewsOfRoom = 3, kMostMoves = 12;
+constexpr double kTagFacesAlike = 0.99;                    // 8 degrees
 constexpr double kTagOnPlaneM = 0.01, kTagAtWallM = 0.02;  // tags are glued on boards, too
 
 bool HasMoved(const HullPlane& plane, const std::vector<MovedWall>& moved) {
@@ -37,8 +37,8 @@ std::vector<double> TagsBefore(const HullPlane& plane, const std::vector<Surveye
 
 std::optional<MovedWall> MovedWallOf(const Scene& mesh, const HullPlane& plane, const WallOffset& offset,
                                      const std::vector<SurveyedTag>& survey) {
-  MovedWall wall{{plane.normal, plane.offset_m, offset.by_m}, offset.sigma_m, "", plane.area_m2,
-                 offset.views, 0};
+  MovedWall wall{
+      {plane.normal, plane.offset_m, offset.by_m}, offset.sigma_m, "", plane.area_m2, offset.views, 0};
   const int material = mesh.facets[static_cast<size_t>(plane.facets.front())].material;
   wall.material = mesh.materials[static_cast<size_t>(material)];
   for (const double before_m : TagsBefore(plane, survey)) {
@@ -72,7 +72,7 @@ std::optional<MovedWall> FindNext(const Scene& mesh, const std::vector<Signature
 std::vector<MovedWall> FindMovedWalls(const Scene& mesh, const std::vector<SignatureView>& views,
                                       const MovedWallsOptions& options) {
   std::vector<MovedWall> moved;
-  if (views.size() < kFewestViewsOfMesh || !mesh.surface.empty()) return moved;
+  if (views.size() < kFewestViewsOfRoom || !mesh.surface.empty()) return moved;
   Scene room = mesh;
   while (moved.size() < kMostMoves) {
     const std::optional<MovedWall> wall = FindNext(room, views, options, moved);

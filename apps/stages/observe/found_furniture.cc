@@ -234,8 +234,7 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
             WallsFromJson(kept->at("walls"))};
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
-  const FurnitureChange change =
-      FindChange(session, ViewsOf(session, photos, registered, context), room, context);
+  FurnitureChange change = FindChange(session, ViewsOf(session, photos, registered, context), room, context);
   const json product = {{"boxes", BoxesJson(change.boxes)},
                         {"moves", MovesJson(change.moves)},
                         {"walls", WallsJson(change.walls)}};

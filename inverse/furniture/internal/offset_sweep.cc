@@ -39,7 +39,12 @@ class OffsetSweeper {
  public:
   OffsetSweeper(const HullPlane& plane, const RayScene& mesh, const std::vector<SignatureView>& views,
                 double tolerance)
-      : plane_(plane), mesh_(mesh), views_(views), tolerance_(tolerance), eyes_(EyesOf(views)), by_pose_(views.size(), Row6::Zero()) {
+      : plane_(plane),
+        mesh_(mesh),
+        views_(views),
+        tolerance_(tolerance),
+        eyes_(EyesOf(views)),
+        by_pose_(views.size(), Row6::Zero()) {
     for (int k = 0; k < kOffsets; ++k) signatures_.emplace_back(views.front().states);
   }
 
@@ -87,7 +92,8 @@ class OffsetSweeper {
     for (const double offset : {-kOffsetReachM, 0.0, kOffsetReachM}) {
       const Eigen::Vector3d ray = cell.place + offset * cell.normal - eyes_[v];
       const double distance = ray.norm();
-      const double to_plane = distance * (plane_.offset_m - plane_.normal.dot(eyes_[v])) / plane_.normal.dot(ray);
+      const double to_plane =
+          distance * (plane_.offset_m - plane_.normal.dot(eyes_[v])) / plane_.normal.dot(ray);
       const RayHit hit = mesh_.Trace(eyes_[v], ray / distance);
       if (hit.facet >= 0 && hit.distance < std::min(distance, to_plane) - kBeforeM) return true;
     }
@@ -114,8 +120,8 @@ class OffsetSweeper {
   void AddPair(size_t place, size_t a, size_t b, SweptOffsets& swept) {
     Eigen::Array<double, 1, kOffsets> losses;
     for (int k = 0; k < kOffsets; ++k) {
-      const double q = signatures_[static_cast<size_t>(k)].Difference(static_cast<int>(a), static_cast<int>(b),
-                                                                      tolerance_);
+      const double q = signatures_[static_cast<size_t>(k)].Difference(static_cast<int>(a),
+                                                                      static_cast<int>(b), tolerance_);
       losses[k] = q / (1 + q);
     }
     if (!losses.allFinite()) return;
@@ -146,8 +152,8 @@ class OffsetSweeper {
 
 }  // namespace
 
-SweptOffsets SweepOffsets(const HullPlane& plane, const RayScene& mesh, const std::vector<SignatureView>& views,
-                          double tolerance) {
+SweptOffsets SweepOffsets(const HullPlane& plane, const RayScene& mesh,
+                          const std::vector<SignatureView>& views, double tolerance) {
   return OffsetSweeper(plane, mesh, views, tolerance).Run();
 }
 

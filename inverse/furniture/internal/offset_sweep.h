@@ -30,16 +30,16 @@ constexpr double kOffsetStepM = 0.01, kOffsetReachM = kOffsetSteps * kOffsetStep
 using OffsetLosses = Eigen::Array<double, Eigen::Dynamic, kOffsets>;
 
 struct SweptOffsets {
-  OffsetLosses by_place;             // one row for each cell of the plane
-  std::vector<int> pairs_of_place;   // of views
-  OffsetLosses by_view;              // one row for each view: of the pairs that it is in
+  OffsetLosses by_place;            // one row for each cell of the plane
+  std::vector<int> pairs_of_place;  // of views
+  OffsetLosses by_view;             // one row for each view: of the pairs that it is in
   std::vector<int> pairs_of_view;
   double pose_sigma_m = 0;  // of the offset, by the covariance of each view's pose
 };
 
 // `mesh`: rays of the scene that the plane belongs to.
-SweptOffsets SweepOffsets(const HullPlane& plane, const RayScene& mesh, const std::vector<SignatureView>& views,
-                          double tolerance);
+SweptOffsets SweepOffsets(const HullPlane& plane, const RayScene& mesh,
+                          const std::vector<SignatureView>& views, double tolerance);
 
 }  // namespace luxfit
 

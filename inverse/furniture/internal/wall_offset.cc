@@ -12,12 +12,12 @@ namespace luxfit {
 namespace {
 
 constexpr int kBlocks = 40, kFolds = 5;
-constexpr int kFewestViews = 2;    // the covariance of poses says what two are worth
-constexpr int kFewestPairs = 100;  // a place and two views that see it: 1 m2 and more
+constexpr int kFewestViewsOfWall = 2;   // the covariance of poses says what two are worth
+constexpr int kFewestPairs = 100;       // a place and two views that see it: 1 m2 and more
 constexpr double kLeastOffsetM = 0.01;  // less hardly matters to the light
-constexpr double kSigmas = 3;
+constexpr double kSigmasOff = 3;
 constexpr double kFloorM = 0.002;  // of sigma: poses and lenses err alike all over a wall
-constexpr double kStandardErrors = 2, kWorthHaving = 0.05;
+constexpr double kStandardErrors = 2, kWorthMoving = 0.05;
 
 using Losses = Eigen::Array<double, 1, kOffsets>;
 
@@ -51,8 +51,7 @@ double LeastAt(const Losses& losses) {
   losses.minCoeff(&k);
   if (k == 0 || k == kOffsets - 1) return static_cast<double>(k);
   const double curvature = losses[k - 1] - 2 * losses[k] + losses[k + 1];
-  return static_cast<double>(k) +
-         (curvature > 0 ? 0.5 * (losses[k - 1] - losses[k + 1]) / curvature : 0);
+  return static_cast<double>(k) + (curvature > 0 ? 0.5 * (losses[k - 1] - losses[k + 1]) / curvature : 0);
 }
 
 double MetresOf(double steps) { return (steps - kOffsetSteps) * kOffsetStepM; }
@@ -69,7 +68,8 @@ double JackknifeVariance(const Losses& all, double total, const OffsetLosses& gr
     const int n = pairs[static_cast<size_t>(g)];
     if (n == 0 || n > kLargestShare * total) continue;
     ++count;
-    sum += (total / n - 1) * std::pow(MetresOf(LeastAt(all - groups.row(g)) - LeastAt(all) + kOffsetSteps), 2);
+    sum +=
+        (total / n - 1) * std::pow(MetresOf(LeastAt(all - groups.row(g)) - LeastAt(all) + kOffsetSteps), 2);
   }
   return count > 0 ? sum / count : 0;
 }
@@ -89,7 +89,7 @@ bool IsAskedFor(const Losses& all, const Blocks& blocks) {
   }
   SelectionOptions options;
   options.standard_errors = kStandardErrors;
-  options.worth_having = kWorthHaving;
+  options.worth_having = kWorthMoving;
   return SimplestWithinOneStandardError({{given, 0, true}, {moved, 1, true}}, options).chosen == 1;
 }
 
@@ -109,11 +109,11 @@ std::optional<WallOffset> EstimateOffset(const HullPlane& plane, const SweptOffs
   wall.gain = all[kOffsetSteps] - all[step];
   for (Eigen::Index v = 0; v < swept.by_view.rows(); ++v)
     wall.views += swept.by_view(v, step) < swept.by_view(v, kOffsetSteps) ? 1 : 0;
-  if (wall.views < kFewestViews) return std::nullopt;
+  if (wall.views < kFewestViewsOfWall) return std::nullopt;
   wall.sigma_m = std::sqrt(JackknifeVariance(all, pairs, blocks.losses, blocks.pairs) +
                            JackknifeVariance(all, pairs, swept.by_view, swept.pairs_of_view) +
                            std::pow(swept.pose_sigma_m, 2) + kFloorM * kFloorM);
-  if (std::abs(wall.by_m) < kSigmas * wall.sigma_m || !IsAskedFor(all, blocks)) return std::nullopt;
+  if (std::abs(wall.by_m) < kSigmasOff * wall.sigma_m || !IsAskedFor(all, blocks)) return std::nullopt;
   return wall;
 }
 

@@ -59,9 +59,10 @@ TEST(PlaneMoves, CornersSlideAlongObliqueWalls) {
 // A door goes along; a cupboard's back does, its front stays.
 TEST(PlaneMoves, FlatPiecesGoAlongAndDeepOnesStretch) {
   Scene scene = Room();
-  support::AddBox(scene, {Eigen::Vector3d(3.97, 1, 0), Eigen::Vector3d(4, 1.9, 2)}, support::Facing::kOutward, {"door"});
-  support::AddBox(scene, {Eigen::Vector3d(3.5, 0.1, 0), Eigen::Vector3d(4, 0.9, 2)}, support::Facing::kOutward,
-                  {"cupboard"});
+  support::AddBox(scene, {Eigen::Vector3d(3.97, 1, 0), Eigen::Vector3d(4, 1.9, 2)}, support::Facing::kOutward,
+                  {"door"});
+  support::AddBox(scene, {Eigen::Vector3d(3.5, 0.1, 0), Eigen::Vector3d(4, 0.9, 2)},
+                  support::Facing::kOutward, {"cupboard"});
   const Scene moved = WithPlanesMoved(scene, {{{-1, 0, 0}, -4, 0.05}});
   EXPECT_NEAR(BoundsOf(moved, "door").min().x(), 3.92, 1e-12);
   EXPECT_NEAR(BoundsOf(moved, "door").max().x(), 3.95, 1e-12);

@@ -24,8 +24,8 @@ Scene Office() { return ReadScene(support::kOfficeFolder + "room.obj"); }
 
 std::vector<SurveyedTag> Survey() { return ReadTagMap(support::kOfficeFolder + "tags.json"); }
 
-const PlaneMove kWest{{1, 0, 0}, 0, 0}, kEast{{-1, 0, 0}, -6, 0}, kSouth{{0, 1, 0}, 0, 0}, kNorth{{0, -1, 0}, -4, 0},
-    kFloor{{0, 0, 1}, 0, 0}, kCeiling{{0, 0, -1}, -2.8, 0};
+const PlaneMove kWest{{1, 0, 0}, 0, 0}, kEast{{-1, 0, 0}, -6, 0}, kSouth{{0, 1, 0}, 0, 0},
+    kNorth{{0, -1, 0}, -4, 0}, kFloor{{0, 0, 1}, 0, 0}, kCeiling{{0, 0, -1}, -2.8, 0};
 
 // Returns a plane of the office with a move: positive is into the room.
 PlaneMove By(PlaneMove plane, double by_m) {
@@ -66,7 +66,7 @@ TEST(MovedWalls, EachIsPutBack) {
       const double off_m = found[0].move.by_m + by_m;
       EXPECT_LT((found[0].move.normal - plane.normal).norm(), 1e-9);
       EXPECT_NEAR(found[0].move.offset_m, plane.offset_m + by_m, 1e-9);
-      EXPECT_LT(std::abs(off_m), 0.003);  // 1.9 mm
+      EXPECT_LT(std::abs(off_m), 0.003);                   // 1.9 mm
       EXPECT_LT(std::abs(off_m), 1.5 * found[0].sigma_m);  // 0.7
     }
   }
@@ -89,7 +89,9 @@ TEST(MovedWalls, TwoWallsOfACornerAreBothPutBack) {
 }
 
 // Half a centimetre is nothing that the light would show.
-TEST(MovedWalls, SmallErrorsStay) { EXPECT_TRUE(Find(WithPlanesMoved(Office(), {By(kNorth, 0.005)})).empty()); }
+TEST(MovedWalls, SmallErrorsStay) {
+  EXPECT_TRUE(Find(WithPlanesMoved(Office(), {By(kNorth, 0.005)})).empty());
+}
 
 TEST(MovedWalls, ATagOnTheMeshHoldsItsWall) {
   std::vector<SurveyedTag> survey = Survey();
