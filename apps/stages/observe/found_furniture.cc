@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -115,7 +116,8 @@ std::string WallName(const MovedWall& wall) {
 std::string PlaneText(const Eigen::Vector3d& normal, double offset_m) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(normal[axis]) > 1 - 1e-6)
-      return fmt::format("{} = {:.3f} m", "xyz"[axis], offset_m / normal[axis]);
+      return fmt::format("{} = {:.3f} m", "xyz"[axis],
+                         std::round(1000 * offset_m / normal[axis]) / 1000 + 0.0);
   return fmt::format("{:.3f} m from the origin along its normal", offset_m);
 }
 
@@ -129,10 +131,10 @@ void RecordWall(const MovedWall& wall, RunContext& context) {
       PlaneText(move.normal, move.offset_m), wall.views, PlaneText(move.normal, move.offset_m + move.by_m));
   if (wall.tags > 0)
     words += fmt::format(", where {} surveyed tag{} too", wall.tags, wall.tags == 1 ? " lies" : "s lie");
-  context.warnings.push_back({"wall_moved", words + "; the fit has it there",
-                              "correct the mesh: move the corners of that surface; or write furniture = "
-                              "\"given\" under [scene] where "
-                              "the mesh is right"});
+  context.warnings.push_back(
+      {"wall_moved", words + "; the fit has it there",
+       "move the corners of that surface in the mesh, or correct size or outline; or write furniture = "
+       "\"given\" under [scene] where they are right"});
 }
 
 json PointJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
