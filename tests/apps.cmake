@@ -120,6 +120,7 @@ endfunction()
 if(LUXFIT_PYTHON)
   python_test(python_test fast)
   python_test(fit_room_test fast)
+  python_test(one_road_test slow)
   python_test(python_example_test slow)
 endif()
 # 100 of the 700 that tests/validation/mutations.py makes by default.

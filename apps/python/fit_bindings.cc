@@ -6,12 +6,17 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/session/tag_map.h"
+#include "apps/stages/linearize/photo_store.h"
+#include "apps/stages/observe/observed_words.h"
+#include "apps/stages/register/registration_words.h"
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/image.h"
@@ -24,12 +29,6 @@ namespace {
 
 namespace py = pybind11;
 using StateDimming = std::map<std::string, double>;  // luminaire -> 0 to 1
-
-// The names that indices of the library stand for.
-struct SwitchedStates {
-  std::vector<std::string> states, luminaires;
-  std::vector<Eigen::VectorXd> dimming;
-};
 
 struct FoundLight {
   RoomFit fit;
@@ -75,8 +74,8 @@ void ExpectDimming(double value, const std::string& id, const std::string& place
 }
 
 // Luminaires in the order in which the states name them.
-SwitchedStates SwitchedStatesOf(const py::dict& states) {
-  SwitchedStates names;
+StateTable StateTableOf(const py::dict& states) {
+  StateTable names;
   std::vector<StateDimming> dimming;
   for (const auto& item : states) {
     names.states.push_back(py::str(item.first).cast<std::string>());
@@ -104,38 +103,40 @@ SwitchedStates SwitchedStatesOf(const py::dict& states) {
   return names;
 }
 
-struct PhotoToRead {
-  std::string file;
-  double exposure_s = 0;
-  RoomPhoto photo;
+struct PhotoFiles {
+  RoomPhotos photos;
+  std::vector<std::string> files;  // one for each
 };
 
-std::vector<PhotoToRead> PhotosToRead(const std::vector<py::dict>& given, size_t cameras,
-                                      const SwitchedStates& names) {
-  std::vector<PhotoToRead> photos;
-  photos.reserve(given.size());
+PhotoFiles PhotoFilesOf(const std::vector<py::dict>& given, size_t cameras, const StateTable& names) {
+  PhotoFiles photos;
+  photos.photos.cameras.resize(cameras);
   for (size_t i = 0; i < given.size(); ++i) {
     const std::string place = "fit_room: photos[" + std::to_string(i) + "]";
     ExpectKeys(given[i], {"file", "view", "state", "exposure_s", "camera"}, place);
-    PhotoToRead photo;
-    photo.file = Value<std::filesystem::path>(given[i], "file", "a path", place).string();
+    RoomPhoto photo;
+    photos.files.push_back(Value<std::filesystem::path>(given[i], "file", "a path", place).string());
     photo.exposure_s = Value<double>(given[i], "exposure_s", "a time in s", place);
-    photo.photo.view = Value<std::string>(given[i], "view", "a name", place);
-    photo.photo.state =
+    photo.view = Value<std::string>(given[i], "view", "a name", place);
+    photo.state =
         IndexOf(names.states, Value<std::string>(given[i], "state", "a name", place), place + ".state");
-    photo.photo.camera = Value<int>(given[i], "camera", "an index of cameras", place, 0);
-    if (photo.photo.camera < 0 || photo.photo.camera >= static_cast<int>(cameras))
+    photo.camera = Value<int>(given[i], "camera", "an index of cameras", place, 0);
+    if (photo.camera < 0 || photo.camera >= static_cast<int>(cameras))
       throw std::runtime_error(place + ".camera: expected an index below " + std::to_string(cameras) +
-                               ", got " + std::to_string(photo.photo.camera));
+                               ", got " + std::to_string(photo.camera));
     if (!(photo.exposure_s > 0))
       throw std::runtime_error(place + ".exposure_s: expected > 0 s, got " +
                                std::to_string(photo.exposure_s));
-    photos.push_back(std::move(photo));
+    photos.photos.photos.push_back(std::move(photo));
   }
+  const auto store = std::make_shared<PhotoStore>();
+  photos.photos.read = [store, files = photos.files, of = photos.photos.photos](size_t i) {
+    return store->Get(files[i], [&] { return ToRelativeLuminance(ReadPhoto(files[i]), of[i].exposure_s); });
+  };
   return photos;
 }
 
-std::vector<MeterReading> ReadingsOf(const std::vector<py::dict>& given, const SwitchedStates& names) {
+std::vector<MeterReading> ReadingsOf(const std::vector<py::dict>& given, const StateTable& names) {
   std::vector<MeterReading> readings;
   readings.reserve(given.size());
   for (size_t i = 0; i < given.size(); ++i) {
@@ -169,14 +170,46 @@ std::vector<std::optional<double>> KnownAlbedo(const Room& room, const std::map<
   return albedo;
 }
 
+// Puts what was said before a fit in front of its own findings.
+void PutFirst(Findings before, Findings& findings) {
+  findings.warnings.insert(findings.warnings.begin(), before.warnings.begin(), before.warnings.end());
+  findings.choices.insert(findings.choices.begin(), before.choices.begin(), before.choices.end());
+}
+
+void TakeEvidence(Evidence evidence, RoomObservations& given) {
+  given.observations = std::move(evidence.observations);
+  given.seen = std::move(evidence.seen);
+  given.outlines = std::move(evidence.outlines);
+  given.pose_covariance = std::move(evidence.pose_covariance);
+}
+
+// Says what registration and observation found, as `luxfit run` does.
+Findings FindingsOf(const PhotoObservations& seen, const PhotoFiles& given,
+                    const std::vector<std::string>& cameras, const StateTable& states) {
+  Findings findings;
+  const PhotoNames all{cameras, states.states, given.files};
+  for (const PhotoOfWrongView& other : seen.misplaced) {
+    const RoomPhoto& photo = given.photos.photos[other.photo];
+    WarnOfOtherView(given.files[other.photo], photo.view, states.states[static_cast<size_t>(photo.state)],
+                    other.as_if_view, other.tags, findings);
+  }
+  WarnOfNotes(seen.registration, findings);
+  RecordRegistration(seen.registration, seen.cameras, cameras, true, findings);
+  PhotoNames used = all;
+  used.photos.clear();
+  for (const size_t photo : seen.used) used.photos.push_back(all.photos[photo]);
+  RecordObserved(seen.observed, PhotosAt(given.photos, seen.used), seen.registration.views, used, findings);
+  return findings;
+}
+
 FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std::vector<py::dict>& photos,
                              const std::vector<std::filesystem::path>& cameras,
                              const std::optional<std::filesystem::path>& tags,
                              const std::vector<py::dict>& readings,
                              const std::map<std::string, double>& albedo, const std::string& tag_family,
                              int threads) {
-  const SwitchedStates names = SwitchedStatesOf(states);
-  std::vector<PhotoToRead> to_read = PhotosToRead(photos, cameras.size(), names);
+  const StateTable names = StateTableOf(states);
+  const PhotoFiles given_photos = PhotoFilesOf(photos, cameras.size(), names);
   if (!photos.empty() && !tags)
     throw std::runtime_error("fit_room: tags: expected a survey of the photos' tags");
   RoomObservations given;
@@ -190,23 +223,22 @@ FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std
 
   const py::gil_scoped_release release;
   const ThreadLimit limit(threads);
-  if (!to_read.empty()) {
+  Findings before;
+  if (!photos.empty()) {
     std::vector<Camera> lenses;
-    lenses.reserve(cameras.size());
-    for (const std::filesystem::path& camera : cameras) lenses.push_back(ReadCamera(camera.string()));
-    std::vector<RoomPhoto> images;
-    images.reserve(to_read.size());
-    for (PhotoToRead& photo : to_read) {
-      photo.photo.image = ToRelativeLuminance(ReadPhoto(photo.file), photo.exposure_s);
-      images.push_back(std::move(photo.photo));
+    std::vector<std::string> ids;
+    for (const std::filesystem::path& camera : cameras) {
+      lenses.push_back(ReadCamera(camera.string()));
+      ids.push_back(camera.filename().string());
     }
-    PhotoObservations observed = ObservePhotos(room, lenses, ReadTagMap(tags->string()), images, tag_family);
-    given.observations = std::move(observed.observations);
-    given.seen = std::move(observed.seen);
-    given.outlines = std::move(observed.outlines);
+    PhotoObservations seen =
+        ObservePhotos(room, lenses, ReadTagMap(tags->string()), given_photos.photos, names, tag_family);
+    before = FindingsOf(seen, given_photos, ids, names);
+    TakeEvidence(std::move(seen.observed.evidence), given);
   }
   FoundLight fitted;
   fitted.fit = FitRoom(room, given);
+  PutFirst(std::move(before), fitted.fit.findings);
   fitted.materials = room.scene.materials;
   fitted.luminaires = EstimatedLuminaires(fitted.fit);
   fitted.readings = PredictedReadings(fitted.fit);

@@ -134,13 +134,17 @@ RegisteredSession RegisterKept(const Session& session, const LinearizedPhotos& p
   return registered;
 }
 
-SessionObservations ObserveKept(const Session& session, const LinearizedPhotos& photos,
-                                const RegisteredSession& registered, const Room& room,
-                                const SessionInputs& inputs, RunContext& context) {
+Evidence ObserveKept(const Session& session, const LinearizedPhotos& photos,
+                     const RegisteredSession& registered, const Room& room, const SessionInputs& inputs,
+                     RunContext& context) {
   if (registered.registration.views.empty()) return {};
-  if (const auto kept = KeptProduct("observe", inputs.observe, context)) return ObservationsFromJson(*kept);
+  if (const auto kept = KeptProduct("observe", inputs.observe, context)) {
+    Evidence observed = ObservationsFromJson(*kept);
+    observed.pose_covariance = PoseErrorsOf(registered.registration);
+    return observed;
+  }
   const StageMark mark(context);
-  SessionObservations observed = ObserveSession(ForObservation(session), photos, registered, room, context);
+  Evidence observed = ObserveSession(ForObservation(session), photos, registered, room, context);
   KeepProduct("observe", inputs.observe, context, mark, ObservationsJson(observed));
   return observed;
 }
@@ -162,7 +166,7 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   const FurnitureChange change = FurnitureKept(session, linearized.photos, registered, room, inputs, context);
   ChangeFurniture(change, session, room, context);
   if (!change.walls.empty()) CheckReadingsAgain(session, room, linearized.readings, context);
-  SessionObservations observed =
+  Evidence observed =
       ObserveKept(session, linearized.photos, registered, room, WithFurniture(inputs, session), context);
   context.photos.reset();
   return {session, std::move(linearized), std::move(room), std::move(registered), std::move(observed)};
@@ -172,9 +176,8 @@ PreparedSession PrepareSession(const Session& session, RunContext& context) {
   return PrepareSession(session, InputsOfStages(session, ""), context);
 }
 
-SessionObservations ObserveKeptPhotos(const PreparedSession& prepared,
-                                      const std::function<bool(const LinearizedPhoto&)>& is_kept,
-                                      RunContext& context) {
+Evidence ObserveKeptPhotos(const PreparedSession& prepared,
+                           const std::function<bool(const LinearizedPhoto&)>& is_kept, RunContext& context) {
   const Session& session = prepared.session;
   LinearizedPhotos photos = prepared.linearized.photos;
   std::vector<LinearizedPhoto>& list = photos.photos;
@@ -187,13 +190,13 @@ SessionObservations ObserveKeptPhotos(const PreparedSession& prepared,
   return ObserveSession(session, photos, prepared.registered, prepared.room, context);
 }
 
-SessionObservations Thinned(SessionObservations observed, int max_elements) {
+Evidence Thinned(Evidence observed, int max_elements) {
   observed.observations = ThinElements(observed.observations, max_elements);
   return observed;
 }
 
 Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
-                   const SessionObservations& observed, const RunContext& context) {
+                   const Evidence& observed, const RunContext& context) {
   RunContext own;
   own.out = context.out;
   own.is_quiet = true;

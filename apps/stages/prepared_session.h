@@ -26,7 +26,7 @@ struct PreparedSession {
   LinearizedSession linearized;
   Room room;
   RegisteredSession registered;
-  SessionObservations observed;  // from every view, not thinned
+  Evidence observed;  // from every view, not thinned
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
 PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context);
@@ -34,12 +34,11 @@ PreparedSession PrepareSession(const Session& session, RunContext& context);
 
 // Observes the registered views again in the photos that `is_kept` names; those of a state with all luminaires
 // off are kept in any case. Views keep their numbers.
-SessionObservations ObserveKeptPhotos(const PreparedSession& prepared,
-                                      const std::function<bool(const LinearizedPhoto&)>& is_kept,
-                                      RunContext& context);
+Evidence ObserveKeptPhotos(const PreparedSession& prepared,
+                           const std::function<bool(const LinearizedPhoto&)>& is_kept, RunContext& context);
 
 // Returns the same of at most `max_elements` elements; outlines and places stay.
-SessionObservations Thinned(SessionObservations observed, int max_elements);
+Evidence Thinned(Evidence observed, int max_elements);
 
 // Runs the first stages alone.
 LinearizedSession LinearizeKept(const Session& session, const SessionInputs& inputs, RunContext& context);
@@ -56,7 +55,7 @@ struct Refit {
   double mean_lux_error_percent = 0;  // over the readings that only check; NaN: there are none
 };
 Refit RefitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
-                   const SessionObservations& observed, const RunContext& context);
+                   const Evidence& observed, const RunContext& context);
 
 // Reads true luminaires from a JSON file {"lamps": [{"id", "position", "flux_lm"}, ...]}, such as that of
 // fixtures/office. Throws std::runtime_error naming the file where it has another form.

@@ -251,7 +251,7 @@ json WarningsJson(const RunContext& context) {
 }
 
 json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings, const Room& room,
-                const RegisteredSession& registered, const SessionObservations& observed, const RoomFit& fit,
+                const RegisteredSession& registered, const Evidence& observed, const RoomFit& fit,
                 const std::vector<LuminaireFiles>& files, RunContext& context) {
   json result = ProvenanceJson("luxfit-result-1", context.provenance);
   result["session"] = session.name;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "apps/stages/fit_stop.h"
-#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/simulate/given_luminaire.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/fit/fit_room.h"
@@ -75,11 +74,9 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
   return known;
 }
 
-// Returns the given scale of the camera in whose unit luminances are.
-std::optional<double> CameraScale(const LinearizedPhotos& photos) {
-  if (photos.cameras.empty()) return std::nullopt;
-  const auto per_unit = LuminancePerUnit(photos.cameras[static_cast<size_t>(UnitCamera(photos))]);
-  return per_unit ? std::optional(1 / *per_unit) : std::nullopt;
+StatedVignetting VignettingOf(const SessionCamera& camera) {
+  if (camera.vignetting == "none") return StatedVignetting::kNone;
+  return camera.vignetting == "estimate" ? StatedVignetting::kEstimate : StatedVignetting::kFlatField;
 }
 
 }  // namespace
@@ -97,13 +94,27 @@ std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   return by_state;
 }
 
-Eigen::MatrixXd PoseErrorsOf(const Registration& registration) {
-  const bool is_in_doubt = registration.survey_sigma_m > 2 * RegisterViewsOptions().survey_sigma_m;
-  return is_in_doubt ? registration.pose_covariance : Eigen::MatrixXd();
+StateTable StateTableOf(const Session& session) {
+  StateTable table;
+  for (const SessionState& state : session.states) table.states.push_back(state.id);
+  for (const SessionLuminaire& luminaire : session.luminaires) table.luminaires.push_back(luminaire.id);
+  table.dimming = DimmingOf(session);
+  return table;
+}
+
+RoomPhotos RoomPhotosOf(const Session& session, const LinearizedPhotos& photos) {
+  RoomPhotos given;
+  for (const LinearizedCamera& camera : photos.cameras)
+    given.cameras.push_back({VignettingOf(camera.given), !camera.vignetting,
+                             !camera.response || camera.given.response == "srgb", camera.Cdm2PerUnit()});
+  for (const LinearizedPhoto& photo : photos.photos)
+    given.photos.push_back({photo.view, photo.camera, StateIndex(session, photo.state),
+                            photo.bracket.front().relative_exposure_s});
+  return given;
 }
 
 RoomObservations RoomObservationsOf(const Session& session, const LinearizedSession& linearized,
-                                    const Room& room, const SessionObservations& observed) {
+                                    const Room& room, const Evidence& observed) {
   RoomObservations given;
   for (const SessionLuminaire& luminaire : session.luminaires) given.luminaires.push_back(KnownOf(luminaire));
   given.luminaires_are_named = !session.count_is_estimated;
@@ -116,12 +127,12 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.luminance_weights = weights / weights.sum();
   given.meter = MeterOf(session, linearized.readings);
   given.albedo = KnownAlbedo(session, room);
-  given.camera_scale = CameraScale(linearized.photos);
+  given.camera_scale = StatedScale(RoomPhotosOf(session, linearized.photos));
   return given;
 }
 
 Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
-                              const SessionObservations& observed, RunContext& context) {
+                              const Evidence& observed, RunContext& context) {
   if (!session.count_is_estimated) return session;
   const StageTimer timer(context, "count", "how many luminaires there are");
   std::function<std::string()> stop_reason;

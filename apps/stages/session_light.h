@@ -13,13 +13,18 @@ namespace luxfit {
 // Returns one vector for each state, in the order of session.luminaires.
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session);
 
+StateTable StateTableOf(const Session& session);
+
+// Returns what is stated of the photos and their cameras. Who calls says how to read them.
+RoomPhotos RoomPhotosOf(const Session& session, const LinearizedPhotos& photos);
+
 // Throws as ReadGivenLuminaire does.
 RoomObservations RoomObservationsOf(const Session& session, const LinearizedSession& linearized,
-                                    const Room& room, const SessionObservations& observed);
+                                    const Room& room, const Evidence& observed);
 
 // Returns the session with as many luminaires as its light requires, where it leaves their number open.
 Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
-                              const SessionObservations& observed, RunContext& context);
+                              const Evidence& observed, RunContext& context);
 
 }  // namespace luxfit
 

@@ -70,7 +70,7 @@ void WarnOfStates(const Session& session, const RoomFit& fit, const RoomObservat
 }  // namespace
 
 RoomFit FitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
-                   const SessionObservations& observed, RunContext& context) {
+                   const Evidence& observed, RunContext& context) {
   if (session.luminaires.empty()) {
     throw std::runtime_error(session.path +
                              ": states: expected the luminaires of at least one state, got none; add "

@@ -30,10 +30,7 @@
 #include "forward/light/room.h"
 #include "forward/room/mesh_check.h"
 #include "inverse/fit/fit_room.h"
-#include "inverse/observe/observe.h"
-#include "inverse/observe/photos_as_if.h"
-#include "inverse/observe/seen_luminaires.h"
-#include "inverse/observe/states_as_if.h"
+#include "inverse/observe/evidence.h"
 
 namespace luxfit {
 
@@ -133,26 +130,13 @@ std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, c
 LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
                              const Camera& camera, const PhotoCorrections& corrections);
 
-// Returns the views' joint pose covariance where the survey is less accurate than given; else nothing, for
-// the fit's sigma of outlines covers what an accurate survey leaves.
-Eigen::MatrixXd PoseErrorsOf(const Registration& registration);
-
-// Holds what photos of registered views show: the relative luminance of every element in each, and the places
-// where luminaires are visible.
-struct SessionObservations {
-  std::vector<Observation> observations;
-  std::vector<SeenPlace> seen;
-  std::vector<SeenOutline> outlines;
-  Eigen::MatrixXd pose_covariance;             // PoseErrorsOf
-  std::vector<PhotoAsIf> photos_as_if;         // left out of the above
-  std::vector<StateExplanation> states_as_if;  // what [states] gets wrong
-};
-SessionObservations ObserveSession(const Session& session, const LinearizedPhotos& photos,
-                                   const RegisteredSession& registered, const Room& room,
-                                   RunContext& context);
+// Observes the photos of the registered views (inverse/observe/evidence.h), and says what was found in them. Writes
+// OUT/stages/observe.json.
+Evidence ObserveSession(const Session& session, const LinearizedPhotos& photos,
+                        const RegisteredSession& registered, const Room& room, RunContext& context);
 
 RoomFit FitSession(const Session& session, const LinearizedSession& linearized, const Room& room,
-                   const SessionObservations& observed, RunContext& context);
+                   const Evidence& observed, RunContext& context);
 
 // Simulates a session in which everything is given. Returns the artifact of OUT/stages/simulate.json, which
 // it writes with OUT/illuminance.csv (id, state, illuminance_lx, direct_lx, indirect_lx of every reading).
@@ -184,9 +168,8 @@ struct LuminaireFiles {
 // Return OUT/result.json and the tables for the terminal. `registered` may be empty (no photos); `files` is
 // by luminaire. ResultJson warns in `context` where the readings that check contradict the fit.
 nlohmann::json ResultJson(const Session& session, const std::vector<LuminaireReading>& readings,
-                          const Room& room, const RegisteredSession& registered,
-                          const SessionObservations& observed, const RoomFit& fit,
-                          const std::vector<LuminaireFiles>& files, RunContext& context);
+                          const Room& room, const RegisteredSession& registered, const Evidence& observed,
+                          const RoomFit& fit, const std::vector<LuminaireFiles>& files, RunContext& context);
 std::string ResultTables(const nlohmann::json& result);
 std::string LinearizeTable(const Session& session, const nlohmann::json& artifact);
 std::string RegistrationTable(const nlohmann::json& artifact);

@@ -11,7 +11,7 @@
 #include "calib/luminance/median.h"
 #include "inverse/albedo/internal/albedo_ratios.h"
 #include "inverse/model/fit_uncertainty.h"
-#include "inverse/model/internal/robust_weight.h"
+#include "inverse/select/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {

@@ -1,73 +1,62 @@
 #include "inverse/observe/observe_photos.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <map>
-#include <optional>
-#include <stdexcept>
+#include <utility>
 
-#include "calib/luminance/bright_blobs.h"
-#include "calib/targets/tags.h"
-#include "inverse/observe/observe.h"
+#include "calib/register/view_tags.h"
+#include "inverse/observe/internal/expect_known.h"
+#include "inverse/observe/scene_surface.h"
 
 namespace luxfit {
 namespace {
 
-// Returns the tags of every view, combined from its photos.
-std::vector<ViewDetections> DetectViews(const std::vector<Camera>& cameras,
-                                        const std::vector<RoomPhoto>& photos, const std::string& tag_family) {
-  std::vector<std::vector<TagDetection>> found(photos.size());
-  tbb::parallel_for(size_t{0}, photos.size(), [&](size_t i) {
-    found[i] = FindTagCorners(photos[i].image, cameras[static_cast<size_t>(photos[i].camera)], tag_family);
-  });
-  std::map<std::string, std::vector<size_t>> photos_of_view;
-  for (size_t i = 0; i < photos.size(); ++i) photos_of_view[photos[i].view].push_back(i);
-  std::vector<ViewDetections> views;
-  for (const auto& [view, members] : photos_of_view) {
-    std::vector<std::vector<TagDetection>> detections;
-    for (const size_t i : members) detections.push_back(found[i]);
-    views.push_back({view, photos[members.front()].camera, CombineDetections(detections)});
+ViewTags TagsOf(const std::vector<Camera>& cameras, const RoomPhotos& photos, const StateTable& states,
+                const std::string& tag_family) {
+  std::vector<std::string> view;
+  std::vector<double> light;
+  std::vector<int> camera;
+  for (const RoomPhoto& photo : photos.photos) {
+    view.push_back(photo.view);
+    light.push_back(states.dimming[static_cast<size_t>(photo.state)].sum());
+    camera.push_back(photo.camera);
   }
-  return views;
+  return FindViewTags(MostLitPhotos(view, light), camera, [&](size_t i) {
+    return FindTagCorners(*photos.read(i), cameras[static_cast<size_t>(camera[i])], tag_family);
+  });
 }
 
 }  // namespace
 
+RoomPhotos PhotosAt(const RoomPhotos& photos, const std::vector<size_t>& at) {
+  RoomPhotos some{photos.cameras, {}, nullptr};
+  for (const size_t photo : at) some.photos.push_back(photos.photos.at(photo));
+  some.read = [read = photos.read, at](size_t photo) { return read(at.at(photo)); };
+  return some;
+}
+
 PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cameras,
-                                const std::vector<SurveyedTag>& survey, const std::vector<RoomPhoto>& photos,
-                                const std::string& tag_family) {
-  for (const RoomPhoto& photo : photos)
-    if (photo.camera < 0 || static_cast<size_t>(photo.camera) >= cameras.size() || photo.state < 0)
-      throw std::invalid_argument("ObservePhotos: expected a camera of the list and a state >= 0");
-  PhotoObservations observed;
-  observed.registration = RegisterViews(cameras, survey, DetectViews(cameras, photos, tag_family));
-  const std::vector<RegisteredView>& views = observed.registration.views;
-  std::vector<PixelDirections> directions;
-  directions.reserve(cameras.size());
-  for (const Camera& camera : cameras) directions.push_back(UnprojectAllPixels(camera));
-  std::vector<PixelMap> maps;
-  for (const RegisteredView& view : views) {
-    const auto c = static_cast<size_t>(view.camera);
-    maps.push_back(MapPixels(cameras[c], directions[c], view.cam_from_world, room,
-                             TagQuads(survey, cameras[c], view.cam_from_world)));
+                                const std::vector<SurveyedTag>& survey, const RoomPhotos& photos,
+                                const StateTable& states, const std::string& tag_family) {
+  ExpectKnown(photos, cameras, states);
+  PhotoObservations seen;
+  const ViewTags tags = TagsOf(cameras, photos, states, tag_family);
+  for (const PhotoOfOtherView& other : tags.of_other_views)
+    seen.misplaced.push_back({other.photo, tags.views[static_cast<size_t>(other.as_if)].view, other.tags});
+  RegisterViewsOptions options;
+  options.surface = SurfaceOf(room.scene);
+  seen.registration = RegisterViews(cameras, survey, tags.views, options);
+  seen.cameras = cameras;
+  for (size_t c = 0; c < seen.registration.focal_scale.size(); ++c)
+    seen.cameras[c] = WithFocalScale(cameras[c], seen.registration.focal_scale[c]);
+  for (size_t i = 0; i < photos.photos.size(); ++i) {
+    const auto is_it = [i](const PhotoOfWrongView& m) { return m.photo == i; };
+    if (std::none_of(seen.misplaced.begin(), seen.misplaced.end(), is_it)) seen.used.push_back(i);
   }
-  std::vector<PhotoBlobs> blobs;
-  for (const RoomPhoto& photo : photos) {
-    const auto view = std::find_if(views.begin(), views.end(),
-                                   [&](const RegisteredView& v) { return v.view == photo.view; });
-    if (view == views.end()) continue;
-    const auto index = static_cast<int>(view - views.begin());
-    blobs.push_back({index, photo.state, FindBrightBlobs(photo.image)});
-    const std::vector<Observation> seen =
-        ObservePhoto(maps[static_cast<size_t>(index)], photo.image, index, photo.state);
-    observed.observations.insert(observed.observations.end(), seen.begin(), seen.end());
-  }
-  SeenLuminairesOptions seen_options;
-  seen_options.tags = survey;
-  observed.seen = FindSeenLuminaires(room, cameras, views, blobs, seen_options);
-  observed.outlines = FindSeenOutlines(cameras, views, blobs);
-  return observed;
+  ObserveOptions observe;
+  observe.tags = survey;
+  seen.observed =
+      Observe(room, PhotosAt(photos, seen.used), seen.cameras, seen.registration, states, observe);
+  return seen;
 }
 
 }  // namespace luxfit

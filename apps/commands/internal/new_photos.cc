@@ -7,12 +7,12 @@
 #include <map>
 
 #include "apps/session/session_files.h"
-#include "apps/stages/register/lay_on_mesh.h"
 #include "apps/stages/register/view_tags.h"
 #include "apps/text/formats/csv_table.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
 #include "calib/luminance/exposure.h"
+#include "inverse/observe/scene_surface.h"
 
 namespace luxfit {
 namespace {

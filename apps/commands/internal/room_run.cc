@@ -57,7 +57,7 @@ RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, Room
                           RunContext& context) {
   const StageTimer total(context, "total", "");
   PreparedSession prepared = PrepareSession(read, inputs, context);
-  const SessionObservations& observed = prepared.observed;
+  const Evidence& observed = prepared.observed;
   const LinearizedSession& linearized = prepared.linearized;
   context.stop = std::make_shared<FitStop>(budget_s);
   const Session session =

@@ -10,7 +10,6 @@
 #include "apps/export/luminance_pictures.h"
 #include "apps/stages/calibrate/calibration_images.h"
 #include "apps/stages/calibrate/stage_calibrate.h"
-#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/text/input_error.h"
 
@@ -83,8 +82,7 @@ json WriteSessionPictures(const Session& session, const LinearizedPhotos& photos
   LuminancePictureOptions options;
   options.folder = context.out + "/luminance";
   options.command_line = context.provenance.command_line;
-  for (const LinearizedCamera& camera : photos.cameras)
-    options.cdm2_per_unit.push_back(LuminancePerUnit(camera));
+  for (const LinearizedCamera& camera : photos.cameras) options.cdm2_per_unit.push_back(camera.Cdm2PerUnit());
   const RegisteredSession registered = RegisteredOrNot(session, photos, context);
   std::vector<LuminancePicture> pictures;
   {

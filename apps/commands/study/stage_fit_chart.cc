@@ -54,8 +54,7 @@ class FitSweep {
 
  private:
   void Add(const std::string& factor, double value, const Session& session,
-           const LinearizedSession& linearized, const Room& room, const SessionObservations& observed,
-           double before_s) {
+           const LinearizedSession& linearized, const Room& room, const Evidence& observed, double before_s) {
     FitPoint point;
     point.factor = factor;
     point.value = value;
@@ -82,7 +81,7 @@ class FitSweep {
   }
 
   // Observes again in those photos alone: what they show of luminaires goes with the others.
-  SessionObservations ObservedIn(const std::function<bool(const LinearizedPhoto&)>& is_kept) const {
+  Evidence ObservedIn(const std::function<bool(const LinearizedPhoto&)>& is_kept) const {
     RunContext own;
     own.out = context_.out;
     own.is_quiet = true;
@@ -141,7 +140,7 @@ class FitSweep {
       RunContext own;
       own.out = context_.out;
       own.is_quiet = true;
-      SessionObservations observed =
+      Evidence observed =
           ObserveSession(prepared_.session, prepared_.linearized.photos, prepared_.registered, room, own);
       Add(factor, value, prepared_.session, prepared_.linearized, room,
           Thinned(std::move(observed), elements_), before_s);
@@ -161,7 +160,7 @@ class FitSweep {
         });
         if (is_own) states.insert(state.id);
       }
-      const SessionObservations observed =
+      const Evidence observed =
           ObservedIn([&](const LinearizedPhoto& photo) { return states.count(photo.state) > 0; });
       LinearizedSession linearized = prepared_.linearized;
       std::vector<LuminaireReading>& readings = linearized.readings;

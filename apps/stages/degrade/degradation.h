@@ -22,8 +22,8 @@ namespace luxfit {
 // The session that is made worse, its fit, and what several trials share.
 struct UndegradedSession {
   const PreparedSession& prepared;
-  int max_elements = 0;          // used by every fit
-  SessionObservations observed;  // of that many elements
+  int max_elements = 0;  // used by every fit
+  Evidence observed;     // of that many elements
   Refit refit;
   std::vector<EstimatedLuminaire> truth;
   std::optional<std::vector<ViewDetections>> detections;         // of tags, once
@@ -36,7 +36,7 @@ struct DegradedCase {
   LinearizedSession linearized;
   const Room* room = nullptr;
   std::optional<Room> own_room;  // where the mesh itself is degraded; `room` points to it
-  SessionObservations observed;
+  Evidence observed;
   std::vector<EstimatedLuminaire> truth;
   RunContext context;  // warnings of observing again
 };

@@ -1,7 +1,8 @@
 #include <stdexcept>
 
 #include "apps/stages/degrade/degradation_rows.h"
-#include "apps/stages/register/lay_on_mesh.h"
+#include "apps/stages/register/view_tags.h"
+#include "inverse/observe/scene_surface.h"
 #include "inverse/study/degrade.h"
 
 namespace luxfit {

@@ -36,6 +36,12 @@ struct LinearizedCamera {
   std::optional<CameraResponse> response;  // absent: linear
   std::optional<Vignetting> vignetting;    // from a flat field; absent: V = 1, or estimated from surfaces
   double full_scale_counts = 65535;        // counts of its photos, above black for RAW
+
+  // Returns k of L = k Y (inverse/observe/room_photos.h), cd/m2; empty where it is not stated.
+  std::optional<double> Cdm2PerUnit() const {
+    if (!(given.cdm2_per_count_s > 0)) return std::nullopt;
+    return given.cdm2_per_count_s * (full_scale_counts - given.black_level_counts);
+  }
 };
 
 struct LinearizedPhotos {

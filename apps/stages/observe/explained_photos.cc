@@ -4,14 +4,18 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/stages/linearize/linearize.h"
-#include "apps/stages/session_light.h"
-
 namespace luxfit {
 namespace {
 
 const std::string& StateName(const Session& session, int state) {
   return session.states[static_cast<size_t>(state)].id;
+}
+
+// Returns the name of the photo of a view and state; the view's where there is none.
+std::string NameOf(const RoomPhotos& photos, const PhotoNames& names, const std::string& view, int state) {
+  for (size_t i = 0; i < photos.photos.size(); ++i)
+    if (photos.photos[i].view == view && photos.photos[i].state == state) return names.photos[i];
+  return view;
 }
 
 std::string DifferenceWords(const PhotoAsIf& photo) {
@@ -21,14 +25,15 @@ std::string DifferenceWords(const PhotoAsIf& photo) {
 
 }  // namespace
 
-void WarnOfPhotos(const Session& session, const LinearizedPhotos& photos, const RegisteredSession& registered,
-                  const std::vector<PhotoAsIf>& found, RunContext& context) {
+void WarnOfPhotos(const std::vector<PhotoAsIf>& found, const RoomPhotos& photos,
+                  const std::vector<RegisteredView>& views, const PhotoNames& names, Findings& findings) {
   for (const PhotoAsIf& photo : found) {
-    const std::string& view = registered.registration.views[static_cast<size_t>(photo.view)].view;
-    const std::string &state = StateName(session, photo.state), &as_if = StateName(session, photo.as_if);
-    const std::string name = PhotoName(session, photos, view, state);
+    const std::string& view = views[static_cast<size_t>(photo.view)].view;
+    const std::string &state = names.states[static_cast<size_t>(photo.state)],
+                      &as_if = names.states[static_cast<size_t>(photo.as_if)];
+    const std::string name = NameOf(photos, names, view, photo.state);
     if (!photo.is_exchanged) {
-      context.warnings.push_back(
+      findings.warnings.push_back(
           {"photos_as_if",
            fmt::format(
                "{} looks as if it was taken in state {}, not {}: the pattern of its light differs from "
@@ -36,31 +41,22 @@ void WarnOfPhotos(const Session& session, const LinearizedPhotos& photos, const 
                name, as_if, state, DifferenceWords(photo)),
            fmt::format("correct its state in the photo table, or take it again in state {}", state)});
     } else if (photo.state < photo.as_if) {
-      context.warnings.push_back(
+      findings.warnings.push_back(
           {"photos_as_if",
            fmt::format(
                "{} and {} look exchanged: the pattern of their light differs from the other views' by "
                "{} the other way round; neither was used",
-               name, PhotoName(session, photos, view, as_if), DifferenceWords(photo)),
+               name, NameOf(photos, names, view, photo.as_if), DifferenceWords(photo)),
            fmt::format("exchange their states, {} and {}, in the photo table", state, as_if)});
     }
   }
 }
 
-std::vector<StateExplanation> ExplainStates(const Session& session, const Patches& patches,
-                                            const std::vector<Observation>& observations,
-                                            RunContext& context) {
-  if (session.luminaires.empty()) return {};
-  StateTable table;
-  for (const SessionState& state : session.states) table.states.push_back(state.id);
-  for (const SessionLuminaire& luminaire : session.luminaires) table.luminaires.push_back(luminaire.id);
-  table.dimming = DimmingOf(session);
-  std::vector<StateExplanation> explanations = FindStatesAsIf(patches, observations, table);
-  if (explanations.empty()) return explanations;
+void WarnOfStates(const std::vector<StateExplanation>& explanations, Findings& findings) {
+  if (explanations.empty()) return;
   std::string remedy;
   for (const StateExplanation& e : explanations) remedy += (remedy.empty() ? "" : "; or ") + e.remedy;
-  context.warnings.push_back({"states_as_if", InWords(explanations), remedy, true});
-  return explanations;
+  findings.warnings.push_back({"states_as_if", InWords(explanations), remedy, true});
 }
 
 nlohmann::json PhotosAsIfJson(const Session& session, const Registration& registration,

@@ -11,18 +11,17 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "apps/stages/observe/photo_names.h"
 #include "apps/stages/stages.h"
 
 namespace luxfit {
 
-// Warns of the photos. Who calls leaves them out.
-void WarnOfPhotos(const Session& session, const LinearizedPhotos& photos, const RegisteredSession& registered,
-                  const std::vector<PhotoAsIf>& found, RunContext& context);
+// Warns of the photos that were left out. `views`: those that `found` numbers.
+void WarnOfPhotos(const std::vector<PhotoAsIf>& found, const RoomPhotos& photos,
+                  const std::vector<RegisteredView>& views, const PhotoNames& names, Findings& findings);
 
-// Explains the table of states, and warns. Luminaires that nobody names yet explain nothing.
-std::vector<StateExplanation> ExplainStates(const Session& session, const Patches& patches,
-                                            const std::vector<Observation>& observations,
-                                            RunContext& context);
+// Warns where the table of states is explained otherwise.
+void WarnOfStates(const std::vector<StateExplanation>& explanations, Findings& findings);
 
 nlohmann::json PhotosAsIfJson(const Session& session, const Registration& registration,
                               const std::vector<PhotoAsIf>& photos);

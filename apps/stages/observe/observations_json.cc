@@ -64,7 +64,7 @@ SeenOutline OutlineFromJson(const json& entry) {
   return outline;
 }
 
-json AsIfJson(const SessionObservations& observed) {
+json AsIfJson(const Evidence& observed) {
   json photos = json::array(), states = json::array();
   for (const PhotoAsIf& p : observed.photos_as_if)
     photos.push_back({{"view", p.view},
@@ -85,7 +85,7 @@ json AsIfJson(const SessionObservations& observed) {
   return {{"photos", photos}, {"states", states}};
 }
 
-void ReadAsIf(const json& in, SessionObservations& observed) {
+void ReadAsIf(const json& in, Evidence& observed) {
   for (const json& p : in.at("photos"))
     observed.photos_as_if.push_back({p.at("view"), p.at("state"), p.at("as_if"), p.at("is_exchanged"),
                                      p.at("difference"), p.at("difference_as_if")});
@@ -99,7 +99,7 @@ void ReadAsIf(const json& in, SessionObservations& observed) {
 
 }  // namespace
 
-json ObservationsJson(const SessionObservations& observed) {
+json ObservationsJson(const Evidence& observed) {
   constexpr size_t kBytes = kNumbers * sizeof(double);
   std::vector<uint8_t> bytes(observed.observations.size() * kBytes);
   for (size_t i = 0; i < observed.observations.size(); ++i) {
@@ -124,10 +124,10 @@ json ObservationsJson(const SessionObservations& observed) {
           {"as_if", AsIfJson(observed)}};
 }
 
-SessionObservations ObservationsFromJson(const json& in) {
+Evidence ObservationsFromJson(const json& in) {
   constexpr size_t kBytes = kNumbers * sizeof(double);
   const std::vector<uint8_t>& bytes = in.at("observations").get_binary();
-  SessionObservations observed;
+  Evidence observed;
   observed.observations.reserve(bytes.size() / kBytes);
   for (size_t i = 0; i + kBytes <= bytes.size(); i += kBytes) {
     std::array<double, kNumbers> numbers{};

@@ -1,5 +1,7 @@
 // Writes observations as JSON with binary columns (for CBOR) and reads them back bit by bit.
 //
+// The covariance of poses is not among them: the registration holds it (PoseErrorsOf).
+//
 // Reading throws nlohmann::json::exception where a key is missing or has another type.
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_OBSERVATIONS_JSON_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_OBSERVATIONS_JSON_H_
@@ -10,8 +12,8 @@
 
 namespace luxfit {
 
-nlohmann::json ObservationsJson(const SessionObservations& observed);
-SessionObservations ObservationsFromJson(const nlohmann::json& json);
+nlohmann::json ObservationsJson(const Evidence& observed);
+Evidence ObservationsFromJson(const nlohmann::json& json);
 
 }  // namespace luxfit
 

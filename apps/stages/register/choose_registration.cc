@@ -13,6 +13,7 @@
 #include "apps/stages/register/lay_on_mesh.h"
 #include "apps/stages/register/view_features.h"
 #include "apps/text/process.h"
+#include "inverse/observe/scene_surface.h"
 
 namespace luxfit {
 namespace {

@@ -1,5 +1,4 @@
-// Gives registration the session's mesh: its surfaces, on which surveyed tags hang, and lays registrations
-// without a tag survey onto it, from rough places of the cameras.
+// Lays registrations without a tag survey onto the session's mesh, from rough places of the cameras.
 //
 // Where this fails, the Registration is not usable and its message gives the reason. Throws
 // std::runtime_error("FILE: key: expected ..., got ...; remedy") where the session gives no start or no mesh.
@@ -13,12 +12,7 @@
 #include "calib/register/feature_model.h"
 #include "calib/register/registration.h"
 
-#include "forward/room/scene.h"
-
 namespace luxfit {
-
-// Returns the facets of a scene as triangles; those of a parallelogram are two.
-TriangleSurface SurfaceOf(const Scene& scene);
 
 // Uses features alone: their points on the mesh give frame and scale.
 Registration RegisterOnMesh(const Session& session, const std::vector<Camera>& cameras,

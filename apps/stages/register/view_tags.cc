@@ -1,19 +1,12 @@
 #include "apps/stages/register/view_tags.h"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
 #include <utility>
 
-#include "calib/register/photos_of_views.h"
+#include "calib/register/view_tags.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {
 namespace {
-
-// Several photos of one pose average noise and outvote a corner that one of them shows badly. The pixel
-// grid's error is common to all of them.
-constexpr size_t kPhotosPerView = 6;
 
 double DimmingSum(const Session& session, const std::string& photo_state) {
   for (const SessionState& state : session.states) {
@@ -30,13 +23,15 @@ double DimmingSum(const Session& session, const std::string& photo_state) {
 template <typename Photo>
 std::map<std::string, std::vector<const Photo*>> PhotosByView(const Session& session,
                                                               const std::vector<Photo>& photos) {
+  std::vector<std::string> view;
+  std::vector<double> light;
+  for (const Photo& photo : photos) {
+    view.push_back(photo.view);
+    light.push_back(DimmingSum(session, photo.state));
+  }
   std::map<std::string, std::vector<const Photo*>> views;
-  for (const Photo& photo : photos) views[photo.view].push_back(&photo);
-  for (auto& [view, own] : views) {
-    std::stable_sort(own.begin(), own.end(), [&](const Photo* a, const Photo* b) {
-      return DimmingSum(session, a->state) > DimmingSum(session, b->state);
-    });
-    own.resize(std::min(own.size(), kPhotosPerView));
+  for (const auto& [name, own] : MostLitPhotos(view, light)) {
+    for (const size_t photo : own) views[name].push_back(&photos[photo]);
   }
   return views;
 }
@@ -55,30 +50,29 @@ std::vector<ViewDetections> ViewsWithoutTags(const ViewPhotos& views) {
 DetectedViews DetectViews(const Session& session, const LinearizedPhotos& photos,
                           const std::vector<Camera>& cameras, const ViewPhotos& views,
                           const RunContext& context) {
-  DetectedViews detected{ViewsWithoutTags(views), {}};
-  std::vector<std::pair<size_t, const LinearizedPhoto*>> jobs;
-  size_t index = 0;
+  std::vector<const LinearizedPhoto*> of_views;
+  std::vector<int> camera;
+  PhotosOfViews indices;
   for (const auto& [view, own] : views) {
-    for (const LinearizedPhoto* photo : own) jobs.push_back({index, photo});
-    ++index;
+    for (const LinearizedPhoto* photo : own) {
+      indices[view].push_back(of_views.size());
+      of_views.push_back(photo);
+      camera.push_back(photo->camera);
+    }
   }
-  std::vector<PhotoTags> found(jobs.size());
-  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    const LinearizedPhoto& photo = *jobs[i].second;
-    const Camera& camera = cameras[static_cast<size_t>(photo.camera)];
-    found[i] = {static_cast<int>(jobs[i].first),
-                FindTagCorners(*ReadKept(photos, photo, camera, context), camera, session.tags.family)};
-    Advance(context, jobs.size());
+  ViewTags tags = FindViewTags(indices, camera, [&](size_t i) {
+    const LinearizedPhoto& photo = *of_views[i];
+    const Camera& own = cameras[static_cast<size_t>(photo.camera)];
+    Advance(context, of_views.size());
+    return FindTagCorners(*ReadKept(photos, photo, own, context), own, session.tags.family);
   });
-  for (const PhotoOfOtherView& other : FindPhotosOfOtherViews(found)) {
-    const LinearizedPhoto& photo = *jobs[other.photo].second;
+  DetectedViews detected;
+  for (const PhotoOfOtherView& other : tags.of_other_views) {
+    const LinearizedPhoto& photo = *of_views[other.photo];
     detected.photos.push_back(
-        {photo.view, photo.state, detected.views[static_cast<size_t>(other.as_if)].view, other.tags});
-    found[other.photo].tags.clear();
+        {photo.view, photo.state, tags.views[static_cast<size_t>(other.as_if)].view, other.tags});
   }
-  std::vector<std::vector<std::vector<TagDetection>>> of_view(detected.views.size());
-  for (const PhotoTags& photo : found) of_view[static_cast<size_t>(photo.view)].push_back(photo.tags);
-  for (size_t v = 0; v < of_view.size(); ++v) detected.views[v].tags = CombineDetections(of_view[v]);
+  detected.views = std::move(tags.views);
   return detected;
 }
 

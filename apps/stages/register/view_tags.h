@@ -1,4 +1,4 @@
-// Groups the photos of each view and detects the tags in them.
+// Groups a session's photos of each view and detects the tags in them (calib/register/view_tags.h).
 #ifndef LUXFIT_APPS_STAGES_REGISTER_VIEW_TAGS_H_
 #define LUXFIT_APPS_STAGES_REGISTER_VIEW_TAGS_H_
 
@@ -13,8 +13,8 @@
 
 namespace luxfit {
 
-// Returns at most six photos a view. Those with the most luminaires on come first, since their tags are
-// evenly lit. `Photo` is SessionPhoto or LinearizedPhoto; the session gives the states.
+// Returns at most six photos a view, those with the most luminaires on first. `Photo` is SessionPhoto or
+// LinearizedPhoto; the session gives the states.
 template <typename Photo>
 std::map<std::string, std::vector<const Photo*>> PhotosByView(const Session& session,
                                                               const std::vector<Photo>& photos);

@@ -11,7 +11,7 @@
 #include "inverse/albedo/internal/pixel_elimination.h"
 #include "inverse/albedo/internal/stereo_terms.h"
 #include "inverse/model/internal/condensed_problem.h"
-#include "inverse/model/internal/robust_weight.h"
+#include "inverse/select/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
-#include "inverse/model/internal/robust_weight.h"
+#include "inverse/select/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {

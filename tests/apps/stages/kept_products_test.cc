@@ -127,7 +127,7 @@ TEST(KeptProductsTest, Linearized) {
 }
 
 TEST(KeptProductsTest, Observations) {
-  SessionObservations before;
+  Evidence before;
   Observation o;
   o.element = 123456;
   o.view = -1;
@@ -144,7 +144,7 @@ TEST(KeptProductsTest, Observations) {
   before.seen = {place};
   before.photos_as_if = {{3, 0, 1, true, 1.0 / 7, 0.01}};
   before.states_as_if = {{"A was off", "take it out", {Eigen::Vector2d(0, 1.0 / 3)}, 0.3, 0.02}};
-  const SessionObservations after = ObservationsFromJson(ThroughCbor(ObservationsJson(before)));
+  const Evidence after = ObservationsFromJson(ThroughCbor(ObservationsJson(before)));
   ASSERT_EQ(after.observations.size(), 2U);
   EXPECT_EQ(after.observations[0].element, o.element);
   EXPECT_EQ(after.observations[0].view, -1);

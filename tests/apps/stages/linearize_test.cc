@@ -9,8 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
-#include "apps/stages/linearize/camera_scale.h"
 #include "apps/stages/observe/observed_light.h"
+#include "apps/stages/session_light.h"
 #include "tests/support/calib/camera_model.h"
 #include "tests/support/calib/test_dng.h"
 #include "tests/support/inverse/wall_photos.h"
@@ -360,8 +360,10 @@ class ObservedRigTest : public ObservedLightTest {
   std::vector<Observation> Observed() { return wall_.Observe(false, factors_, rng_); }
 
   std::vector<Observation> Calibrated(std::vector<Observation> observations) {
-    return WithSelfCalibration(session_, photos_, registered_, wall_.patches, {},
-                               InOneUnit(std::move(observations), photos_, wall_.views), context_, artifact_);
+    return WithSelfCalibration(
+        session_, photos_, registered_, wall_.patches, {},
+        InOneUnit(std::move(observations), RoomPhotosOf(session_, photos_), wall_.views), context_,
+        artifact_);
   }
 
   std::vector<double> factors_ = std::vector<double>(8, 1.0);

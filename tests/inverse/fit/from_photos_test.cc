@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
 #include "forward/room/scene.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/observe/observe_photos.h"
+#include "tests/support/office_photos.h"
 #include "tests/support/office_truth.h"
 
 namespace luxfit {
@@ -21,26 +20,17 @@ namespace {
 
 using support::kOfficeFolder;
 
-const std::map<std::string, int>& States() {
-  static const std::map<std::string, int> states{{"A", 0}, {"B", 1},   {"C", 2},
-                                                 {"D", 3}, {"all", 4}, {"evening", 5}};
-  return states;
-}
-
-std::vector<Eigen::VectorXd> Dimming() {
-  std::vector<Eigen::VectorXd> dimming;
-  for (int k = 0; k < 4; ++k) dimming.push_back(Eigen::VectorXd::Unit(4, k));
-  dimming.push_back(Eigen::Vector4d::Ones());
-  dimming.push_back(Eigen::Vector4d(0.3, 0, 1, 1));
-  return dimming;
-}
-
 // L3 with everything on: what the office's own session takes for its scale.
 MeterReading ScaleReading() {
   for (const std::vector<std::string>& row : support::OfficeTable("luxmeter.csv")) {
     if (row[0] != "L3" || row[7] != "all") continue;
     const auto at = [&](size_t i) { return std::stod(row[i]); };
-    return {{{at(1), at(2), at(3)}, {at(4), at(5), at(6)}, {}}, States().at("all"), at(8), 0, true, -1};
+    return {{{at(1), at(2), at(3)}, {at(4), at(5), at(6)}, {}},
+            support::OfficeStateIndex("all"),
+            at(8),
+            0,
+            true,
+            -1};
   }
   throw std::runtime_error("luxmeter.csv: expected L3 in state all");
 }
@@ -50,20 +40,17 @@ std::vector<EstimatedLuminaire> FitTheOffice() {
   const Room room = MakeRoom(ReadScene(office + "room.obj"));
   const std::vector<Camera> cameras{ReadCamera(office + "cam0.yaml")};
   const std::vector<SurveyedTag> tags = ReadTagMap(office + "tags.json");
-  std::vector<RoomPhoto> photos;
-  for (const std::vector<std::string>& row : support::OfficeTable("photos.csv"))
-    if (row[0] != "file")
-      photos.push_back({row[2], 0, States().at(row[3]),
-                        ToRelativeLuminance(ReadPhoto(office + row[0]), std::stod(row[4]))});
-  const PhotoObservations observed = ObservePhotos(room, cameras, tags, photos);
+  const Evidence observed =
+      ObservePhotos(room, cameras, tags, support::OfficePhotos(), support::OfficeStates()).observed.evidence;
   RoomObservations given;
   for (const char* id : {"A", "B", "C", "D"}) {
     given.luminaires.emplace_back();
     given.luminaires.back().luminaire.id = id;
   }
-  given.dimming = Dimming();
+  given.dimming = support::OfficeStates().dimming;
   given.observations = observed.observations;
   given.seen = observed.seen;
+  given.outlines = observed.outlines;
   given.meter.readings = {ScaleReading()};
   return EstimatedLuminaires(FitRoom(room, given));
 }
@@ -94,7 +81,7 @@ TEST(FromPhotos, WhatDoesNotFitTogetherIsRefused) {
   given.meter.readings[0].state = 0;
   given.albedo.resize(1);
   EXPECT_THROW(FitRoom(room, given), std::invalid_argument);  // one albedo for several materials
-  EXPECT_THROW(ObservePhotos(room, {}, {}, {RoomPhoto{}}), std::invalid_argument);
+  EXPECT_THROW(ObservePhotos(room, {}, {}, RoomPhotos{{}, {RoomPhoto{}}, {}}, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <random>
 #include <string>
 #include <utility>
@@ -14,12 +13,12 @@
 
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
 #include "forward/light/room.h"
 #include "forward/room/scene.h"
 #include "inverse/observe/observe_photos.h"
 #include "inverse/observe/photos_as_if.h"
 #include "inverse/observe/states_as_if.h"
+#include "tests/support/office_photos.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/test_rng.h"
 
@@ -27,6 +26,7 @@ namespace luxfit {
 namespace {
 
 using support::kOfficeFolder;
+using support::OfficeStates;
 using testing::HasSubstr;
 
 enum State { kA, kB, kC, kD, kAll, kEvening };
@@ -41,28 +41,13 @@ struct Office {
 const Office& TheOffice() {
   static const Office office = [] {
     const std::vector<Camera> cameras{ReadCamera(kOfficeFolder + "cam0.yaml")};
-    const std::map<std::string, int> states{{"A", kA}, {"B", kB},     {"C", kC},
-                                            {"D", kD}, {"all", kAll}, {"evening", kEvening}};
-    std::vector<RoomPhoto> photos;
-    for (const std::vector<std::string>& row : support::OfficeTable("photos.csv")) {
-      if (row[0] == "file") continue;
-      photos.push_back({row[2], 0, states.at(row[3]),
-                        ToRelativeLuminance(ReadPhoto(kOfficeFolder + row[0]), std::stod(row[4]))});
-    }
     Room room = MakeRoom(ReadScene(kOfficeFolder + "room.obj"));
-    PhotoObservations observed =
-        ObservePhotos(room, cameras, ReadTagMap(kOfficeFolder + "tags.json"), photos);
-    return Office{std::move(room), std::move(observed.observations), std::move(observed.registration.views)};
+    PhotoObservations observed = ObservePhotos(room, cameras, ReadTagMap(kOfficeFolder + "tags.json"),
+                                               support::OfficePhotos(), support::OfficeStates());
+    return Office{std::move(room), std::move(observed.observed.evidence.observations),
+                  std::move(observed.registration.views)};
   }();
   return office;
-}
-
-StateTable OfficeStates() {
-  StateTable table{{"A", "B", "C", "D", "all", "evening"}, {"A", "B", "C", "D"}, {}};
-  for (int k = 0; k < 4; ++k) table.dimming.emplace_back(Eigen::VectorXd::Unit(4, k));
-  table.dimming.emplace_back(Eigen::VectorXd::Ones(4));
-  table.dimming.emplace_back(Eigen::Vector4d(0.3, 0, 1, 1));
-  return table;
 }
 
 // Returns the observations as they are once the states of a view's photos are written for each other; all views: -1.

@@ -12,7 +12,7 @@
 //
 //   min over q, h, g, a, B of sum ln(1 + (residual / (c s sigma))^2) + prior of g
 //
-// Gauss-Newton solves it with the B of each element eliminated (inverse/choose/internal/radiometry/photo_equations.h).
+// Gauss-Newton solves it with the B of each element eliminated (inverse/observe/internal/radiometry/photo_equations.h).
 // s: the residuals' own scale. The prior of g has heavy tails: shutters err by `gain_sigma`, some photos by
 // far more. h has none: a camera's gain is the robust mean of its photos'.
 //
@@ -24,7 +24,7 @@
 // each photo). Elements that only cameras without a common reference see together are left out.
 //
 // A gain's sigma enters the fit of the light through `covariance`, as that of an exposure does: by the
-// variance of every observation (inverse/choose/calibrated_observations.h).
+// variance of every observation (inverse/observe/calibrated_observations.h).
 //
 // Data left out choose the free parameters. Every combination of gains, vignetting of order 0 to 3 and a
 // response exponent is fitted without a fifth of the patches in turn. It is scored on these, their B fitted
@@ -42,8 +42,8 @@
 //
 // Sources: Goldman (2010), "Vignette and exposure calibration and compensation", sec. 3; Mitsunaga and Nayar
 // (1999), "Radiometric self calibration"; Golub and Pereyra (1973) (elimination).
-#ifndef LUXFIT_INVERSE_CHOOSE_SELF_CALIBRATION_H_
-#define LUXFIT_INVERSE_CHOOSE_SELF_CALIBRATION_H_
+#ifndef LUXFIT_INVERSE_OBSERVE_SELF_CALIBRATION_H_
+#define LUXFIT_INVERSE_OBSERVE_SELF_CALIBRATION_H_
 
 #include <Eigen/Core>
 #include <string>
@@ -142,4 +142,4 @@ SelfCalibration SelfCalibrate(const Patches& patches, const std::vector<Eigen::V
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_SELF_CALIBRATION_H_
+#endif  // LUXFIT_INVERSE_OBSERVE_SELF_CALIBRATION_H_

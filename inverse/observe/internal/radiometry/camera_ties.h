@@ -5,13 +5,13 @@
 // transitive.
 // In each group of tied cameras one is held: the first whose gain is stated, else the first. Stated gains tie
 // groups to each other.
-#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
-#define LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
+#ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
+#define LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
 
 #include <vector>
 
 #include "forward/room/patches.h"
-#include "inverse/choose/self_calibration.h"
+#include "inverse/observe/self_calibration.h"
 
 namespace luxfit {
 
@@ -34,4 +34,4 @@ std::vector<PhotoSample> SamplesSeenBySeveral(const std::vector<PhotoSample>& sa
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_
+#endif  // LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_CAMERA_TIES_H_

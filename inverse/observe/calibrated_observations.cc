@@ -1,4 +1,4 @@
-#include "inverse/choose/calibrated_observations.h"
+#include "inverse/observe/calibrated_observations.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 // refreshed between the steps (IRLS) end at a minimum of the sum of rho.
 //
 // Source: Holland and Welsch (1977), "Robust regression using iteratively reweighted least-squares".
-#ifndef LUXFIT_INVERSE_MODEL_INTERNAL_ROBUST_WEIGHT_H_
-#define LUXFIT_INVERSE_MODEL_INTERNAL_ROBUST_WEIGHT_H_
+#ifndef LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_WEIGHT_H_
+#define LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_WEIGHT_H_
 
 #include <cmath>
 
@@ -25,4 +25,4 @@ inline double CauchyLoss(double z, double k) {
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_MODEL_INTERNAL_ROBUST_WEIGHT_H_
+#endif  // LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_WEIGHT_H_

@@ -4,23 +4,23 @@
 //   J = dz/dx,   A = - dz/dB
 //   N = J'WJ - J'WA (A'WA)^-1 A'WJ
 //
-// Symbols are those of inverse/choose/self_calibration.h. z is in units of ln Y, as its noise is. Residuals
+// Symbols are those of inverse/observe/self_calibration.h. z is in units of ln Y, as its noise is. Residuals
 // of ln R would vanish as q goes to -1, where every count means the same light. U is a base of the states'
 // dimmings, so that an element seen in few states has no more unknowns than it needs. B is at its optimum for
 // x, so the gradient J'W z is exactly that of the cost over x alone.
 //
 // Elements fall into folds by their patch. Sums are kept fold by fold, so that fits without one fold need no
 // further pass.
-#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
-#define LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
+#ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
+#define LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
 
 #include <Eigen/Core>
 #include <map>
 #include <set>
 #include <vector>
 
-#include "inverse/choose/internal/left_out.h"
-#include "inverse/choose/self_calibration.h"
+#include "inverse/observe/self_calibration.h"
+#include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
 
@@ -105,4 +105,4 @@ class PhotoEquations {
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_
+#endif  // LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_PHOTO_EQUATIONS_H_

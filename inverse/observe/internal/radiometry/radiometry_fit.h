@@ -1,19 +1,19 @@
 // Fits combinations of free radiometric parameters to samples of photos, and scores them on data left out.
 //
-//   x -> x + (N + P)^-1 (J'W z - P x)      N, J, W, z: inverse/choose/internal/radiometry/photo_equations.h, P: prior
+//   x -> x + (N + P)^-1 (J'W z - P x)      N, J, W, z: inverse/observe/internal/radiometry/photo_equations.h, P: prior
 //
 // Each fold of patches is left out in turn and scored with the step that the other folds ask for. Residuals
 // of one facet are not independent: the covariance sums their gradients before it squares them.
 //
-// Source: inverse/choose/self_calibration.h.
-#ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_
-#define LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_
+// Source: inverse/observe/self_calibration.h.
+#ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_
+#define LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_
 
 #include <Eigen/Core>
 #include <vector>
 
-#include "inverse/choose/internal/radiometry/photo_equations.h"
-#include "inverse/choose/self_calibration.h"
+#include "inverse/observe/internal/radiometry/photo_equations.h"
+#include "inverse/observe/self_calibration.h"
 
 namespace luxfit {
 
@@ -90,4 +90,4 @@ std::vector<RadiometryCandidate> FullestRadiometry(const OpenRadiometry& open, b
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_
+#endif  // LUXFIT_INVERSE_OBSERVE_INTERNAL_RADIOMETRY_RADIOMETRY_FIT_H_

@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/radiometry/radiometry_fit.h"
+#include "inverse/observe/internal/radiometry/radiometry_fit.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/radiometry/camera_ties.h"
+#include "inverse/observe/internal/radiometry/camera_ties.h"
 
 #include <algorithm>
 #include <iterator>
@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "inverse/choose/internal/radiometry/photo_equations.h"
+#include "inverse/observe/internal/radiometry/photo_equations.h"
 
 namespace luxfit {
 namespace {

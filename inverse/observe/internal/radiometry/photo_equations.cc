@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/radiometry/photo_equations.h"
+#include "inverse/observe/internal/radiometry/photo_equations.h"
 
 #include <tbb/parallel_for.h>
 
@@ -10,7 +10,7 @@
 #include <set>
 
 #include "calib/luminance/median.h"
-#include "inverse/model/internal/robust_weight.h"
+#include "inverse/select/internal/robust_weight.h"
 
 namespace luxfit {
 namespace {

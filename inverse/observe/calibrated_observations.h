@@ -10,16 +10,17 @@
 // to element. The part that all elements of a camera share is in no sigma of a luminaire: it is the sigma of
 // h_c, some tenths of a percent where cameras share a hundred elements. A photo is a view in a state of the
 // luminaires. An element is seen at the pixel of its centre.
-// Source: inverse/choose/self_calibration.h.
-#ifndef LUXFIT_INVERSE_CHOOSE_CALIBRATED_OBSERVATIONS_H_
-#define LUXFIT_INVERSE_CHOOSE_CALIBRATED_OBSERVATIONS_H_
+// Source: inverse/observe/self_calibration.h.
+#ifndef LUXFIT_INVERSE_OBSERVE_CALIBRATED_OBSERVATIONS_H_
+#define LUXFIT_INVERSE_OBSERVE_CALIBRATED_OBSERVATIONS_H_
 
 #include <vector>
 
 #include "calib/lens/camera.h"
 #include "calib/register/registration.h"
-#include "inverse/choose/self_calibration.h"
 #include "inverse/observe/observe.h"
+#include "inverse/observe/room_photos.h"
+#include "inverse/observe/self_calibration.h"
 
 namespace luxfit {
 
@@ -44,9 +45,6 @@ std::vector<Observation> WithCorrections(std::vector<Observation> observations,
                                          const std::vector<PhotoSample>& samples,
                                          const SelfCalibration& found);
 
-// Tells what is stated of a camera's vignetting.
-enum class StatedVignetting { kNone, kEstimate, kFlatField };
-
 struct CameraFindings {
   bool darkens = false;                     // it is stated to have no vignetting, and has some
   bool is_curved = false;                   // its counts are not proportional to light
@@ -68,4 +66,4 @@ RadiometryFindings FindingsOf(const SelfCalibration& found, const OpenRadiometry
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_CHOOSE_CALIBRATED_OBSERVATIONS_H_
+#endif  // LUXFIT_INVERSE_OBSERVE_CALIBRATED_OBSERVATIONS_H_

@@ -1,13 +1,13 @@
-#include "inverse/choose/self_calibration.h"
+#include "inverse/observe/self_calibration.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "inverse/choose/internal/radiometry/camera_ties.h"
-#include "inverse/choose/internal/radiometry/photo_equations.h"
-#include "inverse/choose/internal/radiometry/radiometry_fit.h"
+#include "inverse/observe/internal/radiometry/camera_ties.h"
+#include "inverse/observe/internal/radiometry/photo_equations.h"
+#include "inverse/observe/internal/radiometry/radiometry_fit.h"
 
 namespace luxfit {
 namespace {

@@ -1,0 +1,158 @@
+#include "inverse/observe/evidence.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "calib/luminance/bright_blobs.h"
+#include "inverse/observe/internal/expect_known.h"
+
+namespace luxfit {
+namespace {
+
+// Of luminaires that nobody names, some are on in every state.
+bool IsDark(const StateTable& states, int state) {
+  return !states.luminaires.empty() && (states.dimming[static_cast<size_t>(state)].array() == 0).all();
+}
+
+// Returns the photo of each photo's view with all luminaires off; nothing where there is none.
+std::vector<std::optional<size_t>> AmbientOf(const RoomPhotos& photos, const StateTable& states) {
+  std::vector<std::optional<size_t>> ambient(photos.photos.size());
+  for (size_t i = 0; i < ambient.size(); ++i) {
+    const RoomPhoto& photo = photos.photos[i];
+    const auto dark = std::find_if(photos.photos.begin(), photos.photos.end(), [&](const RoomPhoto& other) {
+      return other.view == photo.view && other.camera == photo.camera && IsDark(states, other.state);
+    });
+    if (dark != photos.photos.end()) ambient[i] = static_cast<size_t>(dark - photos.photos.begin());
+  }
+  return ambient;
+}
+
+std::vector<std::string> ViewsWithout(const RoomPhotos& photos,
+                                      const std::vector<std::optional<size_t>>& ambient) {
+  std::vector<std::string> views;
+  for (size_t i = 0; i < ambient.size(); ++i) {
+    const std::string& view = photos.photos[i].view;
+    if (!ambient[i] && std::count(views.begin(), views.end(), view) == 0) views.push_back(view);
+  }
+  return views;
+}
+
+// Reads a photo's light of the luminaires alone. Returns null for a photo of ambient light, or where its view has none.
+std::shared_ptr<const LuminanceImage> ReadLuminaireLight(const RoomPhotos& photos, size_t photo,
+                                                         const std::optional<size_t>& ambient) {
+  if (!ambient || photos.photos[*ambient].state == photos.photos[photo].state) return nullptr;
+  return std::make_shared<const LuminanceImage>(WithoutAmbient(*photos.read(photo), *photos.read(*ambient)));
+}
+
+std::vector<PixelMap> MapsOfViews(const Room& room, const std::vector<Camera>& cameras,
+                                  const std::vector<RegisteredView>& views,
+                                  const std::vector<SurveyedTag>& tags) {
+  std::vector<PixelDirections> directions;
+  directions.reserve(cameras.size());
+  for (const Camera& camera : cameras) directions.push_back(UnprojectAllPixels(camera));
+  std::vector<PixelMap> maps;
+  maps.reserve(views.size());
+  for (const RegisteredView& view : views) {
+    const auto c = static_cast<size_t>(view.camera);
+    maps.push_back(MapPixels(cameras[c], directions[c], view.cam_from_world, room,
+                             TagQuads(tags, cameras[c], view.cam_from_world)));
+  }
+  return maps;
+}
+
+struct SeenPhoto {
+  std::vector<Observation> observations;
+  std::optional<PhotoBlobs> blobs;  // absent: the photo was not used
+};
+
+std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPhotos& photos,
+                                 const std::vector<RegisteredView>& views, bool has_ambient,
+                                 const std::vector<std::optional<size_t>>& ambient,
+                                 const std::function<void()>& on_photo) {
+  std::vector<SeenPhoto> seen(photos.photos.size());
+  tbb::parallel_for(size_t{0}, seen.size(), [&](size_t i) {
+    const RoomPhoto& photo = photos.photos[i];
+    if (on_photo) on_photo();
+    const auto view = std::find_if(views.begin(), views.end(),
+                                   [&](const RegisteredView& v) { return v.view == photo.view; });
+    if (view == views.end()) return;
+    const auto index = static_cast<int>(view - views.begin());
+    const auto image = has_ambient ? ReadLuminaireLight(photos, i, ambient[i]) : photos.read(i);
+    if (!image) return;
+    seen[i].blobs = {index, photo.state, FindBrightBlobs(*image)};
+    seen[i].observations = ObservePhoto(maps[static_cast<size_t>(index)], *image, index, photo.state);
+  });
+  return seen;
+}
+
+// Lists the blobs of all photos but those left out.
+std::vector<PhotoBlobs> ListBlobs(std::vector<SeenPhoto> seen, const std::vector<PhotoAsIf>& left_out) {
+  std::vector<PhotoBlobs> blobs;
+  for (SeenPhoto& photo : seen) {
+    const auto is_it = [&](const PhotoAsIf& p) {
+      return p.view == photo.blobs->view && p.state == photo.blobs->state;
+    };
+    if (photo.blobs && std::none_of(left_out.begin(), left_out.end(), is_it))
+      blobs.push_back(std::move(*photo.blobs));
+  }
+  return blobs;
+}
+
+}  // namespace
+
+Eigen::MatrixXd PoseErrorsOf(const Registration& registration) {
+  const bool is_in_doubt = registration.survey_sigma_m > 2 * RegisterViewsOptions().survey_sigma_m;
+  return is_in_doubt ? registration.pose_covariance : Eigen::MatrixXd();
+}
+
+std::vector<Eigen::VectorXd> DimmingSeen(const StateTable& states,
+                                         const std::vector<StateExplanation>& explained) {
+  if (!explained.empty()) return explained.front().dimming;
+  if (states.luminaires.empty()) return {states.states.size(), Eigen::VectorXd::Ones(1)};
+  return states.dimming;
+}
+
+ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::vector<Camera>& cameras,
+                       const Registration& registration, const StateTable& states,
+                       const ObserveOptions& options) {
+  ExpectKnown(photos, cameras, states);
+  const std::vector<RegisteredView>& views = registration.views;
+  if (views.empty()) return {};
+  ObservedPhotos observed;
+  Evidence& evidence = observed.evidence;
+  const std::vector<std::optional<size_t>> ambient = AmbientOf(photos, states);
+  observed.has_ambient = std::any_of(photos.photos.begin(), photos.photos.end(),
+                                     [&](const RoomPhoto& photo) { return IsDark(states, photo.state); });
+  if (observed.has_ambient) observed.views_without_ambient = ViewsWithout(photos, ambient);
+  std::vector<SeenPhoto> seen = SeePhotos(MapsOfViews(room, cameras, views, options.tags), photos, views,
+                                          observed.has_ambient, ambient, options.on_photo);
+  for (const SeenPhoto& photo : seen) {
+    evidence.observations.insert(evidence.observations.end(), photo.observations.begin(),
+                                 photo.observations.end());
+    observed.elements.push_back(photo.observations.size());
+  }
+  evidence.observations = InOneUnit(std::move(evidence.observations), photos, views);
+  evidence.photos_as_if = FindPhotosAsIf(room.patches, evidence.observations);
+  evidence.observations = WithoutPhotos(evidence.observations, evidence.photos_as_if);
+  if (!states.luminaires.empty())
+    evidence.states_as_if = FindStatesAsIf(room.patches, evidence.observations, states);
+  {
+    const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;
+    CorrectedObservations corrected =
+        CorrectRadiometry(room.patches, photos, cameras, views, DimmingSeen(states, evidence.states_as_if),
+                          std::move(evidence.observations));
+    evidence.observations = std::move(corrected.observations);
+    observed.radiometry = std::move(corrected.radiometry);
+  }
+  const std::vector<PhotoBlobs> blobs = ListBlobs(std::move(seen), evidence.photos_as_if);
+  SeenLuminairesOptions seen_options;
+  seen_options.tags = options.tags;
+  evidence.seen = FindSeenLuminaires(room, cameras, views, blobs, seen_options);
+  evidence.outlines = FindSeenOutlines(cameras, views, blobs);
+  evidence.pose_covariance = PoseErrorsOf(registration);
+  return observed;
+}
+
+}  // namespace luxfit
