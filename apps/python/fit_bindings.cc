@@ -13,8 +13,10 @@
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/python/mesh_room.h"
 #include "apps/session/tag_map.h"
 #include "apps/stages/linearize/photo_store.h"
+#include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/observe/observed_words.h"
 #include "apps/stages/register/registration_words.h"
 #include "apps/text/suggest.h"
@@ -195,6 +197,7 @@ Findings FindingsOf(const PhotoObservations& seen, const PhotoFiles& given,
   }
   WarnOfNotes(seen.registration, findings);
   RecordRegistration(seen.registration, seen.cameras, cameras, true, findings);
+  RecordFurniture(seen.furniture, findings);
   PhotoNames used = all;
   used.photos.clear();
   for (const size_t photo : seen.used) used.photos.push_back(all.photos[photo]);
@@ -202,12 +205,30 @@ Findings FindingsOf(const PhotoObservations& seen, const PhotoFiles& given,
   return findings;
 }
 
-FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std::vector<py::dict>& photos,
+bool FindsFurniture(const std::string& furniture) {
+  const std::vector<std::string> known{"find", "given"};
+  return IndexOf(known, furniture, "fit_room: furniture") == 0;
+}
+
+// Returns the known reflectances of the room as it was given, by the materials of the room with other furniture.
+std::vector<std::optional<double>> AlbedoIn(const Room& changed, const Room& room,
+                                            const std::vector<std::optional<double>>& albedo) {
+  std::vector<std::optional<double>> in_changed(changed.scene.materials.size());
+  for (size_t m = 0; m < in_changed.size(); ++m) {
+    const auto& names = room.scene.materials;
+    const auto at = std::find(names.begin(), names.end(), changed.scene.materials[m]);
+    if (at != names.end()) in_changed[m] = albedo[static_cast<size_t>(at - names.begin())];
+  }
+  return in_changed;
+}
+
+FoundLight FitWithoutSession(const MeshRoom& room, const py::dict& states,
+                             const std::vector<py::dict>& photos,
                              const std::vector<std::filesystem::path>& cameras,
                              const std::optional<std::filesystem::path>& tags,
                              const std::vector<py::dict>& readings,
                              const std::map<std::string, double>& albedo, const std::string& tag_family,
-                             int threads) {
+                             const std::string& furniture, int threads) {
   const StateTable names = StateTableOf(states);
   const PhotoFiles given_photos = PhotoFilesOf(photos, cameras.size(), names);
   if (!photos.empty() && !tags)
@@ -220,10 +241,18 @@ FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std
   given.dimming = names.dimming;
   given.meter.readings = ReadingsOf(readings, names);
   given.albedo = KnownAlbedo(room, albedo);
+  ObservePhotosOptions options;
+  options.tag_family = tag_family;
+  if (FindsFurniture(furniture)) {
+    options.furniture = FurnitureSearch{room.mesh, room.options, {}};
+    for (const MeterReading& reading : given.meter.readings)
+      options.furniture->free_places.push_back(reading.sensor.position);
+  }
 
   const py::gil_scoped_release release;
   const ThreadLimit limit(threads);
   Findings before;
+  std::shared_ptr<const Room> changed;  // with the furniture that photos show
   if (!photos.empty()) {
     std::vector<Camera> lenses;
     std::vector<std::string> ids;
@@ -232,14 +261,17 @@ FoundLight FitWithoutSession(const Room& room, const py::dict& states, const std
       ids.push_back(camera.filename().string());
     }
     PhotoObservations seen =
-        ObservePhotos(room, lenses, ReadTagMap(tags->string()), given_photos.photos, names, tag_family);
+        ObservePhotos(room, lenses, ReadTagMap(tags->string()), given_photos.photos, names, options);
     before = FindingsOf(seen, given_photos, ids, names);
     TakeEvidence(std::move(seen.observed.evidence), given);
+    changed = seen.changed_room;
+    if (changed) given.albedo = AlbedoIn(*changed, room, given.albedo);
   }
   FoundLight fitted;
-  fitted.fit = FitRoom(room, given);
+  const Room& fitted_room = changed ? *changed : room;
+  fitted.fit = FitRoom(fitted_room, given);
   PutFirst(std::move(before), fitted.fit.findings);
-  fitted.materials = room.scene.materials;
+  fitted.materials = fitted_room.scene.materials;
   fitted.luminaires = EstimatedLuminaires(fitted.fit);
   fitted.readings = PredictedReadings(fitted.fit);
   return fitted;
@@ -335,7 +367,7 @@ void BindFit(py::module_& module) {
              py::arg("cameras") = std::vector<std::filesystem::path>{}, py::arg("tags") = py::none(),
              py::arg("readings") = std::vector<py::dict>{},
              py::arg("albedo") = std::map<std::string, double>{}, py::arg("tag_family") = "tag36h11",
-             py::arg("threads") = 0,
+             py::arg("furniture") = "find", py::arg("threads") = 0,
              "Fits luminaires and reflectances to photos and luxmeter readings, without a session file.\n\n"
              "states: {state: {luminaire: dimming 0 to 1}}. photos: dicts of file, view, state, exposure_s "
              "and camera "
@@ -343,7 +375,9 @@ void BindFit(py::module_& module) {
              "tags: the "
              "survey (JSON). readings: dicts of position_m, normal, state, illuminance_lx and used (default "
              "True; False: "
-             "only predicted). albedo: known reflectances by material. Photos must be linear. Raises "
+             "only predicted). albedo: known reflectances by material. furniture: find (what photos show and "
+             "the room lacks, or has elsewhere, takes part in the fit) or given (not looked for). Photos "
+             "must be linear. Raises "
              "InputError for bad "
              "input; what the data do not determine is no exception: see status and warnings.");
 }

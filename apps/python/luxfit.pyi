@@ -18,6 +18,7 @@ _Albedo = Union[dict[str, float], dict[str, int]]
 _Unit = Literal["m", "cm", "mm", "in", "ft"]
 _Shape = Literal["point", "disc", "rectangle", "sphere"]
 _Role = Literal["fit", "scale", "check"]
+_Furniture = Literal["find", "given"]
 
 # The metaclass of every class that pybind11 makes.
 class _Pybind11Type(type): ...
@@ -489,11 +490,13 @@ def fit_room(
     readings: Sequence[dict[str, Any]] = ...,
     albedo: _Albedo = ...,
     tag_family: str = "tag36h11",
+    furniture: _Furniture = "find",
     threads: int = 0,
 ) -> RoomFit:
     """Fits luminaires and reflectances to linear photos and luxmeter readings, without a session file.
 
     states: {state: {luminaire: dimming 0..1}}. photos: file, view, state, exposure_s and camera (index of cameras, default 0). cameras:
     calibration files. tags: the survey (JSON). readings: position_m (3,), normal (3,), state, illuminance_lx and used (default True; False:
-    only predicted). albedo: known reflectances by material. threads: 0 for all.
+    only predicted). albedo: known reflectances by material. furniture: "find" (what photos show and the room lacks, or has elsewhere, takes
+    part in the fit) or "given" (not looked for). threads: 0 for all.
     """

@@ -5,9 +5,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
+#include "apps/python/mesh_room.h"
 #include "apps/python/patch_light.h"
 #include "apps/session/session_scene.h"
 #include "apps/text/suggest.h"
@@ -28,9 +30,9 @@ std::vector<std::string> MethodNames() {
   return names;
 }
 
-std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::string& unit,
-                               double patch_size_m, std::optional<double> element_size_m,
-                               const std::string& method, int rays) {
+std::unique_ptr<MeshRoom> ReadRoom(const std::filesystem::path& mesh, const std::string& unit,
+                                   double patch_size_m, std::optional<double> element_size_m,
+                                   const std::string& method, int rays) {
   const double metres_per_unit = MetresPerUnit(unit, "Room: unit");
   RoomOptions options;
   options.patches.patch_size_m = patch_size_m;
@@ -41,7 +43,9 @@ std::unique_ptr<Room> ReadRoom(const std::filesystem::path& mesh, const std::str
   options.planes.emplace();
   options.planes->name_materials = true;
   const py::gil_scoped_release release;
-  auto room = std::make_unique<Room>(MakeRoom(SceneOfFile(mesh.string(), metres_per_unit), options));
+  Scene scene = SceneOfFile(mesh.string(), metres_per_unit);
+  Room made = MakeRoom(scene, options);
+  auto room = std::make_unique<MeshRoom>(MeshRoom{std::move(made), std::move(scene), options});
   if (room->sparse)
     throw std::runtime_error(mesh.string() + ": expected patches whose form factors fit into memory, got " +
                              std::to_string(room->patches.patches.size()) + "; raise patch_size_m");
@@ -69,8 +73,8 @@ Eigen::VectorXd AlbedoOf(const Room& room, const Albedo& given) {
   return albedo;
 }
 
-py::dict SensorLight(const Room& room, const std::vector<Luminaire>& luminaires, const RowMajorXd& position_m,
-                     const RowMajorXd& normal, const Albedo& given) {
+py::dict SensorLight(const MeshRoom& room, const std::vector<Luminaire>& luminaires,
+                     const RowMajorXd& position_m, const RowMajorXd& normal, const Albedo& given) {
   const std::vector<Sensor> sensors = SensorsFrom(position_m, normal);
   const Eigen::VectorXd albedo = AlbedoOf(room, given);
   PredictedPlaces light;
@@ -84,7 +88,7 @@ py::dict SensorLight(const Room& room, const std::vector<Luminaire>& luminaires,
   return result;
 }
 
-py::dict RoomPatchLight(const Room& room, const std::vector<Luminaire>& luminaires, const Albedo& given) {
+py::dict RoomPatchLight(const MeshRoom& room, const std::vector<Luminaire>& luminaires, const Albedo& given) {
   const Eigen::VectorXd albedo = AlbedoOf(room, given);
   PatchLight light;
   {
@@ -109,27 +113,27 @@ void BindRoom(py::module_& module) {
       "unit: of the mesh (m, cm, mm, in, ft). Elements (patch_size_m / 4 by default) receive light, "
       "patches send it. method: " +
       ListNames(MethodNames()) + ", with so many rays over the hemisphere of an element.";
-  py::class_<Room>(module, "Room", about.c_str())
+  py::class_<MeshRoom>(module, "Room", about.c_str())
       .def(py::init(&ReadRoom), py::arg("mesh"), py::arg("unit") = "m", py::kw_only(),
            py::arg("patch_size_m") = 0.4, py::arg("element_size_m") = py::none(),
            py::arg("method") = "hybrid", py::arg("rays") = 64)
-      .def_property_readonly("materials", [](const Room& r) { return r.scene.materials; })
+      .def_property_readonly("materials", [](const MeshRoom& r) { return r.scene.materials; })
       .def_property_readonly(
-          "patches", [](const Room& r) { return PatchArrays(r.patches); },
+          "patches", [](const MeshRoom& r) { return PatchArrays(r.patches); },
           "dict: center_m, normal (P, 3), area_m2, material (P,) as index of materials, vertices_m (P, 4, "
           "3).")
       .def_property_readonly(
-          "elements", [](const Room& r) { return ElementArrays(r.patches); },
+          "elements", [](const MeshRoom& r) { return ElementArrays(r.patches); },
           "dict: center_m, normal (N, 3), area_m2, patch (N,).")
       .def_property_readonly(
           "form_factors",
-          [](const Room& r) -> const FormFactorMatrix& { return r.form_factors.element_to_patch; },
+          [](const MeshRoom& r) -> const FormFactorMatrix& { return r.form_factors.element_to_patch; },
           py::return_value_policy::reference_internal,
           "F (N, P), float32, read-only: share of what leaves element i that reaches patch j, equally "
           "illuminance "
           "of i per exitance of j. Rows add up to 1 in a closed room.")
       .def_property_readonly(
-          "closure_error", [](const Room& r) { return r.form_factors.closure_error; },
+          "closure_error", [](const MeshRoom& r) { return r.form_factors.closure_error; },
           "Root mean square of 1 - row sum before it is enforced.")
       .def("illuminance", &SensorLight, py::arg("luminaires"), py::arg("position_m"), py::arg("normal"),
            py::arg("albedo"),

@@ -5,6 +5,7 @@
 
 #include "calib/register/view_tags.h"
 #include "inverse/observe/internal/expect_known.h"
+#include "inverse/observe/room_furniture.h"
 #include "inverse/observe/scene_surface.h"
 
 namespace luxfit {
@@ -25,6 +26,19 @@ ViewTags TagsOf(const std::vector<Camera>& cameras, const RoomPhotos& photos, co
   });
 }
 
+// Makes the room anew where photos show other furniture.
+void LookForFurniture(const FurnitureSearch& search, const Room& room, const std::vector<SurveyedTag>& survey,
+                      const RoomPhotos& photos, int states, PhotoObservations& seen) {
+  std::vector<Eigen::Vector3d> free_places = search.free_places;
+  for (const SurveyedTag& tag : survey) free_places.push_back(tag.center_in_world);
+  seen.furniture = LookForFurniture(search.mesh, room.scene, photos, seen.cameras, seen.registration.views,
+                                    states, free_places, survey);
+  const FurnitureChange change = ChangeOf(seen.furniture);
+  if (!change.IsEmpty())
+    seen.changed_room =
+        std::make_shared<const Room>(MakeRoom(WithChange(search.mesh, change), search.options));
+}
+
 }  // namespace
 
 RoomPhotos PhotosAt(const RoomPhotos& photos, const std::vector<size_t>& at) {
@@ -36,15 +50,15 @@ RoomPhotos PhotosAt(const RoomPhotos& photos, const std::vector<size_t>& at) {
 
 PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cameras,
                                 const std::vector<SurveyedTag>& survey, const RoomPhotos& photos,
-                                const StateTable& states, const std::string& tag_family) {
+                                const StateTable& states, const ObservePhotosOptions& options) {
   ExpectKnown(photos, cameras, states);
   PhotoObservations seen;
-  const ViewTags tags = TagsOf(cameras, photos, states, tag_family);
+  const ViewTags tags = TagsOf(cameras, photos, states, options.tag_family);
   for (const PhotoOfOtherView& other : tags.of_other_views)
     seen.misplaced.push_back({other.photo, tags.views[static_cast<size_t>(other.as_if)].view, other.tags});
-  RegisterViewsOptions options;
-  options.surface = SurfaceOf(room.scene);
-  seen.registration = RegisterViews(cameras, survey, tags.views, options);
+  RegisterViewsOptions registration;
+  registration.surface = SurfaceOf(room.scene);
+  seen.registration = RegisterViews(cameras, survey, tags.views, registration);
   seen.cameras = cameras;
   for (size_t c = 0; c < seen.registration.focal_scale.size(); ++c)
     seen.cameras[c] = WithFocalScale(cameras[c], seen.registration.focal_scale[c]);
@@ -52,10 +66,13 @@ PhotoObservations ObservePhotos(const Room& room, const std::vector<Camera>& cam
     const auto is_it = [i](const PhotoOfWrongView& m) { return m.photo == i; };
     if (std::none_of(seen.misplaced.begin(), seen.misplaced.end(), is_it)) seen.used.push_back(i);
   }
+  const RoomPhotos used = PhotosAt(photos, seen.used);
+  if (options.furniture)
+    LookForFurniture(*options.furniture, room, survey, used, static_cast<int>(states.states.size()), seen);
   ObserveOptions observe;
   observe.tags = survey;
-  seen.observed =
-      Observe(room, PhotosAt(photos, seen.used), seen.cameras, seen.registration, states, observe);
+  seen.observed = Observe(seen.changed_room ? *seen.changed_room : room, used, seen.cameras,
+                          seen.registration, states, observe);
   return seen;
 }
 

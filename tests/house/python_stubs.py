@@ -38,7 +38,7 @@ MYPY_CACHE = tempfile.TemporaryDirectory()  # removed at the end
 
 # The annotations that a stub may use for an argument of pybind11's type.
 ARGUMENTS = {
-    "bool": {"bool"}, "int": {"int"}, "float": {"float"}, "str": {"str", "_Unit", "_Shape"}, "os.PathLike": {"_Path"},
+    "bool": {"bool"}, "int": {"int"}, "float": {"float"}, "str": {"str", "_Unit", "_Shape", "_Furniture"}, "os.PathLike": {"_Path"},
     "numpy.ndarray": {"ArrayLike"}, "List[float]": {"_Numbers"}, "List[str]": {"Sequence[str]"}, "List[os.PathLike]": {"Sequence[_Path]"},
     "List[dict]": {"Sequence[dict[str, Any]]"}, "dict": {"dict[str, Any]"}, "Dict[str, float]": {"_Albedo"},
     "List[luxfit.Luminaire]": {"Sequence[Luminaire]"},
@@ -156,7 +156,8 @@ class Signatures(unittest.TestCase):
 
     def test_choices_are_those_that_the_module_names(self):
         for words, call in ((STUBS._Unit, lambda: luxfit.Room(OFFICE / "room.obj", unit="?")),
-                            (STUBS._Shape, lambda: luxfit.Luminaire([0, 0, 0], 1, shape="?"))):
+                            (STUBS._Shape, lambda: luxfit.Luminaire([0, 0, 0], 1, shape="?")),
+                            (STUBS._Furniture, lambda: luxfit.fit_room(luxfit.Room(OFFICE / "room.obj"), {}, furniture="?"))):
             with self.assertRaises(luxfit.InputError) as raised:
                 call()
             named = re.search("expected (.*), got", str(raised.exception))[1]

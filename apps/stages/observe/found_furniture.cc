@@ -1,45 +1,20 @@
 #include "apps/stages/observe/found_furniture.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "apps/session/session_scene.h"
-#include "apps/stages/linearize/linearize.h"
+#include "apps/stages/session_light.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
-#include "inverse/furniture/missing_pieces.h"
-#include "inverse/furniture/moved_walls.h"
-#include "inverse/furniture/signature_view.h"
 
 namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-std::vector<SignatureView> ViewsOf(const Session& session, const LinearizedPhotos& photos,
-                                   const RegisteredSession& registered, const RunContext& context) {
-  const std::vector<RegisteredView>& views = registered.registration.views;
-  std::vector<SignatureView> signatures(views.size());
-  tbb::parallel_for(size_t{0}, views.size(), [&](size_t v) {
-    const Camera& camera = registered.cameras[static_cast<size_t>(views[v].camera)];
-    std::vector<std::shared_ptr<const LuminanceImage>> kept(session.states.size());
-    std::vector<const LuminanceImage*> images(session.states.size());
-    for (const LinearizedPhoto& photo : photos.photos) {
-      if (photo.view != views[v].view || photo.camera != views[v].camera) continue;
-      const auto state = static_cast<size_t>(StateIndex(session, photo.state));
-      kept[state] = ReadKept(photos, photo, camera, context);
-      images[state] = kept[state].get();
-    }
-    signatures[v] = MakeSignatureView(camera, views[v].cam_from_world, images);
-    signatures[v].pose_covariance = views[v].covariance;
-  });
-  return signatures;
-}
 
 // Returns where meters stood and tags lie: no solid is there.
 std::vector<Eigen::Vector3d> FreePlacesOf(const Session& session) {
@@ -60,13 +35,13 @@ std::string BoxText(const FoundBox& found) {
   return text + " }";
 }
 
-void RecordBoxes(const std::vector<FoundBox>& found, RunContext& context) {
+void RecordBoxes(const std::vector<FoundBox>& found, Findings& findings) {
   if (found.empty()) return;
   std::string words;
   for (const FoundBox& f : found) {
     words += (words.empty() ? "" : ", ") + BoxText(f);
   }
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"furniture_found",
        fmt::format("photos show {} box{} that the room lacks, and the fit uses {}: box = [{}]", found.size(),
                    found.size() == 1 ? "" : "es", found.size() == 1 ? "it" : "them", words),
@@ -78,7 +53,7 @@ std::string PlaceOf(const Eigen::AlignedBox3d& bounds) {
   return fmt::format("({:.2f}, {:.2f})", bounds.center().x(), bounds.center().y());
 }
 
-void RecordMove(const MissingPiece& piece, RunContext& context) {
+void RecordMove(const MissingPiece& piece, Findings& findings) {
   const Eigen::AlignedBox3d& was = piece.move.bounds;
   const Eigen::Vector3d size = was.sizes();
   std::string words = fmt::format(
@@ -94,7 +69,7 @@ void RecordMove(const MissingPiece& piece, RunContext& context) {
   } else {
     words += "the fit leaves it out";
   }
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"furniture_moved", words,
        "correct the mesh, or write furniture = \"given\" under [scene] where it is right"});
 }
@@ -121,7 +96,7 @@ std::string PlaneText(const Eigen::Vector3d& normal, double offset_m) {
   return fmt::format("{:.3f} m from the origin along its normal", offset_m);
 }
 
-void RecordWall(const MovedWall& wall, RunContext& context) {
+void RecordWall(const MovedWall& wall, Findings& findings) {
   const PlaneMove& move = wall.move;
   std::string words = fmt::format(
       "the {} stands {:.1f} +- {:.1f} cm farther {} than the mesh has it: the mesh has it at {}, and {} "
@@ -131,7 +106,7 @@ void RecordWall(const MovedWall& wall, RunContext& context) {
       PlaneText(move.normal, move.offset_m), wall.views, PlaneText(move.normal, move.offset_m + move.by_m));
   if (wall.tags > 0)
     words += fmt::format(", where {} surveyed tag{} too", wall.tags, wall.tags == 1 ? " lies" : "s lie");
-  context.warnings.push_back(
+  findings.warnings.push_back(
       {"wall_moved", words + "; the fit has it there",
        "move the corners of that surface in the mesh, or correct size or outline; or write furniture = "
        "\"given\" under [scene] where they are right"});
@@ -141,31 +116,6 @@ json PointJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 Eigen::Vector3d PointFromJson(const json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
-}
-
-// Finds walls, then furniture in the room that they leave.
-FurnitureChange FindChange(const Session& session, const std::vector<SignatureView>& views, const Room& room,
-                           RunContext& context) {
-  MovedWallsOptions walls;
-  walls.survey = session.tags.survey;
-  FurnitureOptions options;
-  options.free_places = FreePlacesOf(session);
-  FurnitureChange change;
-  Scene mesh = SceneOf(*session.scene);
-  for (const MovedWall& wall : FindMovedWalls(mesh, views, walls)) {
-    RecordWall(wall, context);
-    change.walls.push_back(wall.move);
-  }
-  mesh = WithPlanesMoved(std::move(mesh), change.walls);
-  const RevisedFurniture revised =
-      ReviseFurniture(mesh, change.walls.empty() ? room.scene : mesh, views, options);
-  for (const MissingPiece& piece : revised.missing) {
-    RecordMove(piece, context);
-    change.moves.push_back(piece.move);
-  }
-  RecordBoxes(revised.found, context);
-  for (const FoundBox& f : revised.found) change.boxes.push_back(f.box);
-  return change;
 }
 
 }  // namespace
@@ -226,6 +176,12 @@ std::vector<PlaneMove> WallsFromJson(const json& list) {
   return walls;
 }
 
+void RecordFurniture(const RevisedRoom& revised, Findings& findings) {
+  for (const MovedWall& wall : revised.walls) RecordWall(wall, findings);
+  for (const MissingPiece& piece : revised.furniture.missing) RecordMove(piece, findings);
+  RecordBoxes(revised.furniture.found, findings);
+}
+
 FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
                               const RegisteredSession& registered, const Room& room,
                               const SessionInputs& inputs, RunContext& context) {
@@ -236,7 +192,16 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
             WallsFromJson(kept->at("walls"))};
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
-  FurnitureChange change = FindChange(session, ViewsOf(session, photos, registered, context), room, context);
+  RoomPhotos given = RoomPhotosOf(session, photos);
+  given.read = [&](size_t i) {
+    const LinearizedPhoto& photo = photos.photos[i];
+    return ReadKept(photos, photo, registered.cameras[static_cast<size_t>(photo.camera)], context);
+  };
+  const RevisedRoom revised = LookForFurniture(
+      SceneOf(*session.scene), room.scene, given, registered.cameras, registered.registration.views,
+      static_cast<int>(session.states.size()), FreePlacesOf(session), session.tags.survey);
+  RecordFurniture(revised, context);
+  FurnitureChange change = ChangeOf(revised);
   const json product = {{"boxes", BoxesJson(change.boxes)},
                         {"moves", MovesJson(change.moves)},
                         {"walls", WallsJson(change.walls)}};

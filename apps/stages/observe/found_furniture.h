@@ -1,5 +1,5 @@
-// Finds walls of a session that stand elsewhere than its mesh has them (inverse/furniture/moved_walls.h), and furniture that
-// the mesh lacks, or has where the room has none (inverse/furniture/missing_pieces.h), and words it.
+// Finds walls of a session that stand elsewhere than its mesh has them, and furniture that the mesh lacks, or has where the
+// room has none (inverse/observe/room_furniture.h), and words it.
 //
 // Where [scene] furniture is "find", found boxes become part of the room, and pieces that views see through stand where
 // views show them, or are left out. Boxes are said in a warning ("furniture_found"), in the lines of a session that would
@@ -13,18 +13,12 @@
 
 #include "apps/stages/stage_inputs.h"
 #include "apps/stages/stages.h"
-#include "forward/room/outline.h"
-#include "forward/room/pieces.h"
-#include "forward/room/plane_moves.h"
+#include "inverse/observe/room_furniture.h"
 
 namespace luxfit {
 
-struct FurnitureChange {
-  std::vector<RoomBox> boxes;    // that the mesh lacks
-  std::vector<PieceMove> moves;  // of pieces that the mesh has elsewhere
-  std::vector<PlaneMove> walls;  // that the mesh has elsewhere, in the order in which they move
-  bool IsEmpty() const { return boxes.empty() && moves.empty() && walls.empty(); }
-};
+// Words what was found.
+void RecordFurniture(const RevisedRoom& revised, Findings& findings);
 
 // Returns what differs, and keeps it for the next run as the product "furniture".
 FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
