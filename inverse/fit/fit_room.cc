@@ -343,16 +343,16 @@ class RoomFitter {
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
     FitLuminairesOptions from_models = OfPart();
     from_models.start_is_near = true;  // each model was fitted with the others held
-    LuminaireFit near = FitLuminaires(coarse_, part, sized, Priors(), from_models);
+    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), from_models);
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
     near = WithoutNeedless(part, std::move(near));
     near = WithOneOfLikeTypes(part, std::move(near));
     const ColourChoice colour =
-        ChooseColour(coarse_, part, near, EstimateAlbedoRgb(coarse_, part, near), Priors());
+        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), Priors());
     RecordTransportColour(colour, result_.findings);
-    const BodyChoice bodies = ChooseBodies(coarse_, part, colour.fit, Priors());
+    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, Priors());
     RecordBodies(bodies, result_.findings);
     FitLuminairesOptions options;
     options.on_round = KeepBest();
@@ -373,19 +373,19 @@ class RoomFitter {
     TypedState typed = WithMergedTypes(fit, open_);
     RecordTypes(typed, result_.findings);
     if (typed.merged.empty() && typed.turned_alike.empty()) return fit;
-    return FitLuminaires(coarse_, part, typed.state, Priors(), OfPart(&fit));
+    return FitLuminaires(room_, part, typed.state, Priors(), OfPart(&fit));
   }
 
   // Lets photos tell squares from discs where the light did not.
   LuminaireFit WithSeenRectangles(const LightData& part, LuminaireFit fit) {
     const std::optional<LightState> rectangles = WithRectangles(open_, part, fit);
     if (!rectangles) return fit;
-    LuminaireFit squared = FitLuminaires(coarse_, part, *rectangles, Priors(), OfPart(&fit));
+    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, Priors(), OfPart(&fit));
     const LightState kept = WithExplainedRectangles(part, fit, squared, result_.findings);
     const auto is_alike = [](const Luminaire& a, const Luminaire& b) { return a.shape == b.shape; };
     if (std::equal(kept.luminaires.begin(), kept.luminaires.end(), rectangles->luminaires.begin(), is_alike))
       return squared;
-    return FitLuminaires(coarse_, part, kept, Priors(), OfPart(&fit));
+    return FitLuminaires(room_, part, kept, Priors(), OfPart(&fit));
   }
 
   // Takes outlines that the fit does not explain out of the data, and fits again without them.
@@ -393,7 +393,7 @@ class RoomFitter {
     result_.data.outlines = ExplainedOutlines(given_, part, fit, result_.findings);
     if (result_.data.outlines.size() == part.outlines.size()) return fit;
     part.outlines = result_.data.outlines;
-    return FitLuminaires(coarse_, part, fit.state, Priors(), OfPart(&fit));
+    return FitLuminaires(room_, part, fit.state, Priors(), OfPart(&fit));
   }
 
   // `near`: a fit to the same part, from which the fit starts.
@@ -415,7 +415,7 @@ class RoomFitter {
     SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
     RecordNeedless(given_, simplified.needless, result_.findings);
     if (!simplified.needless.empty())
-      fit = FitLuminaires(coarse_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
+      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
                           OfPart(&fit));
     fit.state = WithoutVanishedSizes(fit.state);
     return fit;
@@ -468,7 +468,7 @@ class RoomFitter {
   }
 
   const Room& room_;
-  const Room& coarse_;  // for all fits but the last
+  const Room& coarse_;  // for the fits that lead to a start: decisions and weights ask for patches
   const RoomObservations& given_;
   const FitRoomOptions& options_;
   RoomLight light_;
