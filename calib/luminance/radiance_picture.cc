@@ -80,7 +80,9 @@ bool WritePicture(const std::string& path, const std::array<ImagePlane, 3>& rgb,
                   const std::vector<std::string>& header) {
   std::ofstream file(path, std::ios::binary);
   file << "#?RADIANCE\n";
-  for (const std::string& line : header) file << line << '\n';
+  // OpenCV 4.6 reads a header in pieces of 127 bytes, and takes a piece that is a newline alone for its end.
+  constexpr size_t kPiece = 127;
+  for (const std::string& line : header) file << line << (line.size() % kPiece == 0 ? " \n" : "\n");
   file << "FORMAT=32-bit_rle_rgbe\n\n-Y " << rgb[0].rows() << " +X " << rgb[0].cols() << '\n';
   std::vector<Rgbe> line(static_cast<size_t>(rgb[0].cols()));
   for (Eigen::Index v = 0; v < rgb[0].rows(); ++v) {

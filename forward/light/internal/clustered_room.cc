@@ -50,9 +50,9 @@ Patch MergedPatch(const Facet& facet, const std::vector<Patch>& members) {
 }
 
 size_t ClusterCount(const std::vector<Patch>& patches) {
-  int last = -1;
-  for (const Patch& patch : patches) last = std::max(last, patch.cluster);
-  return static_cast<size_t>(last + 1);
+  size_t count = 0;
+  for (const Patch& patch : patches) count = std::max(count, static_cast<size_t>(patch.cluster) + 1);
+  return count;
 }
 
 Patches MergedPatches(const Patches& patches) {
@@ -99,7 +99,8 @@ bool HasClusters(const Patches& patches) {
 
 Room ClusteredRoom(const Room& room) {
   if (room.sparse) throw std::invalid_argument("ClusteredRoom: expected a room of dense form factors");
-  Room clustered{room.scene, room.rays, MergedPatches(room.patches), {}, {}, nullptr, room.on_planes, nullptr};
+  Room clustered{room.scene,     room.rays, MergedPatches(room.patches), {}, {}, nullptr,
+                 room.on_planes, nullptr};
   clustered.form_factors = ClusteredFormFactors(room);
   clustered.transport = MakeTransportGeometry(clustered.patches, clustered.form_factors);
   return clustered;

@@ -77,6 +77,13 @@ TEST_F(RadiancePictureTest, TheHeaderIsThatOfRadiance) {
                                                 "FORMAT=32-bit_rle_rgbe\n\n-Y 5 +X 9\n"));
 }
 
+TEST_F(RadiancePictureTest, OpenCvReadsHeadersOfAnyLength) {
+  for (const size_t length : {126, 127, 128, 253, 254, 255}) {
+    WriteRadiancePicture(folder_.Path("a.hdr"), Picture(5, 9), {std::string(length, 'a'), "EXPOSURE= 1"});
+    EXPECT_EQ(cv::imread(folder_.Path("a.hdr"), cv::IMREAD_UNCHANGED).cols, 9) << length;
+  }
+}
+
 TEST_F(RadiancePictureTest, WhatIsNoLightIsBlack) {
   std::array<ImagePlane, 3> rgb = Picture(2, 9);
   rgb[0](0, 0) = rgb[1](0, 0) = rgb[2](0, 0) = std::numeric_limits<float>::quiet_NaN();
