@@ -46,11 +46,7 @@ namespace {
 class RoomFitter {
  public:
   RoomFitter(const Room& room, const RoomObservations& given, const FitRoomOptions& options)
-      : room_(room),
-        coarse_(room.clusters ? *room.clusters : room),
-        given_(given),
-        options_(options),
-        light_(LightOf(room, given)) {
+      : room_(room), given_(given), options_(options), light_(LightOf(room, given)) {
     RecordLabels(room, light_.labels, result_.findings);
     RecordBetweenViews(light_, result_.findings);
     RecordReadings(given.meter, light_, result_.findings);
@@ -134,11 +130,11 @@ class RoomFitter {
   // measured indirect light is held. Readings alone need the radiosity.
   LightState StartByParts() {
     const bool photos = !result_.data.observations.empty();
-    LightData data = photos ? WithMeasuredIndirect(coarse_, result_.data) : result_.data;
+    LightData data = photos ? WithMeasuredIndirect(room_, result_.data) : result_.data;
     result_.data.checkpoint = data.checkpoint = CheckpointOf(options_.stop_reason, rounds_);
     {
       const auto step = Begin("guess", "where the luminaires may be");
-      start_ = StartFit(coarse_, given_, light_, data, result_.findings);
+      start_ = StartFit(room_, given_, light_, data, result_.findings);
       result_.luminaire_found = start_.luminaire_found;
     }
     best_ = start_.state;
@@ -152,10 +148,10 @@ class RoomFitter {
     quick.covariance = false;
     quick.has_texture = false;
     quick.on_round = KeepBest();
-    LuminaireFit fit = FitLuminaires(coarse_, part, state, Priors(), quick);
+    LuminaireFit fit = FitLuminaires(room_, part, state, Priors(), quick);
     if (photos && fit.status != FitStatus::kNoData) {
-      const auto lit = WithTwoSides(coarse_, data, fit.state, OpenDistributions(), Priors());
-      if (lit) fit = FitLuminaires(coarse_, part, *lit, Priors(), quick);
+      const auto lit = WithTwoSides(room_, data, fit.state, OpenDistributions(), Priors());
+      if (lit) fit = FitLuminaires(room_, part, *lit, Priors(), quick);
     }
     quick.has_texture = true;
     if (fit.status == FitStatus::kNoData) return start_.state;
@@ -164,13 +160,13 @@ class RoomFitter {
       part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose / 2);
       part.indirect_is_held = false;
       quick.steps_by_direct_light = true;
-      fit = FitLuminaires(coarse_, part, fit.state, Priors(), quick);
+      fit = FitLuminaires(room_, part, fit.state, Priors(), quick);
       is_textured_ = IsTextured(fit);
-      data = WithoutTexture(coarse_, WithModelledIndirect(coarse_, result_.data, fit.state), fit, Priors());
+      data = WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
     }
     if (!fit.IsUsable()) return start_.state;
     const SeveralStarts starts =
-        FitFromSeveralStarts(coarse_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
+        FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
@@ -284,7 +280,7 @@ class RoomFitter {
                        found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
     const LightState typed = TypedBySwitching(data, state, open_);
-    const ModelChoice choice = ChooseLuminaireModels(coarse_, data, typed, open_, Priors(),
+    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, Priors(),
                                                      SeenPlacesOfTypes(given_.seen, data, typed));
     for (const PlacesChoice& c : choice.places) {
       RecordPlaces(given_, c, result_.findings);
@@ -299,7 +295,7 @@ class RoomFitter {
       best_ = choice.state;
       throw FitStopped(choice.stop_reason);
     }
-    for (const Contradiction& c : FindContradictions(coarse_, data, choice.state, open_, Priors()))
+    for (const Contradiction& c : FindContradictions(room_, data, choice.state, open_, Priors()))
       WarnOfContradiction(given_, c, result_.findings);
     return WithSidesAlike(choice.state, open_);
   }
@@ -468,7 +464,6 @@ class RoomFitter {
   }
 
   const Room& room_;
-  const Room& coarse_;  // for the fits that lead to a start: decisions and weights ask for patches
   const RoomObservations& given_;
   const FitRoomOptions& options_;
   RoomLight light_;
