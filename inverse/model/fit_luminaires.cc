@@ -222,13 +222,32 @@ class OuterLoop {
     return move;
   }
 
+  // Solves the normal equations. Parameters that would move by more than 5 cm, 3 degrees or 5 % stay: rows hardly tell
+  // them (the width of a strip), and so far away the equations do not hold.
+  static Eigen::VectorXd SmallStep(Eigen::MatrixXd matrix, Eigen::VectorXd gradient) {
+    constexpr double kMostStep = 0.05;
+    while (true) {
+      const Eigen::VectorXd step = -InverseOf(matrix) * gradient;
+      bool is_small = true;
+      for (Eigen::Index i = 0; i < step.size(); ++i) {
+        if (std::abs(step[i]) <= kMostStep) continue;
+        is_small = false;
+        matrix.row(i).setZero();
+        matrix.col(i).setZero();
+        matrix(i, i) = 1;
+        gradient[i] = 0;
+      }
+      if (is_small) return step;
+    }
+  }
+
   // Moves to the minimum of the same problem with its discretisation's bias added to the model: one
   // Gauss-Newton step, for the bias is small. Weights stay.
   void SubtractDiscretisation() {
     bias_ = DiscretisationBias(model_, fit_.state);
     const RowMajorMatrix jacobian = weights_.Weighed(at_state_.jacobian);
-    const Eigen::VectorXd step = -InverseOf(jacobian.transpose() * jacobian + PriorInformation()) *
-                                 (jacobian.transpose() * weights_.Weighed(bias_));
+    const Eigen::VectorXd step = SmallStep(jacobian.transpose() * jacobian + PriorInformation(),
+                                           jacobian.transpose() * weights_.Weighed(bias_));
     Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters) + step;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const Parameter& p = fit_.parameters[static_cast<size_t>(i)];
