@@ -227,7 +227,7 @@ class OuterLoop {
   static Eigen::VectorXd SmallStep(Eigen::MatrixXd matrix, Eigen::VectorXd gradient) {
     constexpr double kMostStep = 0.05;
     while (true) {
-      const Eigen::VectorXd step = -InverseOf(matrix) * gradient;
+      Eigen::VectorXd step = -InverseOf(matrix) * gradient;
       bool is_small = true;
       for (Eigen::Index i = 0; i < step.size(); ++i) {
         if (std::abs(step[i]) <= kMostStep) continue;
