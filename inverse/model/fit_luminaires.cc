@@ -222,10 +222,10 @@ class OuterLoop {
     return move;
   }
 
-  // Solves the normal equations. Parameters that would move by more than 5 cm, 3 degrees or 5 % stay: rows hardly tell
-  // them (the width of a strip), and so far away the equations do not hold.
+  // Solves the normal equations. Parameters that would move by more than 0.3 m, 0.3 rad or 30 % stay: rows hardly tell
+  // them (the width of a strip), and so far away the equations do not hold (IsNear).
   static Eigen::VectorXd SmallStep(Eigen::MatrixXd matrix, Eigen::VectorXd gradient) {
-    constexpr double kMostStep = 0.05;
+    constexpr double kMostStep = 0.3;
     while (true) {
       Eigen::VectorXd step = -InverseOf(matrix) * gradient;
       bool is_small = true;
