@@ -44,7 +44,7 @@ std::vector<bool> MoveFlatPieces(const PlaneMove& plane, Scene& scene) {
         high = std::max(high, Above(plane, p));
       }
     }
-    // What lies in the plane alone is a part of it.
+    // A piece that lies wholly in the plane is a part of it.
     if (std::abs(low) > kOnPlaneM || high > kFlatPieceM || high < kOnPlaneM) continue;
     for (const int f : piece) {
       moved[static_cast<size_t>(f)] = true;

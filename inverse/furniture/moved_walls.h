@@ -9,7 +9,7 @@
 //   - the offset of other blocks lowers the loss of blocks left out by more than two standard errors and by a twentieth;
 //   - two views or more differ less at o than at the mesh; sigma holds what their poses leave open;
 //   - no surveyed tag that faces as it does lies on the mesh's plane.
-// Of several planes the one with the largest gain moves first; the others are swept again in the mesh that it leaves.
+// The plane with the largest gain moves first. The others are swept again in the mesh that it leaves.
 //
 // Metres, world frame. Only planes of the hull with flat facets are looked at (internal/hull_planes.h): not those of scans,
 // nor walls with parts of the room behind them. Fewer than three views find nothing. Source: own.

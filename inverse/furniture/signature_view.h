@@ -25,7 +25,7 @@ constexpr int kSignatureWidthPx = 480;
 struct SignatureView {
   Eigen::Isometry3d cam_from_world = Eigen::Isometry3d::Identity();
   Eigen::Matrix3d pixel_from_ray = Eigen::Matrix3d::Identity();  // of the pinhole
-  // Of the pose, as RegisteredView has it: (rotation vector in world axes rad, eye in world m).
+  // Covariance of the pose as in RegisteredView: (rotation vector in world axes rad, eye in world m).
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   int width_px = 0, height_px = 0, states = 0;
   std::vector<float> log_luminance;  // height x width x states

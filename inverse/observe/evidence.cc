@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-// Of luminaires that nobody names, some are on in every state.
+// A state is never dark where nobody names the luminaires: some of them are on.
 bool IsDark(const StateTable& states, int state) {
   return !states.luminaires.empty() && (states.dimming[static_cast<size_t>(state)].array() == 0).all();
 }

@@ -2,7 +2,7 @@
 //
 //   tags of every photo -> pose of every view, focal lengths -> furniture -> Observe
 //
-// Of each view, the six photos of most light tell its pose. A photo whose tags are those of another view takes no part.
+// The six brightest photos of each view tell its pose. A photo whose tags are those of another view takes no part.
 // Where the tags contradict a focal length (Registration::focal_scale), poses and pixels both take the corrected one.
 // Where furniture is looked for and found, what photos show is observed in the room with it. `luxfit run` goes the same way (apps/stages/register, apps/stages/observe), and has COLMAP beside it.
 //

@@ -146,7 +146,7 @@ Sight PatchSightOf(const Patches& patches, int patch, const Luminaire& luminaire
                    const std::vector<Blocker>& blockers) {
   const Patch& of = patches.patches[static_cast<size_t>(patch)];
   const Facet& facet = patches.facets[static_cast<size_t>(of.facet)];
-  // What is left of a patch that is not whole lies in its parallelogram, and may lie outside its triangle.
+  // The parallelogram encloses the free part of a patch that is not whole. Its triangle may not.
   const ConvexPolygon polygon =
       MakePolygon(of.origin, of.edge_u, of.edge_v, of.is_whole ? facet.kind : FacetKind::kParallelogram);
   const std::optional<Outline> outline = OutlineTowards(luminaire, polygon);

@@ -25,7 +25,7 @@ TEST(ViewTagsTest, SixPhotosOfMostLightTellAView) {
       MostLitPhotos({"b", "a", "b", "b", "b", "b", "b", "b"}, {1, 1, 4, 4, 0, 2, 3, 5});
   ASSERT_THAT(photos, SizeIs(2));
   EXPECT_THAT(photos.at("a"), ElementsAre(1));
-  // Of equal light, the first; the darkest takes no part.
+  // The first of equally lit photos comes first. The darkest takes no part.
   EXPECT_THAT(photos.at("b"), ElementsAre(7, 2, 3, 6, 5, 0));
 }
 
