@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/lens/internal/rotation_vector.h"
+#include "calib/register/internal/bundle/pose_refine.h"
 
 namespace luxfit {
 namespace {
@@ -76,8 +77,8 @@ std::vector<Eigen::Isometry3d> Solve(const std::vector<cv::Point3d>& points,
     cv::solvePnPGeneric(method == cv::SOLVEPNP_IPPE ? Flattened(points) : points, rays, identity,
                         cv::noArray(), rotations, translations, false, method);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
-      cv::solvePnPRefineLM(points, rays, identity, cv::noArray(), rotations[i], translations[i]);
-      poses.push_back(PoseOf(rotations[i].ptr<double>(), translations[i].ptr<double>()));
+      poses.push_back(
+          RefinePose(points, rays, PoseOf(rotations[i].ptr<double>(), translations[i].ptr<double>())));
       poses.back().translation() -= poses.back().linear() * centroid;
     }
   } catch (const cv::Exception&) {
