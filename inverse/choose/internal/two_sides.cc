@@ -13,7 +13,7 @@ namespace {
 constexpr double kExplained = 0.01;  // model error that a luxmeter, read to 3 %, would not show
 constexpr int kMaxElements = 1000;
 
-// Returns the fit of a point that lights both sides where left-out data prefer it.
+// Returns the fit of a point that lights both sides where left-out data prefer one.
 std::optional<FittedModel> FitTwoSides(const Room& room, const SubProblem& problem) {
   const auto k = static_cast<size_t>(problem.luminaire);
   const Luminaire& start = problem.state.luminaires[k];
@@ -21,15 +21,19 @@ std::optional<FittedModel> FitTwoSides(const Room& room, const SubProblem& probl
   const FittedModel one = FitModel(room, problem, start, free);
   if (one.left_out.relative_sigma <= kExplained) return {};
   free.exponent = free.tilt = false;
+  Luminaire globe = start;
+  globe.distribution = Distribution::kIsotropic;
+  FittedModel even = FitModel(room, problem, globe, free);
   free.sides = true;
   FittedModel two = FitModel(room, problem, LitOnBothSides(start), free);
-  std::vector<GroupScores> scores = ScoreTogether(problem, {&one.left_out, &two.left_out});
+  std::vector<GroupScores> scores = ScoreTogether(problem, {&one.left_out, &even.left_out, &two.left_out});
   SelectionOptions options;
   options.keeps_first = true;
   const Selection selection = SimplestWithinOneStandardError(
-      {{std::move(scores[0]), 1, true}, {std::move(scores[1]), 1, true}}, options);
+      {{std::move(scores[0]), 1, true}, {std::move(scores[1]), 0, true}, {std::move(scores[2]), 1, true}},
+      options);
   if (selection.chosen == 0) return {};
-  return two;
+  return selection.chosen == 1 ? even : two;
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // Chooses for each luminaire, before its model is chosen, whether it lights up and down.
 //
+//   I = 1 / (4 pi)                                                                    a globe
 //   I = (1 - u) cos(gamma) / pi below the horizontal, -u cos(gamma) / pi above        u: share of the flux up
 //
 // A pendant that lights both sides looks to a lobe like a luminaire elsewhere: its place, the reflectances and every
-// other luminaire would be wrong where models are compared. So a point that lights both sides is compared with the
-// luminaire as it is on the light that photos measured, which no model of a luminaire enters. Both have one
-// parameter beside place and flux. Where the luminaire as it is leaves no more than 1 %, nothing is tried. Nor is it
+// other luminaire would be wrong where models are compared, and so would the indirect light that they are compared
+// with. So points that light both sides are compared with the luminaire as it is on the light that photos measured,
+// which no model of a luminaire enters. Beside place and flux a globe has no parameter, the others have one. Where the luminaire as it is leaves no more than 1 %, nothing is tried. Nor is it
 // where no data show light from its back: light that nothing sees could be as much as one likes.
 //
 // Source: house; rule: inverse/select/one_standard_error.h.

@@ -224,27 +224,6 @@ bool AreSwitchedTogether(const TracedRoom& room, Eigen::Index a, Eigen::Index b)
                      [&](const Eigen::VectorXd& d) { return d[a] == d[b]; });
 }
 
-// Returns the luminaire of the fit for each true one: the nearest that the same states switch.
-std::vector<size_t> MatchesOf(const TracedRoom& room, const RoomFit& fit) {
-  std::vector<size_t> matches;
-  std::vector<bool> is_taken(room.luminaires.size(), false);
-  for (size_t k = 0; k < room.luminaires.size(); ++k) {
-    size_t nearest = room.luminaires.size();
-    const auto off = [&](size_t i) {
-      return (fit.fit.state.luminaires[i].position - room.luminaires[k].position).norm();
-    };
-    for (size_t j = 0; j < room.luminaires.size(); ++j) {
-      if (is_taken[j] ||
-          !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
-        continue;
-      if (nearest == room.luminaires.size() || off(j) < off(nearest)) nearest = j;
-    }
-    is_taken[nearest] = true;
-    matches.push_back(nearest);
-  }
-  return matches;
-}
-
 double WorstZ(const RoomFit& fit, int luminaire, const Eigen::Vector3d& truth) {
   double worst = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -349,6 +328,26 @@ RoomFit FitTimed(const Room& model, const RoomObservations& given) {
 }
 
 }  // namespace
+
+std::vector<size_t> MatchesOf(const TracedRoom& room, const RoomFit& fit) {
+  std::vector<size_t> matches;
+  std::vector<bool> is_taken(room.luminaires.size(), false);
+  for (size_t k = 0; k < room.luminaires.size(); ++k) {
+    size_t nearest = room.luminaires.size();
+    const auto off = [&](size_t i) {
+      return (fit.fit.state.luminaires[i].position - room.luminaires[k].position).norm();
+    };
+    for (size_t j = 0; j < room.luminaires.size(); ++j) {
+      if (is_taken[j] ||
+          !AreSwitchedTogether(room, static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)))
+        continue;
+      if (nearest == room.luminaires.size() || off(j) < off(nearest)) nearest = j;
+    }
+    is_taken[nearest] = true;
+    matches.push_back(nearest);
+  }
+  return matches;
+}
 
 RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::mt19937_64& rng,
                                const TracedRoomOptions& options) {

@@ -41,6 +41,9 @@ struct TracedRoomOptions {
 RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::mt19937_64& rng,
                                const TracedRoomOptions& options = {});
 
+// Returns the luminaire of the fit for each true one: the nearest that the same states switch.
+std::vector<size_t> MatchesOf(const TracedRoom& room, const RoomFit& fit);
+
 struct FoundLimits {
   double outlined_off_mm = 5.3;  // of luminaires whose outlines photos show
   double off_mm = 60;            // of others

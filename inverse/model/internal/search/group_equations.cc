@@ -47,6 +47,7 @@ void GroupEquations::SetUp(const std::vector<int>& material, const Eigen::Vector
       root_weight_[i] = 1 / sigma;
       target_[i] = (is_reading ? value[i] : -indirect[i]) / sigma;
       others_(i, static_cast<Eigen::Index>(m)) = (is_reading ? 1 : -value[i]) / sigma;
+      if (!is_reading && white * value[i] > 2 * indirect[i]) lit_.push_back(i);
     }
   }
 }
@@ -84,6 +85,13 @@ GroupEquations::Base GroupEquations::Solve(const Eigen::MatrixXd& sources) const
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(spanned);
   base.positive = (qr.householderQ() * Eigen::MatrixXd::Identity(spanned.rows(), qr.rank())).cast<float>();
   return base;
+}
+
+double GroupEquations::MeanSquare(const Eigen::VectorXd& residual) const {
+  constexpr size_t kFewest = 20;
+  const double of_all = residual.squaredNorm() / static_cast<double>(residual.size());
+  if (lit_.size() < kFewest) return of_all;
+  return std::max(of_all, residual(lit_).squaredNorm() / static_cast<double>(lit_.size()));
 }
 
 GroupEquations::Solution GroupEquations::SolveWith(const Base& base, const Eigen::VectorXd& source) const {

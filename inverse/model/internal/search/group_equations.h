@@ -48,6 +48,10 @@ class GroupEquations {
   Base Solve(const Eigen::MatrixXd& sources) const;
   // Returns the light of each row that the solution leaves unexplained: lx, or radiosity over reflectance.
   Eigen::VectorXd Unexplained(const Base& base) const { return base.residual.cwiseQuotient(root_weight_); }
+  // Returns the mean square of a solution's residuals: over all rows, or over those that direct light fills by half and
+  // more where that is larger and there are enough of them. A narrow beam falls on few rows; the others are explained
+  // whatever the source.
+  double MeanSquare(const Eigen::VectorXd& residual) const;
   // Solves with one more source, whose strength comes last.
   Solution SolveWith(const Base& base, const Eigen::VectorXd& source) const;
   // Returns by how much each of `sources`, as one more, lowers the squares while no unknown meets its bound; 0
@@ -63,7 +67,8 @@ class GroupEquations {
   std::vector<Eigen::Index> rows_;
   std::vector<int> materials_;
   Eigen::VectorXd root_weight_, target_;
-  Eigen::MatrixXd others_;  // columns of q and b
+  std::vector<Eigen::Index> lit_;  // of the rows, those that direct light fills
+  Eigen::MatrixXd others_;         // columns of q and b
 };
 
 }  // namespace luxfit

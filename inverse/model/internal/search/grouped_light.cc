@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "inverse/model/internal/search/spread_elements.h"
+
 namespace luxfit {
 namespace {
 
@@ -63,7 +65,7 @@ struct Place {
 std::vector<Place> PlacesOf(const Room& room, const LightData& data, int max_places) {
   std::vector<Place> places;
   std::map<int, std::vector<Measurement>> by_element;
-  for (const Observation& o : ThinElements(data.observations, max_places))
+  for (const Observation& o : SpreadElements(room, data, max_places))
     by_element[o.element].push_back({o.state, o.relative_luminance, o.relative_indirect});
   for (auto& [index, list] : by_element) {
     const Element& element = room.patches.elements[static_cast<size_t>(index)];

@@ -26,7 +26,8 @@ struct GroupedLight {
   Eigen::MatrixXd indirect;   // I, likewise; 0 for readings
 };
 
-// `data`: with measured indirect light, or readings alone. Returns at most about `max_places` elements.
+// `data`: with measured indirect light, or readings alone. Returns about `max_places` elements, and
+// those that narrow beams take beside (inverse/model/internal/search/spread_elements.h).
 GroupedLight GroupLight(const Room& room, const LightData& data, int max_places);
 
 }  // namespace luxfit

@@ -30,6 +30,10 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
 // others: 5 %. Half a metre off, no lobe explains a room's light so well.
 constexpr double kExplained = 0.25;
 
+// The same of simple lobes, at any place, below which aimed ones need no trial: 2 %. A lobe along an axis at a wrong place may
+// explain a beam to 4 %.
+constexpr double kWellExplained = 0.04;
+
 // Ratio of squares up to which a place explains the light nearly as well as the best. Neighbouring rows share
 // their errors, so the few facets do not tell such places apart.
 constexpr double kRival = 1.5;
@@ -161,7 +165,7 @@ class GroupSearch {
       columns.col(static_cast<Eigen::Index>(j)) =
           LobeColumns(others.Weighted(here.light[0]), {sources_[j].lobe}).cast<double>();
     }
-    return others.Solve(columns).solution.cost / static_cast<double>(others.rows().size());
+    return others.MeanSquare(others.Solve(columns).residual);
   }
   const std::vector<Tried>& sources() const { return sources_; }
   bool is_held(size_t source) const { return kind_[source].is_held; }
@@ -395,7 +399,7 @@ class GroupFinder {
   // A narrow beam falls on few rows. Lowered weights would hide it, so all rows judge the lobes.
   SparseRun BestLobes(const std::vector<SparseSource>& start, const LitPlaces& grid, int refinements) const {
     SparseRun simple = RunWith(LobeSet::kSimple, start, grid, refinements);
-    if (IsComplete(simple) && simple.mean_square_of_all < kExplained) return simple;
+    if (IsComplete(simple) && simple.mean_square_of_all < kWellExplained) return simple;
     SparseRun aimed = RunWith(LobeSet::kAimed, start, grid, refinements);
     const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
                            kRival * aimed.mean_square_of_all < simple.mean_square_of_all;

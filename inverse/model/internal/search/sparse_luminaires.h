@@ -9,7 +9,7 @@
 // Luminaires are added one at a time, each where the remaining squares fall most with all other unknowns
 // solved anew. Halving the grid about the place refines it; the other places are refined in turn.
 //
-// Simple lobes come first. Where they leave more than 5 % rms of the light, lobes of any aim are searched too
+// Simple lobes come first. Where they leave more than 2 % rms of the light in the beam, lobes of any aim are searched too
 // (inverse/model/internal/search/lobes.h), refined in place, aim and width at once. They are kept where simple ones
 // leave half more squares.
 //

@@ -1,0 +1,311 @@
+#include "tests/support/inverse/random_room.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "tests/support/scenes.h"
+
+namespace luxfit::support {
+namespace {
+
+using Eigen::AlignedBox2d;
+using Eigen::AlignedBox3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+double Uniform(std::mt19937_64& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
+int Whole(std::mt19937_64& rng, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(rng);
+}
+
+// A floor of one rectangle or of two that make an L.
+struct Plan {
+  std::vector<AlignedBox2d> parts;
+  std::vector<Vector2d> corners;  // counter-clockwise
+  double height_m = 0;
+  std::string name;
+
+  bool Holds(const Vector2d& p, double margin_m) const {
+    const auto inside = [&](const AlignedBox2d& part, const Vector2d& q) { return part.contains(q); };
+    for (const double a : {-margin_m, margin_m}) {
+      for (const double b : {-margin_m, margin_m}) {
+        const Vector2d q = p + Vector2d(a, b);
+        if (std::none_of(parts.begin(), parts.end(), [&](const auto& part) { return inside(part, q); }))
+          return false;
+      }
+    }
+    return true;
+  }
+  AlignedBox2d Bounds() const {
+    AlignedBox2d bounds;
+    for (const AlignedBox2d& part : parts) bounds.extend(part);
+    return bounds;
+  }
+};
+
+Plan DrawPlan(std::mt19937_64& rng) {
+  Plan plan;
+  plan.height_m = Uniform(rng, 2.4, 3.4);
+  const int kind = Whole(rng, 0, 9);
+  Vector2d size(Uniform(rng, 3, 10), Uniform(rng, 2.5, 7));
+  if (kind == 0) size = {Uniform(rng, 9, 15), Uniform(rng, 1.6, 2.4)};
+  if (kind < 7) {
+    plan.name = kind == 0 ? "corridor" : "box";
+    plan.parts = {AlignedBox2d(Vector2d::Zero(), size)};
+    plan.corners = {{0, 0}, {size.x(), 0}, size, {0, size.y()}};
+    return plan;
+  }
+  plan.name = "L";
+  size = size.cwiseMax(Vector2d(5, 4.5));
+  const Vector2d inner(size.x() * Uniform(rng, 0.4, 0.65), size.y() * Uniform(rng, 0.4, 0.65));
+  plan.parts = {AlignedBox2d(Vector2d::Zero(), Vector2d(size.x(), inner.y())),
+                AlignedBox2d(Vector2d(0, inner.y()), Vector2d(inner.x(), size.y()))};
+  plan.corners = {{0, 0}, {size.x(), 0}, {size.x(), inner.y()}, inner, {inner.x(), size.y()}, {0, size.y()}};
+  return plan;
+}
+
+Scene Shell(const Plan& plan) {
+  Scene scene;
+  const Vector3d x(1, 0, 0), y(0, 1, 0);
+  for (size_t i = 0; i < plan.corners.size(); ++i) {
+    const Vector2d along = plan.corners[(i + 1) % plan.corners.size()] - plan.corners[i];
+    AddParallelogram(scene, {plan.corners[i].x(), plan.corners[i].y(), 0}, {0, 0, plan.height_m},
+                     {along.x(), along.y(), 0}, i == 0 ? "wall_front" : "wall");
+  }
+  for (const AlignedBox2d& part : plan.parts) {
+    const Vector2d at = part.min(), size = part.sizes();
+    AddParallelogram(scene, {at.x(), at.y(), 0}, size.x() * x, size.y() * y, "floor");
+    AddParallelogram(scene, {at.x(), at.y(), plan.height_m}, size.y() * y, size.x() * x, "ceiling");
+  }
+  return scene;
+}
+
+struct Furniture {
+  AlignedBox3d box;
+  std::string material;
+};
+
+// A desk's top on nothing, or a cabinet on the floor.
+Furniture DrawPiece(const Plan& plan, std::mt19937_64& rng) {
+  const AlignedBox2d bounds = plan.Bounds();
+  const Vector2d at(Uniform(rng, 0, bounds.sizes().x()), Uniform(rng, 0, bounds.sizes().y()));
+  const bool is_desk = Whole(rng, 0, 1) == 0;
+  Vector2d size(is_desk ? Uniform(rng, 1.2, 2) : Uniform(rng, 0.6, 1.6),
+                is_desk ? Uniform(rng, 0.6, 0.9) : Uniform(rng, 0.35, 0.6));
+  if (Whole(rng, 0, 1) == 0) std::swap(size.x(), size.y());
+  const double top = is_desk ? Uniform(rng, 0.68, 0.76) : Uniform(rng, 0.7, 2);
+  const double bottom = is_desk ? top - 0.03 : 0;
+  return {{Vector3d(at.x(), at.y(), bottom), Vector3d(at.x() + size.x(), at.y() + size.y(), top)},
+          is_desk ? "desk" : "cabinet"};
+}
+
+AlignedBox2d FootprintOf(const Furniture& piece) {
+  return {piece.box.min().head<2>(), piece.box.max().head<2>()};
+}
+
+bool Fits(const Plan& plan, const Furniture& piece, const std::vector<Furniture>& others) {
+  constexpr double kGap = 0.05;
+  const AlignedBox2d foot = FootprintOf(piece);
+  for (const Vector2d& corner : {foot.min(), foot.max()})
+    if (!plan.Holds(corner, kGap)) return false;
+  if (!plan.Holds({foot.min().x(), foot.max().y()}, kGap) ||
+      !plan.Holds({foot.max().x(), foot.min().y()}, kGap))
+    return false;
+  const AlignedBox2d wide(foot.min().array() - kGap, foot.max().array() + kGap);
+  return std::none_of(others.begin(), others.end(),
+                      [&](const Furniture& other) { return wide.intersects(FootprintOf(other)); });
+}
+
+std::vector<Furniture> DrawFurniture(const Plan& plan, std::mt19937_64& rng) {
+  std::vector<Furniture> pieces;
+  const int wanted = Whole(rng, 0, 6);
+  for (int tries = 0; tries < 200 && static_cast<int>(pieces.size()) < wanted; ++tries) {
+    const Furniture piece = DrawPiece(plan, rng);
+    if (Fits(plan, piece, pieces)) pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+// Whether a point stands free: off walls, and not over, in or beside furniture that reaches above `height_m`.
+bool IsFree(const Plan& plan, const std::vector<Furniture>& pieces, const Vector2d& p, double height_m,
+            double margin_m) {
+  if (!plan.Holds(p, margin_m)) return false;
+  return std::none_of(pieces.begin(), pieces.end(), [&](const Furniture& piece) {
+    const AlignedBox2d foot = FootprintOf(piece);
+    return piece.box.max().z() > height_m - 0.05 && foot.exteriorDistance(p) < 0.15;
+  });
+}
+
+enum class LuminaireKind { kPanel, kStrip, kDownlight, kGlobe };
+
+std::string NameOf(LuminaireKind kind) {
+  switch (kind) {
+    case LuminaireKind::kPanel:
+      return "panels";
+    case LuminaireKind::kStrip:
+      return "strips";
+    case LuminaireKind::kDownlight:
+      return "downlights";
+    case LuminaireKind::kGlobe:
+      return "globes";
+  }
+  return "";
+}
+
+// A type: all of one kind are alike but for place and a flux that differs by 2 %.
+Luminaire DrawType(LuminaireKind kind, double height_m, std::mt19937_64& rng) {
+  Luminaire type;
+  type.position.z() = height_m - 0.01;
+  if (Whole(rng, 0, 1) == 0) type.heading = {0, 1, 0};
+  switch (kind) {
+    case LuminaireKind::kPanel:
+      type.shape = LuminaireShape::kRectangle, type.size_m = {0.6, 0.6},
+      type.flux_lm = Uniform(rng, 2500, 4000);
+      break;
+    case LuminaireKind::kStrip:
+      type.shape = LuminaireShape::kRectangle,
+      type.size_m = {Uniform(rng, 1.1, 1.6), Uniform(rng, 0.06, 0.2)};
+      type.flux_lm = Uniform(rng, 2000, 4500);
+      type.position.z() = height_m - Uniform(rng, 0.01, 0.4);
+      break;
+    case LuminaireKind::kDownlight:
+      type.shape = LuminaireShape::kDisc, type.size_m.setConstant(Uniform(rng, 0.08, 0.2));
+      type.distribution = Distribution::kCosinePower, type.cosine_exponent = Uniform(rng, 1.5, 8);
+      type.flux_lm = Uniform(rng, 600, 1800);
+      break;
+    case LuminaireKind::kGlobe:
+      type.shape = LuminaireShape::kSphere, type.size_m.setConstant(Uniform(rng, 0.15, 0.35));
+      type.distribution = Distribution::kIsotropic, type.flux_lm = Uniform(rng, 600, 1500);
+      type.position.z() = height_m - Uniform(rng, 0.4, 0.9);
+      break;
+  }
+  return type;
+}
+
+// Places over the plan at least `apart_m` from each other and from `taken`, `margin_m` from the walls.
+std::vector<Vector2d> DrawPlaces(const Plan& plan, int count, double apart_m, double margin_m,
+                                 std::vector<Vector2d> taken, std::mt19937_64& rng) {
+  const AlignedBox2d bounds = plan.Bounds();
+  const size_t before = taken.size();
+  for (int tries = 0; tries < 400 && static_cast<int>(taken.size() - before) < count; ++tries) {
+    const Vector2d p(Uniform(rng, 0, bounds.sizes().x()), Uniform(rng, 0, bounds.sizes().y()));
+    const bool is_apart = std::all_of(taken.begin(), taken.end(),
+                                      [&](const Vector2d& other) { return (other - p).norm() > apart_m; });
+    if (is_apart && plan.Holds(p, margin_m)) taken.push_back(p);
+  }
+  return {taken.begin() + static_cast<std::ptrdiff_t>(before), taken.end()};
+}
+
+// Adds one or two kinds, and says which luminaires belong to which (by kind, their indices).
+std::vector<std::vector<int>> AddLuminaires(const Plan& plan, TracedRoom& room, std::string& words,
+                                            std::mt19937_64& rng) {
+  std::vector<std::vector<int>> kinds;
+  std::vector<Vector2d> taken;
+  const int count = Whole(rng, 1, 2);
+  for (int i = 0; i < count; ++i) {
+    const auto kind = static_cast<LuminaireKind>(Whole(rng, 0, 3));
+    const Luminaire type = DrawType(kind, plan.height_m, rng);
+    const double margin_m = std::max(0.45, type.size_m.maxCoeff() / 2 + 0.05);
+    const double apart_m = std::max(1.3, type.size_m.maxCoeff() + 0.1);
+    const std::vector<Vector2d> places = DrawPlaces(plan, Whole(rng, 1, 6), apart_m, margin_m, taken, rng);
+    if (places.empty()) continue;
+    words += (kinds.empty() ? "" : " + ") + std::to_string(places.size()) + " " + NameOf(kind);
+    kinds.emplace_back();
+    for (const Vector2d& p : places) {
+      Luminaire luminaire = type;
+      luminaire.id = std::string(1, static_cast<char>('A' + room.luminaires.size()));
+      luminaire.position.head<2>() = p;
+      luminaire.flux_lm *= 1 + 0.02 * std::normal_distribution<double>()(rng);
+      kinds.back().push_back(static_cast<int>(room.luminaires.size()));
+      room.luminaires.push_back(luminaire);
+      taken.push_back(p);
+    }
+  }
+  return kinds;
+}
+
+// One state a luminaire, or one a kind; and all on.
+void AddStates(const std::vector<std::vector<int>>& kinds, TracedRoom& room, std::mt19937_64& rng) {
+  const auto n = static_cast<Eigen::Index>(room.luminaires.size());
+  const bool alone = Whole(rng, 0, 1) == 0;
+  for (const std::vector<int>& kind : kinds) {
+    if (!alone) room.dimming.emplace_back(Eigen::VectorXd::Zero(n));
+    for (const int k : kind) {
+      if (alone) room.dimming.emplace_back(Eigen::VectorXd::Zero(n));
+      room.dimming.back()[k] = 1;
+    }
+  }
+  if (room.dimming.size() > 1) room.dimming.emplace_back(Eigen::VectorXd::Ones(n));
+}
+
+void AddViews(const Plan& plan, const std::vector<Furniture>& pieces, TracedRoom& room,
+              std::mt19937_64& rng) {
+  const AlignedBox2d bounds = plan.Bounds();
+  const size_t count = static_cast<size_t>(Whole(rng, 5, 10));
+  while (room.eyes.size() < count) {
+    const Vector2d p(Uniform(rng, 0, bounds.sizes().x()), Uniform(rng, 0, bounds.sizes().y()));
+    const double height_m = Uniform(rng, 1.3, 1.8);
+    if (IsFree(plan, pieces, p, height_m, 0.25)) room.eyes.emplace_back(p.x(), p.y(), height_m);
+  }
+}
+
+void AddReadingPlaces(const Plan& plan, const std::vector<Furniture>& pieces, TracedRoom& room,
+                      std::mt19937_64& rng) {
+  const AlignedBox2d bounds = plan.Bounds();
+  const size_t count = static_cast<size_t>(Whole(rng, 5, 10));
+  while (room.places.size() < count) {
+    const Vector2d p(Uniform(rng, 0, bounds.sizes().x()), Uniform(rng, 0, bounds.sizes().y()));
+    if (IsFree(plan, pieces, p, 0.85, 0.3)) room.places.push_back({{p.x(), p.y(), 0.85}, {0, 0, 1}, {}});
+  }
+}
+
+double DrawAlbedo(const std::string& material, std::mt19937_64& rng) {
+  if (material == "floor") return Uniform(rng, 0.1, 0.4);
+  if (material == "ceiling") return Uniform(rng, 0.65, 0.88);
+  if (material == "wall") return Uniform(rng, 0.4, 0.85);
+  return Uniform(rng, 0.1, 0.8);
+}
+
+}  // namespace
+
+RandomRoom DrawRoom(std::mt19937_64& rng, const RandomRoomOptions& options) {
+  RandomRoom drawn;
+  const Plan plan = DrawPlan(rng);
+  const std::vector<Furniture> pieces = DrawFurniture(plan, rng);
+  drawn.room.truth = Shell(plan);
+  drawn.mesh = drawn.room.truth;
+  int left_out = 0;
+  // Materials of the mesh come first: pieces that it has before those that it lacks.
+  const int lacking =
+      static_cast<int>(std::lround(options.missing_share * static_cast<double>(pieces.size())));
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    AddBox(drawn.room.truth, pieces[i].box, Facing::kOutward, {pieces[i].material});
+    if (i + static_cast<size_t>(lacking) < pieces.size())
+      AddBox(drawn.mesh, pieces[i].box, Facing::kOutward, {pieces[i].material});
+    else
+      ++left_out;
+  }
+  drawn.room.albedo.resize(static_cast<Eigen::Index>(drawn.room.truth.materials.size()));
+  for (size_t m = 0; m < drawn.room.truth.materials.size(); ++m)
+    drawn.room.albedo[static_cast<Eigen::Index>(m)] = DrawAlbedo(drawn.room.truth.materials[m], rng);
+  std::string kinds;
+  AddStates(AddLuminaires(plan, drawn.room, kinds, rng), drawn.room, rng);
+  AddViews(plan, pieces, drawn.room, rng);
+  AddReadingPlaces(plan, pieces, drawn.room, rng);
+  for (const AlignedBox2d& part : plan.parts) drawn.area_m2 += part.volume();
+  const Vector2d size = plan.Bounds().sizes();
+  char text[160];
+  std::snprintf(text, sizeof text, "%s of %.1f m x %.1f m x %.1f m, %zu boxes, %d not in the mesh, ",
+                plan.name.c_str(), size.x(), size.y(), plan.height_m, pieces.size(), left_out);
+  drawn.words = text + kinds + " in " + std::to_string(drawn.room.dimming.size()) + " states, " +
+                std::to_string(drawn.room.eyes.size()) + " views";
+  return drawn;
+}
+
+}  // namespace luxfit::support
