@@ -1,6 +1,7 @@
 #include "apps/report/report.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/export/fit_uncertainty.h"
@@ -8,6 +9,8 @@
 #include "apps/report/report_places.h"
 #include "apps/report/report_room.h"
 #include "apps/report/report_views.h"
+#include "apps/report/shown_paths.h"
+#include "apps/session/report_details.h"
 #include "apps/session/session_scene.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/text/formats/artifact.h"
@@ -82,28 +85,54 @@ json TasksJson() {
   return tasks;
 }
 
+json DetailsJson(const ReportDetails& details) {
+  return {{"title", details.title},
+          {"client", details.client},
+          {"address", details.address},
+          {"author", details.author},
+          {"date", details.date},
+          {"meter", details.meter},
+          {"meter_serial", details.meter_serial},
+          {"meter_calibrated", details.meter_calibrated}};
+}
+
+// A targets file that has [report] alone keeps the default areas and observers.
+ReportTargets TargetsOf(const FittedRoom& fitted, const ReportOptions& options) {
+  ReportTargets standard = DefaultTargets(fitted.room.scene);
+  if (options.targets_path.empty()) return standard;
+  ReportTargets targets = ReadTargets(options.targets_path);
+  if (!targets.areas.empty() || !targets.observers.empty()) return targets;
+  standard.path = targets.path;
+  standard.details = targets.details;
+  return standard;
+}
+
+std::string FolderOf(const std::string& file) { return std::filesystem::path(file).parent_path().string(); }
+
 }  // namespace
 
 json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
-  const ReportTargets targets =
-      options.targets_path.empty() ? DefaultTargets(fitted.room.scene) : ReadTargets(options.targets_path);
+  const ReportTargets targets = TargetsOf(fitted, options);
+  const ReportDetails details = CompletedBy(targets.details, ReportDetailsOfSession(fitted.session.path));
+  const std::vector<std::string> folders = {FolderOf(fitted.session.path), fitted.out};
   const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
   DimmingOf(fitted, state);  // throws, naming the known states, where it is none
   json data = {{"format", "luxfit-report-1"},    {"luxfit_version", kVersion},        {"date", NowUtc()},
                {"session", fitted.session.name}, {"is_absolute", fitted.is_absolute}, {"state", state}};
-  data["result"] = *fitted.result;
+  data["details"] = DetailsJson(details);
+  data["result"] = JsonWithoutFolders(*fitted.result, folders);
   data["states"] = StatesJson(fitted);
   const FitUncertainty fit = ReadFitUncertainty(fitted.out);
-  data["luminaires"] = ReportLuminairesJson(fitted, fit);
+  data["luminaires"] = JsonWithoutFolders(ReportLuminairesJson(fitted, fit), folders);
   data["room"] = ReportRoomJson(fitted);
   data["cameras"] = ReportCamerasJson(fitted);
   data["tags"] = ReportTagsJson(fitted);
   data["places"] = ReportPlacesJson(fitted, fit, targets);
   data["views"] = ReportViewsJson(fitted);
-  data["conditions"] = ConditionsJson(fitted);
+  data["conditions"] = JsonWithoutFolders(ConditionsJson(fitted), folders);
   data["tasks"] = TasksJson();
-  data["targets"] = {{"path", targets.path}, {"toml", TargetsToml(targets)}};
-  data["command"] = options.command_line;
+  data["targets"] = {{"path", WithoutFolders(targets.path, folders)}, {"toml", TargetsToml(targets)}};
+  data["command"] = WithoutFolders(options.command_line, folders);
   return data;
 }
 

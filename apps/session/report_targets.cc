@@ -144,7 +144,7 @@ const std::vector<LightingTask>& LightingTasks() {
 ReportTargets ReadTargets(const std::string& path) {
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
-  root.ExpectKeys({"area", "observer"});
+  root.ExpectKeys({"area", "observer", "report"});
   ReportTargets targets;
   targets.path = std::filesystem::absolute(path).lexically_normal().string();
   const auto areas = root.Find("area"), observers = root.Find("observer");
@@ -158,7 +158,9 @@ ReportTargets ReadTargets(const std::string& path) {
     UniqueIds(tables);
     for (const TomlCursor& table : tables) targets.observers.push_back(ReadObserver(table));
   }
-  if (!areas && !observers)
+  const auto report = root.Find("report");
+  if (report) targets.details = ReadReportDetails(*report);
+  if (!areas && !observers && !report)
     throw root.Error("expected an area or an observer, got neither; add [[area]] with id = \"...\"");
   return targets;
 }

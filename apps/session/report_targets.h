@@ -3,6 +3,7 @@
 //   [[area]]    id, task | average_lx, uniformity, ugr; height_m, polygon_m | origin_m, edge_u_m, edge_v_m;
 //               margin_m, spacing_m
 //   [[observer]] id, eye_m, looking; ugr
+//   [report]     apps/session/report_details.h
 //
 // A `task` is a row of EN 12464-1:2021, table 34 (offices) or 9 (traffic zones); keys beside it take
 // precedence. Without a polygon or edges an area is the whole floor at height_m, less margin_m. Absent
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/session/report_details.h"
 #include "forward/views/illuminance_plane.h"
 
 namespace luxfit {
@@ -49,6 +51,7 @@ struct TargetObserver {
 
 struct ReportTargets {
   std::string path;  // empty: the default
+  ReportDetails details;
   std::vector<TargetArea> areas;
   std::vector<TargetObserver> observers;
 };

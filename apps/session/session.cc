@@ -12,6 +12,7 @@
 #include "apps/session/internal/session_luxmeter.h"
 #include "apps/session/internal/session_photos.h"
 #include "apps/session/internal/session_states.h"
+#include "apps/session/report_details.h"
 #include "apps/session/session_files.h"
 #include "apps/session/session_luminaires.h"
 #include "apps/session/session_scene.h"
@@ -166,7 +167,9 @@ Session ReadSession(const std::string& path) {
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
   root.ExpectKeys({"name", "scene", "tags", "registration", "camera", "calibration", "photos", "groups",
-                   "states", "luminaires", "luminaire", "luxmeter", "lights"});
+                   "states", "luminaires", "luminaire", "luxmeter", "lights", "report"});
+  if (const auto report = root.Find("report"))
+    ReadReportDetails(*report);  // only checked: the report reads it
   ExpectObjectSession(root);
   const std::string folder = fs::path(path).parent_path().string();
   Session session;

@@ -1,5 +1,6 @@
 // Builds the page: its parts in the order in which they are read.
 
+import { cover } from './cover.js';
 import { readData } from './data.js';
 import { details, h, section } from './dom.js';
 import { digits, fixed, isNumber, plusMinus } from './format.js';
@@ -7,6 +8,7 @@ import { glareTable } from './glare_table.js';
 import { Light } from './light.js';
 import { lightBar, lightWords } from './light_bar.js';
 import { photoViews } from './photo_views.js';
+import { dimensionedPlan } from './plan.js';
 import { polarCurve } from './polar_curve.js';
 import { readingTable, readingsPart } from './readings.js';
 import { choices, conditions, provenance, reflectances, speed } from './record.js';
@@ -31,19 +33,14 @@ function cards(data, planes) {
     plane ? card(`${plane.plane.id}, state ${data.state}`, [digits(plane.statistics.average, 3), h('small', null, ' ', data.unit)], `mean; U\u2080 ${digits(plane.statistics.uniformity, 2)}`) : null);
 }
 
-function header(data) {
-  const whole = data.result.status === 'done';
-  return h('header', null, h('div', { class: 'title' }, h('h1', null, data.session), h('p', null, 'Light as found in the room: luminaires, illuminance, reflectances. ', h('span', { class: 'nowrap' }, data.date), ', luxfit ', data.luxfit_version)),
-    h('div', { class: 'actions' }, h('span', { class: 'status ' + (whole ? 'done' : 'undetermined') }, whole ? 'determined' : 'partly undetermined'),
-      h('button', { type: 'button', class: 'no-print', onclick: () => window.print() }, 'Print or save as PDF')));
-}
-
 function build(data) {
   const light = new Light(data), planes = data.room ? data.places.planes.map((p) => new WorkPlane(data, light, p)) : [];
   const room = data.room ? new RoomPart(data, light) : null;
   const scaleNote = data.is_absolute ? null : h('p', { class: 'notice' }, 'This session has no absolute scale: all light in this report is in relative units, not in lx, lm or cd/m\u00b2. Shapes, ratios and uniformity stand.');
   const parts = [
-    section('answer', 'The answer', null, cards(data, planes), scaleNote, schedule(data), h('p', { class: 'note' }, 'Intervals hold 95 % (1.96 standard deviations). C0 is counted from +x.'), findings(data)),
+    section('answer', 'The answer', null, cards(data, planes), scaleNote,
+      h('div', { class: 'found' }, h('h2', { class: 'print-only' }, 'Luminaires'), h('div', { class: data.room ? 'plan-and-schedule' : null }, data.room ? dimensionedPlan(data) : null,
+        h('div', { class: 'schedule-column' }, schedule(data), h('p', { class: 'note' }, 'Intervals hold 95 % (1.96 standard deviations). C0 is counted from +x.'))), findings(data))),
     section('readings', 'Measured against predicted', null, readingsPart(data)),
     room ? section('room', 'The room', null, room.element) : section('room', 'The room', 'The session has no mesh: there is no room to draw.'),
     planes.length > 0 ? section('planes', 'Work planes', h('span', null, 'Illuminance over areas, by the grid of EN 12464-1. ', h('span', { class: 'print-only' }, lightWords(data, light))), planes.map((p) => p.element)) : null,
@@ -58,7 +55,7 @@ function build(data) {
     section('provenance', 'Provenance', null, provenance(data)),
   ].filter(Boolean);
   const nav = h('nav', { class: 'no-print', 'aria-label': 'Parts of the report' }, parts.map((p) => h('a', { href: '#' + p.id }, kShortNames[p.id])));
-  document.getElementById('page').append(header(data), h('div', { class: 'bar no-print' }, nav, lightBar(data, light)), h('main', null, parts));
+  document.getElementById('page').append(cover(data), h('div', { class: 'bar no-print' }, nav, lightBar(data, light)), h('main', null, parts));
   return { data, light, room, planes };
 }
 

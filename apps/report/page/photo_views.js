@@ -21,18 +21,18 @@ function compared(view, data) {
 export function photoViews(data, light) {
   const { states, limit_percent: limit } = data.views;
   if (states.length === 0) return h('p', null, data.result.views.length > 0 ? 'No registered view was photographed with a luminaire on.' : 'The session has no photos: it was fitted to readings alone.');
-  const views = h('div', { class: 'views' });
+  const views = h('div', { class: 'views' }), shown = h('b');
   const show = (id) => {
     const state = states.find((s) => s.id === id);
     if (!state) return;
-    select.value = id;
+    select.value = shown.textContent = id;
     views.replaceChildren(...state.views.map((v) => compared(v, data)));
   };
   const select = h('select', { 'aria-label': 'State of the photos', onchange: (e) => show(e.target.value) }, states.map((s) => h('option', { value: s.id }, s.id)));
   show(states[0].id);
   show(data.state);
   light.onChange(() => light.state && show(light.state.id));
-  return h('div', null, h('p', null, h('label', null, 'State ', select), ': photo and prediction share one exposure.'), residualLegend(limit),
+  return h('div', null, h('p', null, h('label', { class: 'no-print' }, 'State ', select), h('span', { class: 'print-only' }, 'State ', shown), ': photo and prediction share one exposure.'), residualLegend(limit),
     data.views.scale_is_of_fit ? null : h('p', { class: 'note' }, 'Without an absolute scale the photos are brought to the predictions by one common factor.'),
     views);
 }

@@ -43,8 +43,8 @@ export function conditions(data) {
 }
 
 export function choices(data) {
-  return h('dl', { class: 'choices' }, data.result.choices.map((c) => [h('dt', null, c.what, ': ', h('b', null, c.chosen)),
-    h('dd', null, c.because, c.among.length > 1 ? details(`among ${c.among.length}`, c.among.join(', ')) : null)]));
+  return h('dl', { class: 'choices' }, data.result.choices.map((c) => h('div', null, h('dt', null, c.what, ': ', h('b', null, c.chosen)),
+    h('dd', null, c.because, c.among.length > 1 ? details(`among ${c.among.length}`, c.among.join(', ')) : null))));
 }
 
 // Stages of the run for the bar; stages within another have a bar of their own.
@@ -89,5 +89,5 @@ export function provenance(data) {
   return h('div', null, rows([['Session', data.result.session_file || data.session], ['Made by', `luxfit ${data.result.luxfit_version}`], ['Command', h('code', null, data.result.command || '\u2013')],
     ['Report', h('code', null, data.command || '\u2013')], ['Report written', data.date], ['Targets', data.targets.path || 'default: the floor against EN 12464-1:2021, writing, typing, reading']]),
     details(`${inputs.length} input files with their hashes (XXH3, 128 bit)`, h('div', { class: 'scroll' }, h('table', { class: 'hashes' }, h('tbody', null, inputs.map(([file, hash]) => h('tr', null, h('td', null, file), h('td', null, h('code', null, hash)))))))),
-    details('The targets as a file to edit (luxfit report OUT --targets FILE)', h('pre', null, data.targets.toml)));
+    h('div', { class: 'no-print' }, details('The targets as a file to edit (luxfit report OUT --targets FILE)', h('pre', null, data.targets.toml))));
 }

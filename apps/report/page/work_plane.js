@@ -99,12 +99,12 @@ export class WorkPlane {
     const row = (name, value, asked, mark) => h('tr', null, h('th', { scope: 'row', class: 'text' }, name), h('td', { class: 'number' }, value), h('td', { class: 'number' }, asked), h('td', null, mark));
     const kinds = this.plane.kinds, inSolid = kinds.filter((k) => k === 1).length, outside = kinds.filter((k) => k === 2).length;
     const { plane } = this, pitch = [length(plane.edge_u_m) / plane.count_u, length(plane.edge_v_m) / plane.count_v];
-    return [h('table', { class: 'plane-table' }, h('thead', null, h('tr', null, ['', 'found, 95 %', 'asked', ''].map((t) => h('th', null, t)))), h('tbody', null,
+    return [h('div', { class: 'scroll' }, h('table', { class: 'plane-table' }, h('thead', null, h('tr', null, ['', 'found, 95 %', 'asked', ''].map((t) => h('th', null, t)))), h('tbody', null,
       row(['E', h('sub', null, 'avg')], [plusMinus(s.average, s.averageSigma ?? 0), ' ', unit], isNumber(this.asked.average) ? `\u2265 ${this.asked.average} lx` : '\u2013', absolute ? judge(s.average, s.averageSigma, this.asked.average) : null),
       row(['E', h('sub', null, 'min')], [plusMinus(s.least, s.leastSigma ?? 0), ' ', unit], '', null),
       row(['E', h('sub', null, 'max')], [digits(s.largest), ' ', unit], '', null),
       row(['U', h('sub', null, '0'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'avg')], plusMinus(s.uniformity, s.uniformitySigma ?? 0, 3), isNumber(this.asked.uniformity) ? `\u2265 ${this.asked.uniformity}` : '\u2013', judge(s.uniformity, s.uniformitySigma, this.asked.uniformity)),
-      row(['U', h('sub', null, 'd'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'max')], digits(s.diversity, 3), '', null))),
+      row(['U', h('sub', null, 'd'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'max')], digits(s.diversity, 3), '', null)))),
     h('p', { class: 'note' }, `${plane.count_u} \u00d7 ${plane.count_v} points, ${fixed(pitch[0], 2)} m \u00d7 ${fixed(pitch[1], 2)} m apart, over ${fixed(length(plane.edge_u_m), 2)} m \u00d7 ${fixed(length(plane.edge_v_m), 2)} m at z = ${fixed(plane.origin_m[2], 2)} m. ${s.points} of them count` +
       (inSolid > 0 ? `; ${inSolid} left out inside furniture` : '') + (outside > 0 ? `; ${outside} left out beyond the area` : '') + '. ' +
       (s.averageSigma === null ? 'Intervals are not determined. ' : '') + 'As found: no maintenance factor is applied.' + (absolute ? '' : ' Without an absolute scale only uniformity can be judged.'))];

@@ -50,6 +50,22 @@ class ReportBrowserTest : public testing::Test {
     return json::parse(text);
   }
 
+  // Returns the width of the page's contents in a window of 390 px, which headless Chromium has as a frame only.
+  int WidthOnPhone(const std::string& report) const {
+    folder_.Write(
+        "phone.html",
+        "<iframe src='" + report +
+            "' style='width:390px;height:844px;border:0'></iframe><pre id=width></pre><script>"
+            "onload = () => setTimeout(() => { document.getElementById('width').textContent = 'px ' + "
+            "document.querySelector('iframe').contentDocument.documentElement.scrollWidth; }, 2000)"
+            "</script>");
+    const std::string dom = Browse(std::string(kWebGl) + " --allow-file-access-from-files --dump-dom",
+                                   folder_.Path("phone.html"));
+    const std::string open = "<pre id=\"width\">px ";
+    const size_t at = dom.find(open);
+    return at == std::string::npos ? 0 : std::stoi(dom.substr(at + open.size()));
+  }
+
   TempFolder folder_;
   static constexpr char kWebGl[] = "--use-angle=swiftshader --enable-unsafe-swiftshader";
 };
@@ -72,6 +88,14 @@ TEST_F(ReportBrowserTest, TheOfficePassesItsOwnTest) {
   size_t pages = 0;
   for (size_t at = 0; (at = pdf.find("/Type /Page\n", at)) != std::string::npos; ++at) ++pages;
   EXPECT_GE(pages, 4U) << pdf.size();
+  EXPECT_LE(pages, 9U);  // cover, luminaires, room, planes, photos, and an annex of four pages at most
+
+  // The page is handed on: it names no folder of this machine.
+  const std::string html = folder_.Read("out/report.html");
+  EXPECT_EQ(html.find(LUXFIT_FIXTURES), std::string::npos);
+  EXPECT_EQ(html.find(folder_.Path("")), std::string::npos);
+
+  EXPECT_EQ(WidthOnPhone("out/report.html"), 390);
 }
 
 // Names that end scripts, a fit without photos, and a browser without WebGL.
