@@ -37,7 +37,7 @@ bool IsDay(const std::string& text) {
 
 // Accepts a day as a text and as a date of TOML, which has no quotes.
 std::string Day(const TomlCursor& value) {
-  const std::string text = value.IsText() ? value.Text("a day") : value.Shown();
+  std::string text = value.IsText() ? value.Text("a day") : value.Shown();
   if (!IsDay(text))
     throw value.Error("expected a day YYYY-MM-DD, got " + value.Shown() + "; write \"2026-03-31\"");
   return text;

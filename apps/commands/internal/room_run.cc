@@ -91,6 +91,16 @@ bool HasFlux(const json& luminaire) {
   return luminaire.at("flux_lm").is_number() || luminaire.contains("flux_relative");
 }
 
+// Takes the session file as it is now into the inputs of a result that stands: its comments or [report], on which no
+// stage depends, may differ, and the report expects the file of the result. Returns whether it differs.
+bool TakeSessionFile(const std::string& session_path, json& result) {
+  const std::string hash = HashFile(session_path);
+  json& known = result.at("inputs")[session_path];
+  if (known == hash) return false;
+  known = hash;
+  return true;
+}
+
 // Writes the report page. Returns the seconds that it took.
 double MakeReport(const RunContext& context, const std::function<FittedRoom()>& fitted_room) {
   RunContext own;
@@ -135,8 +145,13 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   if (plan.is_up_to_date && !options.fresh) {
     std::fprintf(stderr, "done      nothing has changed since the last run: its result stands, %s\n",
                  path.c_str());
-    const json result = ReadResult(path);
-    if (has_report(result) && !std::filesystem::exists(context.out + "/report.html"))
+    json result = ReadResult(path);
+    const bool is_said_anew = TakeSessionFile(session.path, result);
+    if (is_said_anew) {
+      WriteJson(path, result);
+      KeepInputs(context.out, "result", WithOutputs(inputs.result, context.out));
+    }
+    if (has_report(result) && (is_said_anew || !std::filesystem::exists(context.out + "/report.html")))
       MakeReport(context, [&] { return ReadFittedRoom(context.out); });
     return Show(result, options, what);
   }

@@ -86,6 +86,21 @@ TEST_F(ReportTest, AreasAreThoseOfTheTargets) {
   EXPECT_TRUE(data["places"]["observers"].empty());
 }
 
+// No stage depends on [report], so that a run takes it up without a new fit.
+TEST_F(ReportTest, RunTakesUpWhatTheCoverSays) {
+  folder_->Write("own.toml", folder_->Read("session.toml"));
+  const std::string run = "run '" + folder_->Path("own.toml") + "' -o '" + folder_->Path("run") + "'";
+  ASSERT_EQ(support::RunProgram(run).status, 0);
+  const json before = json::parse(folder_->Read("run/result.json"));
+  folder_->Write("own.toml", folder_->Read("own.toml") + "\n[report]\nclient = \"Example Ltd\"\n");
+  EXPECT_THAT(support::RunProgram(run).output, HasSubstr("nothing has changed"));
+  const json data = support::ReportDataOf(folder_->Read("run/report.html"));
+  EXPECT_EQ(data["details"]["client"], "Example Ltd");
+  const json after = json::parse(folder_->Read("run/result.json"));
+  EXPECT_EQ(after["luminaires"], before["luminaires"]);
+  EXPECT_EQ(support::RunProgram("report '" + folder_->Path("run") + "'").status, 0);
+}
+
 TEST_F(ReportTest, BadInputEndsWithStatus2AndWhatToDo) {
   support::ProgramRun run = support::RunProgram("report '" + folder_->Path("nothing") + "'");
   EXPECT_EQ(run.status, 2);
