@@ -14,6 +14,8 @@
 #include "apps/session/session_scene.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/input_error.h"
+#include "apps/text/suggest.h"
 #include "apps/version.h"
 
 namespace luxfit {
@@ -79,6 +81,9 @@ json TasksJson() {
   for (const LightingTask& task : LightingTasks())
     tasks.push_back({{"key", task.key},
                      {"name", task.name},
+                     {"cylindrical_lx", task.cylindrical_lx},
+                     {"wall_lx", task.wall_lx},
+                     {"ceiling_lx", task.ceiling_lx},
                      {"average_lx", task.average_lx},
                      {"uniformity", task.uniformity},
                      {"ugr", task.ugr}});
@@ -98,13 +103,30 @@ json DetailsJson(const ReportDetails& details) {
 
 // A targets file that has [report] alone keeps the default areas and observers.
 ReportTargets TargetsOf(const FittedRoom& fitted, const ReportOptions& options) {
-  ReportTargets standard = DefaultTargets(fitted.room.scene);
+  const ReportTargets standard = DefaultTargets(fitted.room.scene);
   if (options.targets_path.empty()) return standard;
   ReportTargets targets = ReadTargets(options.targets_path);
   if (!targets.areas.empty() || !targets.observers.empty()) return targets;
-  standard.path = targets.path;
-  standard.details = targets.details;
-  return standard;
+  targets.areas = standard.areas;
+  targets.observers = standard.observers;
+  return targets;
+}
+
+// Returns the power of each luminaire, W; null where the targets do not give it.
+json PowersJson(const FittedRoom& fitted, const ReportTargets& targets) {
+  std::vector<std::string> ids;
+  ids.reserve(fitted.luminaires.size());
+  for (const Luminaire& luminaire : fitted.luminaires) ids.push_back(luminaire.id);
+  json powers(std::vector<json>(ids.size()));
+  for (const LuminairePower& one : targets.powers) {
+    const auto found = std::find(ids.begin(), ids.end(), one.id);
+    if (found == ids.end())
+      throw InputError({targets.path, one.line}, "power_w." + one.id,
+                       "expected a luminaire of the result (" + ListNames(ids) + "), got " + Quoted(one.id) +
+                           DidYouMean(one.id, ids));
+    powers[static_cast<size_t>(found - ids.begin())] = one.power_w;
+  }
+  return powers;
 }
 
 std::string FolderOf(const std::string& file) { return std::filesystem::path(file).parent_path().string(); }
@@ -131,6 +153,8 @@ json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
   data["views"] = ReportViewsJson(fitted);
   data["conditions"] = JsonWithoutFolders(ConditionsJson(fitted), folders);
   data["tasks"] = TasksJson();
+  data["maintenance_factor"] = targets.maintenance_factor ? json(*targets.maintenance_factor) : json();
+  data["power_w"] = PowersJson(fitted, targets);
   data["targets"] = {{"path", WithoutFolders(targets.path, folders)}, {"toml", TargetsToml(targets)}};
   data["command"] = WithoutFolders(options.command_line, folders);
   return data;
@@ -145,6 +169,13 @@ json ReportSummary(const json& data) {
     summary["areas"].push_back({{"id", plane.at("id")}, {"statistics", plane.at("statistics")}});
   for (const json& observer : data.at("places").at("observers"))
     summary["observers"].push_back({{"id", observer.at("id")}, {"ugr", observer.at("rating")}});
+  summary["surfaces"] = json::array();
+  for (const json& surface : data.at("places").at("surfaces"))
+    summary["surfaces"].push_back({{"id", surface.at("id")},
+                                   {"kind", surface.at("kind")},
+                                   {"required_lx", surface.at("required_lx")},
+                                   {"statistics", surface.at("statistics")}});
+  summary["maintenance_factor"] = data.at("maintenance_factor");
   return summary;
 }
 

@@ -1,5 +1,7 @@
 #include "apps/report/report_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 #include "apps/text/formats/json_vectors.h"
 #include "forward/views/glare.h"
 #include "forward/views/illuminance_plane.h"
+#include "forward/views/room_sides.h"
 
 namespace luxfit {
 namespace {
@@ -30,6 +33,13 @@ struct ReportPlane {
   Eigen::MatrixXd fine_lx;  // points x luminaires
 };
 
+// Holds a wall, a ceiling, or the cylindrical illuminance over an area.
+struct ReportSurface {
+  std::string kind;  // wall | ceiling | cylindrical
+  std::optional<double> required_lx;
+  ReportPlane plane;
+};
+
 struct ReportObserver {
   TargetObserver target;
   bool is_inside = false;            // inside a solid: no glare is computed
@@ -40,6 +50,7 @@ struct ReportObserver {
 struct ReportPlaces {
   ReadingPlaces readings;  // places 0..
   std::vector<ReportPlane> planes;
+  std::vector<ReportSurface> surfaces;
   std::vector<ReportObserver> observers;
   PredictedPlaces light;
   double relative_model_error = 0;
@@ -124,8 +135,59 @@ std::vector<ReportObserver> ObserversOf(const FittedRoom& fitted,
   return observers;
 }
 
+std::string SideName(const RoomSide& side, const PlaneGrid& grid) {
+  const Eigen::Vector3d on_surface = side.plane.origin - RoomSide::kOffSurfaceM * grid.normal;
+  if (side.is_ceiling) return fmt::format("Ceiling z = {:.2f} m", on_surface.z());
+  for (const int axis : {0, 1}) {
+    if (std::abs(grid.normal[axis]) > 0.999)
+      return fmt::format("Wall {} = {:.2f} m", "xy"[axis], on_surface[axis] + 0.0);
+  }
+  return fmt::format("Wall facing {:.0f} degrees from +x",
+                     180 / M_PI * std::atan2(grid.normal.y(), grid.normal.x()));
+}
+
+// Returns the largest demand of the areas, all of which are in the room.
+std::optional<double> LargestDemand(const std::vector<TargetArea>& areas,
+                                    std::optional<double> TargetArea::*demand) {
+  std::optional<double> largest;
+  for (const TargetArea& area : areas) {
+    if (area.*demand) largest = std::max(largest.value_or(0), *(area.*demand));
+  }
+  return largest;
+}
+
+std::vector<ReportSurface> SurfacesOf(const FittedRoom& fitted, const std::vector<TargetArea>& areas) {
+  constexpr double kCylinderHeightM = 1.2;  // of persons who sit
+  std::vector<ReportSurface> surfaces;
+  for (const RoomSide& side : SidesOf(fitted.room)) {
+    ReportSurface surface;
+    surface.kind = side.is_ceiling ? "ceiling" : "wall";
+    surface.required_lx =
+        LargestDemand(areas, side.is_ceiling ? &TargetArea::ceiling_lx : &TargetArea::wall_lx);
+    surface.plane.plane = side.plane;
+    surface.plane.grid = GridOf(side.plane);
+    surface.plane.kinds = ClassifySidePoints(fitted.room, side, surface.plane.grid);
+    surface.plane.area.id = SideName(side, surface.plane.grid);
+    surfaces.push_back(std::move(surface));
+  }
+  for (TargetArea area : areas) {
+    if (area.plane) continue;
+    area.height_m = kCylinderHeightM;
+    for (ReportPlane& plane : PlanesOf(fitted, {area}))
+      surfaces.push_back({"cylindrical", area.cylindrical_lx, std::move(plane)});
+  }
+  return surfaces;
+}
+
 // Returns the sensor at the eye: a meter that faces where the observer looks.
 Sensor EyeOf(const TargetObserver& target) { return {target.eye_m, target.looking, {}}; }
+
+void AddSensors(ReportPlane& plane, const SensorResponse& response, std::vector<Sensor>& sensors) {
+  plane.first_place = static_cast<Eigen::Index>(sensors.size());
+  sensors.reserve(sensors.size() + static_cast<size_t>(plane.grid.points.cols()));
+  for (const auto& point : plane.grid.points.colwise())
+    sensors.push_back({point, plane.grid.normal, response});
+}
 
 ReportPlaces PlacesOf(const FittedRoom& fitted, const FitUncertainty& fit, const ReportTargets& targets) {
   ReportPlaces places;
@@ -134,12 +196,14 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const FitUncertainty& fit, const
   if (!fitted.room.scene.facets.empty()) {
     places.planes = PlanesOf(fitted, targets.areas);
     LightFinePoints(fitted, places.planes);
+    places.surfaces = SurfacesOf(fitted, targets.areas);
     places.observers = ObserversOf(fitted, targets.observers);
   }
-  for (ReportPlane& plane : places.planes) {
-    plane.first_place = static_cast<Eigen::Index>(sensors.size());
-    sensors.reserve(sensors.size() + static_cast<size_t>(plane.grid.points.cols()));
-    for (const auto& point : plane.grid.points.colwise()) sensors.push_back({point, plane.grid.normal, {}});
+  for (ReportPlane& plane : places.planes) AddSensors(plane, {}, sensors);
+  for (ReportSurface& surface : places.surfaces) {
+    SensorResponse response;
+    if (surface.kind == "cylindrical") response.kind = ResponseKind::kCylindrical;
+    AddSensors(surface.plane, response, sensors);
   }
   for (ReportObserver& observer : places.observers) {
     observer.place = static_cast<Eigen::Index>(sensors.size());
@@ -236,9 +300,6 @@ json PlaneJson(const FittedRoom& fitted, const ReportPlaces& places, const Repor
                 {"light", LightJson(places.light, plane.first_place, plane.grid.points.cols())},
                 {"statistics", json::array()}};
   entry["kinds"] = KindsJson(plane.kinds);
-  entry["fine"] = {{"refined", plane.refined},
-                   {"kinds", KindsJson(plane.fine_kinds)},
-                   {"total", Base64Floats(plane.fine_lx)}};
   for (const SessionState& state : fitted.session.states)
     entry["statistics"].push_back(StatisticsJson(StatisticsUnder(places, plane, DimmingOf(fitted, state.id)),
                                                  places.light.factor.size() > 0));
@@ -283,7 +344,20 @@ json ReportPlacesJson(const FittedRoom& fitted, const FitUncertainty& fit, const
   page["relative_model_error"] = places.relative_model_error;
   page["undetermined"] = places.undetermined;
   page["left_out"] = NamesOf(places.light.left_out);
-  for (const ReportPlane& plane : places.planes) page["planes"].push_back(PlaneJson(fitted, places, plane));
+  for (const ReportPlane& plane : places.planes) {
+    json entry = PlaneJson(fitted, places, plane);
+    entry["fine"] = {{"refined", plane.refined},
+                     {"kinds", KindsJson(plane.fine_kinds)},
+                     {"total", Base64Floats(plane.fine_lx)}};
+    page["planes"].push_back(entry);
+  }
+  page["surfaces"] = json::array();
+  for (const ReportSurface& surface : places.surfaces) {
+    json entry = PlaneJson(fitted, places, surface.plane);
+    entry["kind"] = surface.kind;
+    entry["required_lx"] = OptionalJson(surface.required_lx);
+    page["surfaces"].push_back(entry);
+  }
   for (const ReportObserver& observer : places.observers)
     page["observers"].push_back(ObserverJson(fitted, places, observer));
   return page;

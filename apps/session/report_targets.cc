@@ -31,6 +31,9 @@ void TakeTask(const std::string& key, TargetArea& area) {
   area.average_lx = task->average_lx;
   area.uniformity = task->uniformity;
   area.ugr = task->ugr;
+  area.cylindrical_lx = task->cylindrical_lx;
+  area.wall_lx = task->wall_lx;
+  area.ceiling_lx = task->ceiling_lx;
 }
 
 double Share(const TomlCursor& value) {
@@ -72,14 +75,18 @@ IlluminancePlane ReadEdges(const TomlCursor& table) {
 }
 
 TargetArea ReadArea(const TomlCursor& table) {
-  table.ExpectKeys({"id", "task", "average_lx", "uniformity", "ugr", "height_m", "margin_m", "spacing_m",
-                    "polygon_m", "origin_m", "edge_u_m", "edge_v_m"});
+  table.ExpectKeys({"id", "task", "average_lx", "uniformity", "ugr", "cylindrical_lx", "wall_lx",
+                    "ceiling_lx", "height_m", "margin_m", "spacing_m", "polygon_m", "origin_m", "edge_u_m",
+                    "edge_v_m"});
   TargetArea area;
   area.id = table.Require("id", "a name").Text("a name");
   if (const auto task = table.Find("task")) TakeTask(task->OneOf(TaskKeys()), area);
   if (const auto average = table.Find("average_lx")) area.average_lx = average->NumberAbove(0, "lx");
   if (const auto uniformity = table.Find("uniformity")) area.uniformity = Share(*uniformity);
   if (const auto ugr = table.Find("ugr")) area.ugr = ugr->NumberAbove(0, "UGR");
+  if (const auto level = table.Find("cylindrical_lx")) area.cylindrical_lx = level->NumberAbove(0, "lx");
+  if (const auto level = table.Find("wall_lx")) area.wall_lx = level->NumberAbove(0, "lx");
+  if (const auto level = table.Find("ceiling_lx")) area.ceiling_lx = level->NumberAbove(0, "lx");
   if (const auto spacing = table.Find("spacing_m")) area.spacing_m = spacing->NumberAbove(0, "m");
   const auto origin = table.Find("origin_m"), polygon = table.Find("polygon_m");
   const auto height = table.Find("height_m"), margin = table.Find("margin_m");
@@ -128,23 +135,23 @@ std::string DirectionName(const Eigen::Vector3d& direction) {
 
 const std::vector<LightingTask>& LightingTasks() {
   // EN 12464-1:2021, table 34, rows 34.1 to 34.7, and table 9, row 9.1: required maintained illuminance,
-  // U0, UGR limit.
+  // U0, UGR limit; mean cylindrical illuminance, illuminance of walls and of the ceiling.
   static const std::vector<LightingTask> tasks = {
-      {"filing", "Filing, copying, etc.", 300, 0.40, 19},
-      {"writing", "Writing, typing, reading, data processing", 500, 0.60, 19},
-      {"drawing", "Technical drawing", 750, 0.70, 16},
-      {"cad", "CAD work stations", 500, 0.60, 19},
-      {"meeting", "Conference and meeting rooms", 500, 0.60, 19},
-      {"reception", "Reception desk", 300, 0.60, 22},
-      {"archive", "Archives", 200, 0.40, 25},
-      {"circulation", "Circulation areas and corridors", 100, 0.40, 28}};
+      {"filing", "Filing, copying, etc.", 300, 0.40, 19, 100, 100, 75},
+      {"writing", "Writing, typing, reading, data processing", 500, 0.60, 19, 150, 150, 100},
+      {"drawing", "Technical drawing", 750, 0.70, 16, 150, 150, 100},
+      {"cad", "CAD work stations", 500, 0.60, 19, 150, 150, 100},
+      {"meeting", "Conference and meeting rooms", 500, 0.60, 19, 150, 150, 100},
+      {"reception", "Reception desk", 300, 0.60, 22, 100, 100, 75},
+      {"archive", "Archives", 200, 0.40, 25, 75, 75, 50},
+      {"circulation", "Circulation areas and corridors", 100, 0.40, 28, 50, 50, 30}};
   return tasks;
 }
 
 ReportTargets ReadTargets(const std::string& path) {
   const toml::table document = ReadTomlFile(path);
   const TomlCursor root(document, {path, 1}, "");
-  root.ExpectKeys({"area", "observer", "report"});
+  root.ExpectKeys({"area", "observer", "report", "maintenance_factor", "power_w"});
   ReportTargets targets;
   targets.path = std::filesystem::absolute(path).lexically_normal().string();
   const auto areas = root.Find("area"), observers = root.Find("observer");
@@ -160,7 +167,13 @@ ReportTargets ReadTargets(const std::string& path) {
   }
   const auto report = root.Find("report");
   if (report) targets.details = ReadReportDetails(*report);
-  if (!areas && !observers && !report)
+  if (const auto factor = root.Find("maintenance_factor")) targets.maintenance_factor = Share(*factor);
+  if (const auto powers = root.Find("power_w")) {
+    for (const auto& [id, value] : powers->Members())
+      targets.powers.push_back({id, value.NumberAbove(0, "W"), value.place().line});
+  }
+  const bool has_more = report || targets.maintenance_factor || !targets.powers.empty();
+  if (!areas && !observers && !has_more)
     throw root.Error("expected an area or an observer, got neither; add [[area]] with id = \"...\"");
   return targets;
 }
@@ -191,11 +204,22 @@ ReportTargets DefaultTargets(const Scene& scene) {
 
 std::string TargetsToml(const ReportTargets& targets) {
   std::string text;
+  if (targets.maintenance_factor)
+    text += fmt::format("maintenance_factor = {:g}\n\n", *targets.maintenance_factor);
+  if (!targets.powers.empty()) {
+    text += "[power_w]\n";
+    for (const LuminairePower& one : targets.powers)
+      text += fmt::format("{} = {:g}\n", Quoted(one.id), one.power_w);
+    text += "\n";
+  }
   for (const TargetArea& area : targets.areas) {
     text += fmt::format("[[area]]\nid = {}\n", Quoted(area.id));
     if (area.average_lx) text += fmt::format("average_lx = {:g}\n", *area.average_lx);
     if (area.uniformity) text += fmt::format("uniformity = {:g}\n", *area.uniformity);
     if (area.ugr) text += fmt::format("ugr = {:g}\n", *area.ugr);
+    if (area.cylindrical_lx) text += fmt::format("cylindrical_lx = {:g}\n", *area.cylindrical_lx);
+    if (area.wall_lx) text += fmt::format("wall_lx = {:g}\n", *area.wall_lx);
+    if (area.ceiling_lx) text += fmt::format("ceiling_lx = {:g}\n", *area.ceiling_lx);
     if (area.spacing_m > 0) text += fmt::format("spacing_m = {:g}\n", area.spacing_m);
     if (area.plane) {
       text += fmt::format("origin_m = {}\nedge_u_m = {}\nedge_v_m = {}\n", Vector3Toml(area.plane->origin),

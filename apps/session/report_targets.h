@@ -1,9 +1,11 @@
 // Reads the targets of a room's light: areas and observers of a TOML file that the user edits.
 //
-//   [[area]]    id, task | average_lx, uniformity, ugr; height_m, polygon_m | origin_m, edge_u_m, edge_v_m;
+//   [[area]]    id, task | average_lx, uniformity, ugr, cylindrical_lx, wall_lx, ceiling_lx; height_m, polygon_m | origin_m, edge_u_m, edge_v_m;
 //               margin_m, spacing_m
 //   [[observer]] id, eye_m, looking; ugr
 //   [report]     apps/session/report_details.h
+//   [power_w]    W of luminaires by id, fully on
+//   maintenance_factor
 //
 // A `task` is a row of EN 12464-1:2021, table 34 (offices) or 9 (traffic zones); keys beside it take
 // precedence. Without a polygon or edges an area is the whole floor at height_m, less margin_m. Absent
@@ -28,6 +30,7 @@ namespace luxfit {
 struct LightingTask {
   std::string key, name;
   double average_lx = 0, uniformity = 0, ugr = 0;
+  double cylindrical_lx = 0, wall_lx = 0, ceiling_lx = 0;  // mean, maintained; uniformity of all three 0.10
 };
 const std::vector<LightingTask>& LightingTasks();
 
@@ -35,6 +38,7 @@ struct TargetArea {
   std::string id;
   std::string task;  // key of a row; empty: none
   std::optional<double> average_lx, uniformity, ugr;
+  std::optional<double> cylindrical_lx, wall_lx, ceiling_lx;
   double height_m = 0.75;
   double margin_m = kStandardMargin;
   double spacing_m = 0;                    // 0: EN 12464-1
@@ -49,9 +53,18 @@ struct TargetObserver {
   std::optional<double> ugr;
 };
 
+struct LuminairePower {
+  std::string id;
+  double power_w = 0;  // fully on
+  int line = 0;        // in the file
+};
+
 struct ReportTargets {
   std::string path;  // empty: the default
   ReportDetails details;
+  // Maintained illuminance is this times the illuminance found; absent: only what was found is shown.
+  std::optional<double> maintenance_factor;
+  std::vector<LuminairePower> powers;
   std::vector<TargetArea> areas;
   std::vector<TargetObserver> observers;
 };

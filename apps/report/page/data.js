@@ -32,7 +32,7 @@ export function readData() {
   const data = JSON.parse(document.getElementById('report-data').textContent);
   data.room = decodeRoom(data.room);
   data.places.point_light = decodeLight(data.places.point_light);
-  for (const plane of data.places.planes) plane.light = decodeLight(plane.light);
+  for (const plane of [...data.places.planes, ...data.places.surfaces]) plane.light = decodeLight(plane.light);
   data.unit = data.is_absolute ? 'lx' : 'rel. units';
   data.fluxUnit = data.is_absolute ? 'lm' : 'rel. units';
   data.luminanceUnit = data.is_absolute ? 'cd/m\u00b2' : 'rel. units';

@@ -6,6 +6,7 @@ import { details, h, section } from './dom.js';
 import { digits, fixed, isNumber, plusMinus } from './format.js';
 import { glareTable } from './glare_table.js';
 import { Light } from './light.js';
+import { powerWords, roomLevels } from './levels.js';
 import { lightBar, lightWords } from './light_bar.js';
 import { photoViews } from './photo_views.js';
 import { dimensionedPlan } from './plan.js';
@@ -17,7 +18,7 @@ import { findings, schedule } from './schedule.js';
 import { selfTest } from './self_test.js';
 import { WorkPlane } from './work_plane.js';
 
-const kShortNames = { answer: 'Answer', readings: 'Readings', room: 'Room', planes: 'Work planes', glare: 'Glare', curves: 'Distribution', photos: 'Photos',
+const kShortNames = { answer: 'Answer', readings: 'Readings', curves: 'Distribution', room: 'Room', planes: 'Work planes', levels: 'Walls', glare: 'Glare', photos: 'Photos',
   surfaces: 'Surfaces', table: 'Table', conditions: 'Conditions', choices: 'Choices', speed: 'Speed', provenance: 'Provenance' };
 
 const card = (title, value, note) => h('div', { class: 'card' }, h('div', { class: 'card-title' }, title), h('div', { class: 'card-value' }, value), h('div', { class: 'card-note' }, note));
@@ -42,10 +43,11 @@ function build(data) {
       h('div', { class: 'found' }, h('h2', { class: 'print-only' }, 'Luminaires'), h('div', { class: data.room ? 'plan-and-schedule' : null }, data.room ? dimensionedPlan(data) : null,
         h('div', { class: 'schedule-column' }, schedule(data), h('p', { class: 'note' }, 'Intervals hold 95 % (1.96 standard deviations). C0 is counted from +x.'))), findings(data))),
     section('readings', 'Measured against predicted', null, readingsPart(data)),
+    section('curves', 'Light distribution', null, h('div', { class: 'polars' }, data.luminaires.map((l, k) => polarCurve(l, data.result.luminaires[k], data.is_absolute ? 'cd' : 'rel.')))),
     room ? section('room', 'The room', null, room.element) : section('room', 'The room', 'The session has no mesh: there is no room to draw.'),
     planes.length > 0 ? section('planes', 'Work planes', h('span', null, 'Illuminance over areas, by the grid of EN 12464-1. ', h('span', { class: 'print-only' }, lightWords(data, light))), planes.map((p) => p.element)) : null,
+    data.room && data.places.surfaces.length > 0 ? section('levels', 'Walls, ceiling, cylindrical illuminance', null, roomLevels(data, light), powerWords(data, light, planes)) : null,
     data.room ? section('glare', 'Glare', 'Unified glare rating (CIE 117) of observers, from the luminaires\u2019 luminous openings as found and the background as predicted.', glareTable(data, light)) : null,
-    section('curves', 'Light distribution', null, h('div', { class: 'polars' }, data.luminaires.map((l, k) => polarCurve(l, data.result.luminaires[k], data.is_absolute ? 'cd' : 'rel.')))),
     section('photos', 'Photos and predictions', null, photoViews(data, light)),
     section('surfaces', 'Reflectances', null, reflectances(data)),
     section('table', 'All readings', null, data.result.luxmeter.length > 0 ? details(`${data.result.luxmeter.length} readings`, readingTable(data)) : h('p', null, 'None.')),

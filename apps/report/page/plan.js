@@ -14,7 +14,7 @@ function facetCorners(room, facet) {
 }
 
 // Returns the faces that look up, the lowest first, with the height of each.
-function upwardFaces(room) {
+export function upwardFaces(room) {
   const faces = [];
   for (let f = 0; f < room.facets.count; ++f) {
     if (facetNormal(room, f)[2] < 0.7) continue;

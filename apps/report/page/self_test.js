@@ -79,7 +79,8 @@ function numbers({ data, light, planes }) {
   const before = light.dimming.slice();
   data.states.forEach((state, s) => {
     light.dimming = Float64Array.from(state.dimming);
-    for (const { plane, counts } of planes) {
+    const surfaces = data.places.surfaces.map((plane) => ({ plane, counts: plane.kinds.map((kind) => kind === 0) }));
+    for (const { plane, counts } of [...planes, ...surfaces]) {
       const own = statistics(light.places(plane.light), counts, data.places.relative_model_error), want = plane.statistics[s];
       for (const [a, b] of [['average', 'average_lx'], ['least', 'least_lx'], ['uniformity', 'uniformity'], ['averageSigma', 'average_sigma_lx'], ['leastSigma', 'least_sigma_lx'], ['uniformitySigma', 'uniformity_sigma']])
         compare(own[a], want[b]);

@@ -13,6 +13,9 @@ const length = (v) => Math.hypot(...v);
 
 export const badge = (kind) => h('span', { class: 'badge ' + kind }, kVerdicts[kind]);
 
+export const maintenanceWords = (factor) => (factor ? `Found: as the light is now. Maintained: ${factor} times that (the factor of the targets, taken as exact), which is held against the requirement.`
+  : 'As found: no maintenance factor is applied.');
+
 export class WorkPlane {
   constructor(data, light, plane) {
     Object.assign(this, { data, light, plane });
@@ -96,18 +99,22 @@ export class WorkPlane {
     const s = this.statistics, { unit } = this.data, absolute = this.data.is_absolute;
     if (s.points === 0) return h('p', null, 'No point counts.');
     const judge = (value, sigma, asked) => (isNumber(asked) ? badge(verdict(value - asked, sigma)) : null);
-    const row = (name, value, asked, mark) => h('tr', null, h('th', { scope: 'row', class: 'text' }, name), h('td', { class: 'number' }, value), h('td', { class: 'number' }, asked), h('td', null, mark));
+    // Requirements are on maintained illuminance; without a factor what was found stands for it.
+    const factor = this.data.maintenance_factor, kept = factor ?? 1;
+    const row = (name, value, maintained, asked, mark) => h('tr', null, h('th', { scope: 'row', class: 'text' }, name), h('td', { class: 'number' }, value),
+      factor ? h('td', { class: 'number' }, maintained) : null, h('td', { class: 'number' }, asked), h('td', null, mark));
+    const level = (value, sigma) => [sigma === undefined ? digits(value) : plusMinus(value, sigma), ' ', unit];
     const kinds = this.plane.kinds, inSolid = kinds.filter((k) => k === 1).length, outside = kinds.filter((k) => k === 2).length;
     const { plane } = this, pitch = [length(plane.edge_u_m) / plane.count_u, length(plane.edge_v_m) / plane.count_v];
-    return [h('div', { class: 'scroll' }, h('table', { class: 'plane-table' }, h('thead', null, h('tr', null, ['', 'found, 95 %', 'asked', ''].map((t) => h('th', null, t)))), h('tbody', null,
-      row(['E', h('sub', null, 'avg')], [plusMinus(s.average, s.averageSigma ?? 0), ' ', unit], isNumber(this.asked.average) ? `\u2265 ${this.asked.average} lx` : '\u2013', absolute ? judge(s.average, s.averageSigma, this.asked.average) : null),
-      row(['E', h('sub', null, 'min')], [plusMinus(s.least, s.leastSigma ?? 0), ' ', unit], '', null),
-      row(['E', h('sub', null, 'max')], [digits(s.largest), ' ', unit], '', null),
-      row(['U', h('sub', null, '0'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'avg')], plusMinus(s.uniformity, s.uniformitySigma ?? 0, 3), isNumber(this.asked.uniformity) ? `\u2265 ${this.asked.uniformity}` : '\u2013', judge(s.uniformity, s.uniformitySigma, this.asked.uniformity)),
-      row(['U', h('sub', null, 'd'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'max')], digits(s.diversity, 3), '', null)))),
+    return [h('div', { class: 'scroll' }, h('table', { class: 'plane-table' }, h('thead', null, h('tr', null, ['', 'found, 95 %', factor ? `maintained (\u00d7 ${factor})` : null, 'asked', ''].filter((t) => t !== null).map((t) => h('th', null, t)))), h('tbody', null,
+      row(['E', h('sub', null, 'avg')], level(s.average, s.averageSigma ?? 0), level(kept * s.average, kept * (s.averageSigma ?? 0)), isNumber(this.asked.average) ? `\u2265 ${this.asked.average} lx` : '\u2013', absolute ? judge(kept * s.average, s.averageSigma === null ? null : kept * s.averageSigma, this.asked.average) : null),
+      row(['E', h('sub', null, 'min')], level(s.least, s.leastSigma ?? 0), level(kept * s.least, kept * (s.leastSigma ?? 0)), '', null),
+      row(['E', h('sub', null, 'max')], level(s.largest), level(kept * s.largest), '', null),
+      row(['U', h('sub', null, '0'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'avg')], plusMinus(s.uniformity, s.uniformitySigma ?? 0, 3), '', isNumber(this.asked.uniformity) ? `\u2265 ${this.asked.uniformity}` : '\u2013', judge(s.uniformity, s.uniformitySigma, this.asked.uniformity)),
+      row(['U', h('sub', null, 'd'), ' = E', h('sub', null, 'min'), '/E', h('sub', null, 'max')], digits(s.diversity, 3), '', '', null)))),
     h('p', { class: 'note' }, `${plane.count_u} \u00d7 ${plane.count_v} points, ${fixed(pitch[0], 2)} m \u00d7 ${fixed(pitch[1], 2)} m apart, over ${fixed(length(plane.edge_u_m), 2)} m \u00d7 ${fixed(length(plane.edge_v_m), 2)} m at z = ${fixed(plane.origin_m[2], 2)} m. ${s.points} of them count` +
       (inSolid > 0 ? `; ${inSolid} left out inside furniture` : '') + (outside > 0 ? `; ${outside} left out beyond the area` : '') + '. ' +
-      (s.averageSigma === null ? 'Intervals are not determined. ' : '') + 'As found: no maintenance factor is applied.' + (absolute ? '' : ' Without an absolute scale only uniformity can be judged.'))];
+      (s.averageSigma === null ? 'Intervals are not determined. ' : '') + maintenanceWords(factor) + (absolute ? '' : ' Without an absolute scale only uniformity can be judged.'))];
   }
 }
 

@@ -86,6 +86,47 @@ TEST_F(ReportTest, AreasAreThoseOfTheTargets) {
   EXPECT_TRUE(data["places"]["observers"].empty());
 }
 
+// Energy balance, in closed form: the flux of the luminaires is what floor, walls and ceiling absorb.
+TEST_F(ReportTest, FloorWallsAndCeilingAbsorbTheFlux) {
+  folder_->Write("floor.toml", "[[area]]\nid = \"floor\"\nheight_m = 0.001\nmargin_m = 0\nspacing_m = 0.2\n");
+  const support::ProgramRun run = Report("--json --targets '" + folder_->Path("floor.toml") + "'");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json summary =
+      json::parse(run.output.substr(run.output.find('{'), run.output.rfind('}') + 1 - run.output.find('{')));
+  double absorbed_lm = (1 - 0.3) * 12 * summary["areas"][0]["statistics"][0]["average_lx"].get<double>();
+  int walls = 0;
+  for (const json& surface : summary["surfaces"]) {
+    const json& statistics = surface["statistics"][0];
+    if (surface["kind"] == "cylindrical") continue;
+    EXPECT_TRUE(surface["required_lx"].is_null());
+    const bool is_x = surface["id"].get<std::string>().rfind("Wall x", 0) == 0;
+    const double area_m2 = surface["kind"] == "ceiling" ? 12 : 2.5 * (is_x ? 3 : 4);
+    absorbed_lm += (1 - 0.6) * area_m2 * statistics["average_lx"].get<double>();
+    EXPECT_GT(statistics["average_sigma_lx"].get<double>(), 0);
+    ++walls;
+  }
+  EXPECT_EQ(walls, 5);
+  double flux_lm = 0;
+  const json result = json::parse(folder_->Read("out/result.json"));
+  for (const json& luminaire : result["luminaires"]) flux_lm += luminaire["flux_lm"].get<double>();
+  // Points in the middle of cells of up to 0.4 m stand for their means.
+  EXPECT_NEAR(absorbed_lm, flux_lm, 0.02 * flux_lm);
+}
+
+TEST_F(ReportTest, PowersAreOfLuminairesOfTheResult) {
+  folder_->Write("power.toml", "maintenance_factor = 0.8\n[power_w]\nB = 10\n");
+  support::ProgramRun run = Report("--targets '" + folder_->Path("power.toml") + "'");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json data = support::ReportDataOf(folder_->Read("out/report.html"));
+  EXPECT_EQ(data["maintenance_factor"], 0.8);
+  EXPECT_EQ(data["power_w"], json::array({nullptr, 10.0}));
+  EXPECT_EQ(data["places"]["planes"][0]["average_lx"], 500);  // the default areas stay
+  folder_->Write("power.toml", "[power_w]\nC = 10\n");
+  run = Report("--targets '" + folder_->Path("power.toml") + "'");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, HasSubstr("power.toml:2: power_w.C: expected a luminaire of the result"));
+}
+
 // No stage depends on [report], so that a run takes it up without a new fit.
 TEST_F(ReportTest, RunTakesUpWhatTheCoverSays) {
   folder_->Write("own.toml", folder_->Read("session.toml"));

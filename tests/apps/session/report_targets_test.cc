@@ -89,9 +89,31 @@ TEST_F(ReportTargetsTest, ErrorsNameFileLineAndKey) {
               HasSubstr("got both; remove one"));
   EXPECT_THAT(Error("[[observer]]\nid = \"o\"\neye_m = [0, 0, 1]\nlooking = [0, 0, 1]\n"),
               HasSubstr("not vertical"));
+  EXPECT_THAT(Error("maintenance_factor = 80\n"),
+              HasSubstr("targets.toml:1: maintenance_factor: expected a share in 0..1"));
+  EXPECT_THAT(Error("[power_w]\nA = 0\n"),
+              HasSubstr("targets.toml:2: power_w.A: expected > 0, got 0; write it in W"));
+  EXPECT_THAT(Error("[[area]]\nid = \"a\"\nwall_lx = -1\n"),
+              HasSubstr("area[0].wall_lx: expected > 0, got -1; write it in lx"));
   EXPECT_THAT(Error("# nothing\n"), HasSubstr("got neither"));
   EXPECT_THAT(Error("[[area]\n"), HasSubstr("expected valid TOML"));
   EXPECT_THROW(ReadTargets(folder_.Path("none.toml")), std::runtime_error);
+}
+
+TEST_F(ReportTargetsTest, FactorAndPowersAreWrittenAsTheyAreRead) {
+  const ReportTargets targets = Read(
+      "maintenance_factor = 0.8\n[power_w]\nA = 36\n\"row 1\" = 14.5\n[[area]]\nid = \"a\"\ntask = "
+      "\"archive\"\n"
+      "wall_lx = 90\n");
+  folder_.Write("again.toml", TargetsToml(targets));
+  const ReportTargets again = ReadTargets(folder_.Path("again.toml"));
+  EXPECT_EQ(again.maintenance_factor, 0.8);
+  ASSERT_EQ(again.powers.size(), 2U);
+  EXPECT_EQ(again.powers[1].id, "row 1");
+  EXPECT_EQ(again.powers[1].power_w, 14.5);
+  EXPECT_EQ(again.areas[0].cylindrical_lx, 75);
+  EXPECT_EQ(again.areas[0].wall_lx, 90);  // beside the task's 75
+  EXPECT_EQ(again.areas[0].ceiling_lx, 50);
 }
 
 TEST_F(ReportTargetsTest, TheDefaultIsTheFloorAgainstOfficeWork) {
