@@ -103,7 +103,7 @@ json DetailsJson(const ReportDetails& details) {
 
 // A targets file that has [report] alone keeps the default areas and observers.
 ReportTargets TargetsOf(const FittedRoom& fitted, const ReportOptions& options) {
-  const ReportTargets standard = DefaultTargets(fitted.room.scene);
+  ReportTargets standard = DefaultTargets(fitted.room.scene);
   if (options.targets_path.empty()) return standard;
   ReportTargets targets = ReadTargets(options.targets_path);
   if (!targets.areas.empty() || !targets.observers.empty()) return targets;

@@ -55,6 +55,7 @@ IlluminancePlane RectangleOver(const Scene& scene, const RoomSide& side) {
       box.min().x() * u + box.min().y() * v + (first.origin.dot(normal) + RoomSide::kOffSurfaceM) * normal;
   plane.edge_u = box.sizes().x() * u;
   plane.edge_v = box.sizes().y() * v;
+  plane.spacing_m = 0.2 * std::pow(5, std::log10(box.sizes().maxCoeff()));
   return plane;
 }
 

@@ -7,6 +7,9 @@
 //
 // A mesh that models a wall on both sides has something behind it: it has no sides here.
 //
+// The grid's spacing is p = 0.2 * 5^(log10 d) of the longer side d. Along a long wall the standard's own is finer, for
+// a plane whose shorter side is less than half of the longer; light on walls asks for a mean and a U0 of 0.1 only.
+//
 // Units are m; world frame, z up. Source: EN 12464-1:2021, sec. 4.2.3 (illuminance of walls and ceiling).
 #ifndef LUXFIT_FORWARD_VIEWS_ROOM_SIDES_H_
 #define LUXFIT_FORWARD_VIEWS_ROOM_SIDES_H_
@@ -20,7 +23,7 @@ namespace luxfit {
 struct RoomSide {
   static constexpr double kOffSurfaceM = 0.01;  // of the meters
   bool is_ceiling = false;
-  IlluminancePlane plane;  // of the standard's spacing
+  IlluminancePlane plane;
   std::vector<int> facets;
   double area_m2 = 0;
 };
