@@ -102,7 +102,7 @@ json DetailsJson(const ReportDetails& details) {
 }
 
 // A targets file that has [report] alone keeps the default areas and observers.
-ReportTargets TargetsOf(const FittedRoom& fitted, const ReportOptions& options) {
+ReportTargets AskedTargets(const FittedRoom& fitted, const ReportOptions& options) {
   ReportTargets standard = DefaultTargets(fitted.room.scene);
   if (options.targets_path.empty()) return standard;
   ReportTargets targets = ReadTargets(options.targets_path);
@@ -129,14 +129,16 @@ json PowersJson(const FittedRoom& fitted, const ReportTargets& targets) {
   return powers;
 }
 
-std::string FolderOf(const std::string& file) { return std::filesystem::path(file).parent_path().string(); }
+std::string SessionFolder(const std::string& file) {
+  return std::filesystem::path(file).parent_path().string();
+}
 
 }  // namespace
 
 json ReportData(const FittedRoom& fitted, const ReportOptions& options) {
-  const ReportTargets targets = TargetsOf(fitted, options);
+  const ReportTargets targets = AskedTargets(fitted, options);
   const ReportDetails details = CompletedBy(targets.details, ReportDetailsOfSession(fitted.session.path));
-  const std::vector<std::string> folders = {FolderOf(fitted.session.path), fitted.out};
+  const std::vector<std::string> folders = {SessionFolder(fitted.session.path), fitted.out};
   const std::string state = options.state.empty() ? BrightestState(fitted) : options.state;
   DimmingOf(fitted, state);  // throws, naming the known states, where it is none
   json data = {{"format", "luxfit-report-1"},    {"luxfit_version", kVersion},        {"date", NowUtc()},

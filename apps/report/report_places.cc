@@ -156,7 +156,7 @@ std::optional<double> LargestDemand(const std::vector<TargetArea>& areas,
   return largest;
 }
 
-std::vector<ReportSurface> SurfacesOf(const FittedRoom& fitted, const std::vector<TargetArea>& areas) {
+std::vector<ReportSurface> BoundingSurfaces(const FittedRoom& fitted, const std::vector<TargetArea>& areas) {
   constexpr double kCylinderHeightM = 1.2;  // of persons who sit
   std::vector<ReportSurface> surfaces;
   for (const RoomSide& side : SidesOf(fitted.room)) {
@@ -196,7 +196,7 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const FitUncertainty& fit, const
   if (!fitted.room.scene.facets.empty()) {
     places.planes = PlanesOf(fitted, targets.areas);
     LightFinePoints(fitted, places.planes);
-    places.surfaces = SurfacesOf(fitted, targets.areas);
+    places.surfaces = BoundingSurfaces(fitted, targets.areas);
     places.observers = ObserversOf(fitted, targets.observers);
   }
   for (ReportPlane& plane : places.planes) AddSensors(plane, {}, sensors);

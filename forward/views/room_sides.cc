@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFurnitureGapM = 0.05;
 constexpr double kLeastAreaM2 = 0.5;
-constexpr double kSamePlaneM = 0.02;
+constexpr double kWithinSideM = 0.02;
 constexpr double kSameNormal = 0.9995;  // cosine of 1.8 degrees
 constexpr double kWallTilt = 0.3;       // largest |z| of a wall's normal
 constexpr double kCeilingTilt = -0.7;   // largest z of a ceiling's normal
@@ -27,12 +27,12 @@ bool BoundsRoom(const Room& room, const Facet& facet) {
 }
 
 // Returns the side whose plane the facet lies in; null: none yet.
-RoomSide* SideOf(const Scene& scene, const Facet& facet, std::vector<RoomSide>& sides) {
+RoomSide* SideWith(const Scene& scene, const Facet& facet, std::vector<RoomSide>& sides) {
   const auto side = std::find_if(sides.begin(), sides.end(), [&](const RoomSide& one) {
     const Facet& first = scene.facets[static_cast<size_t>(one.facets.front())];
     const Eigen::Vector3d normal = first.Normal();
     return normal.dot(facet.Normal()) > kSameNormal &&
-           std::abs(normal.dot(MiddleOf(facet) - first.origin)) < kSamePlaneM;
+           std::abs(normal.dot(MiddleOf(facet) - first.origin)) < kWithinSideM;
   });
   return side == sides.end() ? nullptr : &*side;
 }
@@ -81,7 +81,7 @@ std::vector<RoomSide> SidesOf(const Room& room) {
     const double up = facet.Normal().z();
     const bool is_ceiling = up < kCeilingTilt;
     if ((std::abs(up) > kWallTilt && !is_ceiling) || !BoundsRoom(room, facet)) continue;
-    RoomSide* side = SideOf(scene, facet, sides);
+    RoomSide* side = SideWith(scene, facet, sides);
     if (side == nullptr) {
       side = &sides.emplace_back();
       side->is_ceiling = is_ceiling;
