@@ -120,5 +120,5 @@ function disagreements(data) {
 export function readingsPart(data) {
   if (data.result.luxmeter.length === 0) return h('p', null, 'The session has no luxmeter readings: nothing checks the prediction.');
   return h('div', null, h('p', { class: 'lead' }, summaryWords(data)),
-    h('div', { class: 'charts' }, scatter(data.result.luxmeter), errorStrip(data.result.luxmeter)), disagreements(data));
+    h('div', { class: 'charts' }, scatter(data.result.luxmeter), h('div', { class: 'scroll' }, errorStrip(data.result.luxmeter))), disagreements(data));
 }
