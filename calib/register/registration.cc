@@ -7,16 +7,19 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "calib/register/internal/bundle/bundle_adjustment.h"
 #include "calib/register/internal/bundle/bundle_covariance.h"
 #include "calib/register/internal/feature_alignment.h"
+#include "calib/register/internal/leave_out.h"
 #include "calib/register/internal/survey_attempt.h"
 #include "calib/register/internal/survey_check.h"
 #include "calib/register/internal/survey_on_surfaces.h"
 #include "calib/register/internal/tag_mapping.h"
+#include "calib/register/internal/tag_place.h"
 #include "calib/register/internal/tag_views.h"
 #include "calib/register/millimetres.h"
 
@@ -235,6 +238,25 @@ Registration RegisterWithoutMap(const std::vector<Camera>& cameras, RegisterView
   return registration;
 }
 
+// Says of the tags that disagree where the photos show them, where they do.
+void SayWhereTagsHang(const BundleContext& context, const SurveyAttempt& attempt,
+                      const SurveyEvidence& evidence, std::vector<RegistrationNote>& notes) {
+  for (RegistrationNote& note : notes) {
+    if (note.code != TagDisagrees(note.tag_id).code) continue;
+    const SurveyedTag& surveyed = evidence.survey.at(note.tag_id);
+    const std::optional<TagPlace> place =
+        FindTagPlace(context, attempt.adjustment, attempt.covariance, surveyed, evidence.detections);
+    if (!place || !place->IsOnePlace()) continue;
+    const Eigen::Vector3d mm = 1000 * place->displacement_m;
+    const Eigen::Vector3d at = surveyed.center_in_world + place->displacement_m;
+    note.message += fmt::format(
+        " The photos show it {} off its surveyed place (1 sigma: {}), by ({:.0f}, {:.0f}, {:.0f}) mm: at "
+        "({:.3f}, {:.3f}, {:.3f}).",
+        Millimetres(place->displacement_m.norm()), Millimetres(place->DistanceSigma()), mm.x(), mm.y(),
+        mm.z(), at.x(), at.y(), at.z());
+  }
+}
+
 // Registers by a survey, whose accuracy the tags themselves may contradict.
 Registration RegisterWithMap(const SurveyEvidence& evidence, const RegisterViewsOptions& options,
                              const FeatureModel& features) {
@@ -246,6 +268,7 @@ Registration RegisterWithMap(const SurveyEvidence& evidence, const RegisterViews
   Registration registration;
   registration.notes = attempt.notes;
   registration.notes.insert(registration.notes.end(), verdict.notes.begin(), verdict.notes.end());
+  SayWhereTagsHang({attempt.cameras, verdict.options}, attempt, evidence, registration.notes);
   registration.survey_sigma_m = evidence.survey.empty() ? 0 : options.survey_sigma_m;
   registration.tags_on_surfaces = on_surfaces;
   if (attempt.is_refused) {

@@ -2,24 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <set>
-#include <string>
 #include <utility>
+#include <vector>
 
 #include "calib/register/internal/bundle/survey_scale.h"
 #include "calib/register/internal/leave_out.h"
+#include "calib/register/internal/tag_place.h"
 
 namespace luxfit {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 // Holds what an attempt says of the survey's accuracy.
 struct Accuracy {
   SurveyScale scale;
   std::ptrdiff_t left_out = 0, seen = 0;               // tags
   std::ptrdiff_t registered = 0, views_with_tags = 0;  // views
+  int unused = 0;  // tags that a view with a pose shows elsewhere than that pose does, each view counted
   bool is_refused = false;
 
   bool MostAreLeftOut() const {
@@ -46,6 +46,7 @@ Accuracy AccuracyOf(const SurveyEvidence& evidence, const RegisterViewsOptions& 
   for (const BundleView& view : attempt.adjustment.views) {
     accuracy.views_with_tags += view.tags.empty() ? 0 : 1;
     accuracy.registered += view.active ? 1 : 0;
+    if (view.active) accuracy.unused += static_cast<int>(view.tags.size()) - view.TagsUsed();
   }
   accuracy.scale = EstimateSurveyScale({attempt.cameras, options}, attempt.adjustment, attempt.covariance);
   accuracy.left_out =
@@ -65,54 +66,80 @@ SurveyEvidence Without(SurveyEvidence evidence, int id) {
   return evidence;
 }
 
-// Returns the tags that may be the one that was moved: those left out, then those furthest off their places.
-std::vector<int> Suspects(const SurveyEvidence& evidence, const SurveyAttempt& attempt) {
-  std::vector<std::pair<double, int>> by_distance;
-  for (const int id : SeenTags(evidence)) {
-    const bool is_left_out =
-        std::any_of(attempt.notes.begin(), attempt.notes.end(), [id](const RegistrationNote& note) {
-          return note.tag_id == id && note.code == TagDisagrees(id).code;
-        });
-    const auto hung = attempt.adjustment.tags.find(id);
-    const double off_m = hung == attempt.adjustment.tags.end() ? 0 : hung->second.displacement_m.norm();
-    by_distance.emplace_back(is_left_out ? -kFar : -off_m, id);
+// Tells whether one tag may hang elsewhere, where the displacements alone do not say so: Huber's loss bounds what such
+// a tag does to them. Finding out costs a registration for each tag.
+bool MayHideMovedTag(const Accuracy& accuracy, const SurveyVerdict& verdict) {
+  if (accuracy.is_refused) return false;
+  if (accuracy.unused > 0 || accuracy.left_out > 0) return true;
+  constexpr double kSuspectSigmas = 3;  // of a corner or a displacement
+  const BundleContext context{verdict.attempt.cameras, verdict.options};
+  const BundleAdjustment& adjustment = verdict.attempt.adjustment;
+  for (const auto& [id, tag] : adjustment.tags) {
+    if (tag.displacement_m.norm() > kSuspectSigmas * verdict.options.survey_sigma_m) return true;
   }
-  std::sort(by_distance.begin(), by_distance.end());
-  constexpr std::size_t kMost = 16;  // the moved one is among the first few
-  if (by_distance.size() > kMost) by_distance.resize(kMost);
-  std::vector<int> suspects;
-  suspects.reserve(by_distance.size());
-  for (const auto& [distance, id] : by_distance) suspects.push_back(id);
-  return suspects;
+  return std::any_of(adjustment.views.begin(), adjustment.views.end(), [&](const BundleView& view) {
+    const std::vector<BundleCornerError> errors =
+        view.active ? BundleViewErrors(context, adjustment, view) : std::vector<BundleCornerError>();
+    return std::any_of(errors.begin(), errors.end(), [&](const BundleCornerError& error) {
+      return error.sigmas > kSuspectSigmas * adjustment.scale;
+    });
+  });
+}
+
+// Holds what a registration without one tag says of it.
+struct WithoutTag {
+  SurveyEvidence others;
+  SurveyAttempt attempt;
+  Accuracy accuracy;
+  double sigmas = 0;          // of the tag off its place, by the better of both tests
+  bool is_one_place = false;  // whether all views that can tell show the tag in one place
+};
+
+WithoutTag RegisterWithout(int id, const Accuracy& with_all, const SurveyEvidence& all,
+                           const RegisterViewsOptions& options) {
+  WithoutTag without{Without(all, id), {}, {}};
+  without.attempt = RegisterBySurvey(without.others, options, {});
+  without.accuracy = AccuracyOf(without.others, options, without.attempt);
+  without.sigmas = std::sqrt(std::max(0.0, with_all.scale.chi2 - without.accuracy.scale.chi2));
+  const std::optional<TagPlace> place =
+      FindTagPlace({without.attempt.cameras, options}, without.attempt.adjustment, without.attempt.covariance,
+                   all.survey.at(id), all.detections);
+  without.is_one_place = place && place->IsOnePlace();
+  if (without.is_one_place) without.sigmas = std::max(without.sigmas, place->Sigmas(options.survey_sigma_m));
+  return without;
 }
 
 // Tells whether the survey without one tag explains the photos: all others agree with it, and the tag was as
 // far off as one must be to be left out. (A chance of one in a hundred is no reason to accuse the worst tag.)
-bool IsExplained(const Accuracy& with_all, const Accuracy& without, double max_sigmas) {
+bool IsExplained(const Accuracy& with_all, const WithoutTag& without, double max_sigmas) {
   constexpr double kEnough = 3;  // determined displacements; fewer agree with anything
-  if (without.left_out > 0 || without.IsContradicted() || without.scale.determined < kEnough) return false;
-  return with_all.left_out > 0 || with_all.scale.chi2 - without.scale.chi2 > max_sigmas * max_sigmas;
+  const Accuracy& its = without.accuracy;
+  if (its.left_out > 0 || its.IsContradicted() || its.scale.determined < kEnough) return false;
+  return with_all.left_out > 0 || without.sigmas > max_sigmas;
 }
 
-// Leaves out the tag without which all others agree with the survey best, if there is one.
+// Leaves out the tag without which all others agree best, and that is furthest off its place by them, if there is one.
+// A survey that is not contradicted as a whole loses a tag only if all views show that one in another place, far off:
+// each tag is tested, and a chance of one in a thousand for each would accuse a right one in every hundredth survey.
 bool LeaveOutMovedTag(const Accuracy& with_all, SurveyVerdict& verdict) {
+  constexpr double kMovedSigmas = 6;
+  const bool is_contradicted = with_all.IsContradicted();
+  const double max_sigmas = is_contradicted ? verdict.options.max_view_rms_sigmas : kMovedSigmas;
   const SurveyEvidence all = verdict.evidence;
-  const std::vector<int> suspects = Suspects(all, verdict.attempt);
-  double least = kFar;
+  std::optional<WithoutTag> best;
   int moved = -1;
-  for (const int id : suspects) {
-    const SurveyEvidence others = Without(all, id);
-    SurveyAttempt attempt = RegisterBySurvey(others, verdict.options, {});
-    const Accuracy accuracy = AccuracyOf(others, verdict.options, attempt);
-    if (!IsExplained(with_all, accuracy, verdict.options.max_view_rms_sigmas)) continue;
-    const double ratio = accuracy.scale.chi2 / accuracy.scale.determined;
-    if (ratio >= least) continue;
-    least = ratio;
+  for (const int id : SeenTags(all)) {
+    WithoutTag without = RegisterWithout(id, with_all, all, verdict.options);
+    if (!is_contradicted && !without.is_one_place) continue;
+    if (!IsExplained(with_all, without, max_sigmas)) continue;
+    const auto rank = [](const WithoutTag& w) { return std::pair(w.accuracy.unused, -w.sigmas); };
+    if (best && !(rank(without) < rank(*best))) continue;
+    best = std::move(without);
     moved = id;
-    verdict.attempt = std::move(attempt);
-    verdict.evidence = others;
   }
   if (moved < 0) return false;
+  verdict.attempt = std::move(best->attempt);
+  verdict.evidence = std::move(best->others);
   verdict.notes.push_back(TagDisagrees(moved));
   return true;
 }
@@ -123,8 +150,10 @@ SurveyVerdict CheckSurvey(const SurveyEvidence& evidence, const RegisterViewsOpt
   SurveyVerdict verdict{options, evidence, {}, RegisterBySurvey(evidence, options, {})};
   if (!(options.survey_sigma_m > 0)) return verdict;
   const Accuracy accuracy = AccuracyOf(evidence, options, verdict.attempt);
-  if (!accuracy.IsContradicted()) return verdict;
+  const bool is_contradicted = accuracy.IsContradicted();
+  if (!is_contradicted && !MayHideMovedTag(accuracy, verdict)) return verdict;
   if (!accuracy.is_refused && LeaveOutMovedTag(accuracy, verdict)) return verdict;
+  if (!is_contradicted) return verdict;
   const SurveyVerdict as_given = verdict;
   SettleSurveySigma(options.survey_sigma_m, verdict);
   // A survey that no sigma makes consistent has another fault than its accuracy.
