@@ -10,7 +10,7 @@ namespace luxfit {
 namespace {
 
 // Holds one view that shows the tag.
-struct Sight {
+struct TagSight {
   const Camera* camera;
   Eigen::Matrix3d world_from_cam;
   Eigen::Vector3d center_m;
@@ -18,9 +18,9 @@ struct Sight {
   Eigen::Index pose_column;  // of the covariance of poses
 };
 
-std::vector<Sight> SightsOf(const BundleContext& context, const BundleAdjustment& adjustment, int id,
-                            const std::vector<ViewDetections>& detections) {
-  std::vector<Sight> sights;
+std::vector<TagSight> TagSightsOf(const BundleContext& context, const BundleAdjustment& adjustment, int id,
+                                  const std::vector<ViewDetections>& detections) {
+  std::vector<TagSight> sights;
   Eigen::Index column = 0;
   for (const BundleView& view : adjustment.views) {
     if (!view.active) continue;
@@ -42,10 +42,11 @@ std::vector<Sight> SightsOf(const BundleContext& context, const BundleAdjustment
 using Corners = std::array<Eigen::Vector3d, 4>;
 
 // Returns 8 errors a view, px.
-Eigen::VectorXd Errors(const std::vector<Sight>& sights, const Corners& corners, const Eigen::Vector3d& d) {
+Eigen::VectorXd Errors(const std::vector<TagSight>& sights, const Corners& corners,
+                       const Eigen::Vector3d& d) {
   Eigen::VectorXd errors(static_cast<Eigen::Index>(8 * sights.size()));
   Eigen::Index row = 0;
-  for (const Sight& sight : sights) {
+  for (const TagSight& sight : sights) {
     for (std::size_t i = 0; i < 4; ++i, row += 2) {
       errors.segment<2>(row) =
           Project(*sight.camera, sight.world_from_cam.transpose() * (corners[i] + d - sight.center_m)) -
@@ -57,7 +58,8 @@ Eigen::VectorXd Errors(const std::vector<Sight>& sights, const Corners& corners,
 
 constexpr double kStep_m = 1e-5;  // of central differences; rad of a turn
 
-Eigen::MatrixXd ByPlace(const std::vector<Sight>& sights, const Corners& corners, const Eigen::Vector3d& d) {
+Eigen::MatrixXd ByPlace(const std::vector<TagSight>& sights, const Corners& corners,
+                        const Eigen::Vector3d& d) {
   Eigen::MatrixXd by_place(static_cast<Eigen::Index>(8 * sights.size()), 3);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d step = kStep_m * Eigen::Vector3d::Unit(axis);
@@ -69,7 +71,7 @@ Eigen::MatrixXd ByPlace(const std::vector<Sight>& sights, const Corners& corners
 
 // Returns one of the two sides of the central difference by a pose's unknown: 0 to 2 turn it about the axes of the
 // world, 3 to 5 move its centre.
-Sight Stepped(Sight sight, int unknown, double step) {
+TagSight Stepped(TagSight sight, int unknown, double step) {
   const Eigen::Vector3d axis = Eigen::Vector3d::Unit(unknown % 3);
   if (unknown < 3) {
     sight.world_from_cam = Eigen::AngleAxisd(step, axis) * sight.world_from_cam;
@@ -85,7 +87,7 @@ Corners PrintedCorners(SurveyedTag surveyed, double size_error) {
   return TagCornersInWorld(surveyed);
 }
 
-Eigen::VectorXd BySize(const std::vector<Sight>& sights, const SurveyedTag& surveyed, double size_error,
+Eigen::VectorXd BySize(const std::vector<TagSight>& sights, const SurveyedTag& surveyed, double size_error,
                        const Eigen::Vector3d& d) {
   constexpr double kStep = 1e-5;
   return (Errors(sights, PrintedCorners(surveyed, size_error + kStep), d) -
@@ -94,7 +96,7 @@ Eigen::VectorXd BySize(const std::vector<Sight>& sights, const SurveyedTag& surv
 }
 
 // Returns S of the header. `by_size`: of the errors, by the error of the printed size.
-Eigen::MatrixXd ErrorCovariance(const std::vector<Sight>& sights, const Corners& corners,
+Eigen::MatrixXd ErrorCovariance(const std::vector<TagSight>& sights, const Corners& corners,
                                 const Eigen::Vector3d& d, const Eigen::VectorXd& by_size,
                                 const BundleCovariance& covariance) {
   const auto rows = static_cast<Eigen::Index>(8 * sights.size());
@@ -102,7 +104,7 @@ Eigen::MatrixXd ErrorCovariance(const std::vector<Sight>& sights, const Corners&
   Eigen::MatrixXd errors = Eigen::MatrixXd::Zero(rows, rows);
   for (std::size_t s = 0; s < sights.size(); ++s) {
     const auto row = static_cast<Eigen::Index>(8 * s);
-    const Sight& sight = sights[s];
+    const TagSight& sight = sights[s];
     for (int k = 0; k < 6; ++k) {
       by_poses.block<8, 1>(row, sight.pose_column + k) = (Errors({Stepped(sight, k, kStep_m)}, corners, d) -
                                                           Errors({Stepped(sight, k, -kStep_m)}, corners, d)) /
@@ -117,11 +119,11 @@ Eigen::MatrixXd ErrorCovariance(const std::vector<Sight>& sights, const Corners&
 }
 
 // Returns where the tag is by its size alone in the view that shows it largest: near enough for the iteration.
-std::optional<Eigen::Vector3d> RoughDisplacement(const std::vector<Sight>& sights,
+std::optional<Eigen::Vector3d> RoughDisplacement(const std::vector<TagSight>& sights,
                                                  const SurveyedTag& surveyed, const Corners& corners) {
-  const Sight& best = *std::max_element(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) {
-    return a.seen->side_px < b.seen->side_px;
-  });
+  const TagSight& best = *std::max_element(
+      sights.begin(), sights.end(),
+      [](const TagSight& a, const TagSight& b) { return a.seen->side_px < b.seen->side_px; });
   TagObservation alone{surveyed.id, surveyed.size_m,      best.seen->side_px, best.seen->corner_sigma_px,
                        corners,     best.seen->corners_px};
   for (Eigen::Vector3d& corner : alone.corners_in_world) corner -= surveyed.center_in_world;
@@ -147,7 +149,7 @@ std::optional<TagPlace> FindTagPlace(const BundleContext& context, const BundleA
                                      const BundleCovariance& covariance, const SurveyedTag& surveyed,
                                      const std::vector<ViewDetections>& detections) {
   if (!covariance.determined) return std::nullopt;
-  const std::vector<Sight> sights = SightsOf(context, adjustment, surveyed.id, detections);
+  const std::vector<TagSight> sights = TagSightsOf(context, adjustment, surveyed.id, detections);
   if (sights.empty()) return std::nullopt;
   const double size_error = adjustment.size_error;
   const Corners corners = PrintedCorners(surveyed, size_error);
