@@ -6,8 +6,9 @@
 // A pendant that lights both sides looks to a lobe like a luminaire elsewhere: its place, the reflectances and every
 // other luminaire would be wrong where models are compared, and so would the indirect light that they are compared
 // with. So points that light both sides are compared with the luminaire as it is on the light that photos measured,
-// which no model of a luminaire enters. Beside place and flux a globe has no parameter, the others have one. Where the luminaire as it is leaves no more than 1 %, nothing is tried. Nor is it
-// where no data show light from its back: light that nothing sees could be as much as one likes.
+// which no model of a luminaire enters. Beside place and flux a globe has no parameter, the others have one. Where the
+// luminaire as it is leaves no more than 1 %, nothing is tried. Nor is it where no data show light from its back: light
+// that nothing sees could be as much as one likes.
 //
 // Source: house; rule: inverse/select/one_standard_error.h.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_TWO_SIDES_H_
