@@ -9,6 +9,7 @@
 
 #include "forward/direct/internal/expect_sensor.h"
 #include "forward/direct/internal/luminous_surface.h"
+#include "forward/luminaire/internal/direction_sampler.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
 #include "forward/room/internal/sampling.h"
 
@@ -19,46 +20,165 @@ using Generator = std::mt19937_64;
 
 double Uniform(Generator& rng) { return UnitFrom(rng()); }
 
-// Returns the direct light from one point of a luminaire's surface, taken for all its flux.
-double DirectLx(const RayScene& rays, const LuminousSurface& surface, const Eigen::Vector3d& p,
-                const Eigen::Vector3d& normal, const Eigen::Vector2d& unit) {
-  const Eigen::Vector3d point = surface.PointAt(unit), to_lamp = point - p;
-  const double height = normal.dot(to_lamp);
-  if (height <= 0) return 0;
-  const double r = to_lamp.norm();
-  const double cd_per_lm = surface.IntensityTowards(-to_lamp / r).cd_per_lm;
-  if (cd_per_lm == 0 || rays.Occluded(LiftedOff(p, normal), point)) return 0;
-  return surface.luminaire().flux_lm * cd_per_lm * height / (r * r * r);
+// Point `index` of the additive sequence in four dimensions, from `start`.
+Eigen::Vector4d GoldenPoint(double index, const Eigen::Vector4d& start) {
+  const Eigen::Vector4d x = start + index * Eigen::Map<const Eigen::Vector4d>(kGoldenSteps);
+  return x.array() - x.array().floor();
 }
+
+// Direct light that a surface takes from one point of a luminaire.
+struct TakenLight {
+  double lx = 0;              // for all the luminaire's flux
+  double density_per_m2 = 0;  // with which a direction drawn by the luminaire's intensity meets this place
+};
+
+struct Source {
+  LuminousSurface surface;
+  DirectionSampler directions;
+  bool sends_light = false;  // whether light is followed from it
+};
+
+// A place that light from a luminaire meets first.
+struct LightPoint {
+  bool is_lit = false;
+  Eigen::Vector3d position, normal;
+  double reflected_lx = 0, density_per_m2 = 0;  // as of TakenLight, but reflected
+};
+
+// Density of the cosine's directions at p by the area of q, per m2: cos cos / (pi r^2). 0: one lies behind the other.
+double CosineDensity(const Eigen::Vector3d& p, const Eigen::Vector3d& p_normal, const Eigen::Vector3d& q,
+                     const Eigen::Vector3d& q_normal) {
+  const Eigen::Vector3d to_q = q - p;
+  const double p_height = p_normal.dot(to_q), q_height = -q_normal.dot(to_q);
+  if (p_height <= 0 || q_height <= 0) return 0;
+  return p_height * q_height / (M_PI * std::pow(to_q.squaredNorm(), 2));
+}
+
+// Weight of what was drawn with `density` where another way draws it with `other` (balance heuristic). Level with a
+// surface the density may round to 0.
+double Share(double density, double other) { return other > 0 ? density / (density + other) : 1; }
 
 struct Tracer {
   const Scene& scene;
   const RayScene& rays;
   const Eigen::VectorXd& albedo;
-  std::vector<LuminousSurface> sources;
+  std::vector<Source> sources;
 
-  // Adds the light of one path, by luminaire.
-  void AddPath(const Sensor& sensor, const Eigen::Vector2d& first, Generator& rng,
-               Eigen::Ref<Eigen::VectorXd> sum_lx) const {
+  // Returns what is taken without asking whether anything lies between.
+  TakenLight TakenUnhidden(const Source& source, const Eigen::Vector3d& from, const Eigen::Vector3d& p,
+                           const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d to_lamp = from - p;
+    const double height = normal.dot(to_lamp);
+    if (height <= 0) return {};
+    const double r = to_lamp.norm(), r3 = r * r * r;
+    const Eigen::Vector3d direction = -to_lamp / r;
+    const double cd_per_lm = source.surface.IntensityTowards(direction).cd_per_lm;
+    TakenLight taken;
+    taken.lx = source.surface.luminaire().flux_lm * cd_per_lm * height / r3;
+    if (source.sends_light) taken.density_per_m2 = source.directions.Density(direction) * height / r3;
+    return taken;
+  }
+
+  // The point of the luminaire is drawn from its surface.
+  TakenLight Taken(const Source& source, const Eigen::Vector2d& unit, const Eigen::Vector3d& p,
+                   const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d from = source.surface.PointAt(unit);
+    const TakenLight taken = TakenUnhidden(source, from, p, normal);
+    if (taken.lx == 0 || rays.Occluded(LiftedOff(p, normal), from)) return {};
+    return taken;
+  }
+
+  LightPoint Follow(const Source& source, const Eigen::Vector2d& place, const Eigen::Vector2d& unit) const {
+    LightPoint point;
+    const Eigen::Vector3d from = source.surface.PointAt(place),
+                          direction = source.directions.DirectionAt(unit);
+    // As far off as a shadow ray ends before a luminaire: one that lies in a surface shines away from it.
+    const RayHit hit = rays.Trace(LiftedOff(from, direction), direction);
+    if (hit.facet < 0 || !hit.front) return point;
+    const Facet& facet = scene.facets[static_cast<size_t>(hit.facet)];
+    point.position = facet.PointAt(hit.u, hit.v);
+    point.normal = facet.Normal();
+    const TakenLight taken = TakenUnhidden(source, from, point.position, point.normal);
+    point.reflected_lx = albedo[facet.material] * taken.lx;
+    point.density_per_m2 = taken.density_per_m2;
+    point.is_lit = point.reflected_lx > 0;
+    return point;
+  }
+
+  // Returns what a place takes from a lit point, weighed against directions from the place.
+  double Connected(const LightPoint& lit, const Eigen::Vector3d& p, const Eigen::Vector3d& normal) const {
+    if (!lit.is_lit) return 0;
+    const double density = CosineDensity(p, normal, lit.position, lit.normal);
+    if (density == 0 || rays.Occluded(LiftedOff(p, normal), LiftedOff(lit.position, lit.normal))) return 0;
+    return lit.reflected_lx * Share(density, lit.density_per_m2);
+  }
+
+  // Adds the light of one path, by luminaire. `lit`: the first place of each luminaire's light, if it is followed.
+  void AddPath(const Sensor& sensor, const Eigen::Vector2d& first, const std::vector<LightPoint>& lit,
+               Generator& rng, Eigen::Ref<Eigen::VectorXd> sum_lx) const {
     Eigen::Vector3d p = sensor.position, normal = sensor.normal;
     Eigen::Vector2d unit = first;
     while (true) {
+      for (size_t k = 0; k < sources.size(); ++k)
+        sum_lx[static_cast<Eigen::Index>(k)] += Connected(lit[k], p, normal);
       const Eigen::Vector3d direction = FrameOf(normal) * LiftedFromDisc(unit[0], unit[1]);
       const RayHit hit = rays.Trace(LiftedOff(p, normal), direction);
       if (hit.facet < 0 || !hit.front) return;
       const Facet& facet = scene.facets[static_cast<size_t>(hit.facet)];
+      const Eigen::Vector3d from = p, from_normal = normal;
       p = facet.PointAt(hit.u, hit.v);
       normal = facet.Normal();
-      const double rho = albedo[facet.material];
+      const double rho = albedo[facet.material], density = CosineDensity(from, from_normal, p, normal);
       for (size_t k = 0; k < sources.size(); ++k) {
-        sum_lx[static_cast<Eigen::Index>(k)] +=
-            rho * DirectLx(rays, sources[k], p, normal, {Uniform(rng), Uniform(rng)});
+        const TakenLight taken = Taken(sources[k], {Uniform(rng), Uniform(rng)}, p, normal);
+        if (taken.lx == 0) continue;
+        sum_lx[static_cast<Eigen::Index>(k)] += rho * taken.lx * Share(density, taken.density_per_m2);
       }
       if (Uniform(rng) >= rho) return;
       unit = {Uniform(rng), Uniform(rng)};
     }
   }
 };
+
+// Returns how much more densely a luminaire's light lies on the surfaces that it meets first than if it lay evenly on all
+// of them: S = A int p^2 dA / (int p dA)^2, p: density of its directions by area. 1: evenly; 0: it meets none.
+double ConcentrationOf(const Tracer& tracer, const Source& source) {
+  constexpr int kDirections = 256;
+  double area_m2 = 0, sum_per_m2 = 0, met = 0;
+  for (const Facet& facet : SurfaceFacets(tracer.scene)) area_m2 += facet.AreaM2();
+  for (int i = 0; i < kDirections; ++i) {
+    const Eigen::Vector4d four = GoldenPoint(i, Eigen::Vector4d::Constant(0.5));
+    const LightPoint lit = tracer.Follow(source, four.tail<2>(), four.head<2>());
+    sum_per_m2 += lit.density_per_m2;
+    met += lit.density_per_m2 > 0 ? 1 : 0;
+  }
+  return met > 0 ? area_m2 * sum_per_m2 * kDirections / (met * met) : 0;
+}
+
+// Returns the concentration from which on it pays to follow light from a luminaire.
+//
+// In a sphere a path meets n = 1 / (1 - rho) surfaces, all places alike. The first is spread evenly; of the others each
+// adds (S - 1) to the relative variance (1 - rho) rho (S - 1) + rho of the paths' sum, where the second part is that of
+// their number. To follow light takes nearly all of the first part away, and 2 n + 1 rays instead of n: a connection at
+// every place, and one ray from the luminaire. It pays where (1 - rho) (S - 1) + 1 > (2 n + 1) / n, so S > 2 + n.
+double WorthwhileConcentration(double mean_albedo) { return 2 + 1 / (1 - mean_albedo); }
+
+double MeanAlbedo(const Scene& scene, const Eigen::VectorXd& albedo) {
+  double area_m2 = 0, reflecting_m2 = 0;
+  for (const Facet& facet : SurfaceFacets(scene)) {
+    area_m2 += facet.AreaM2();
+    reflecting_m2 += facet.AreaM2() * albedo[facet.material];
+  }
+  return area_m2 > 0 ? reflecting_m2 / area_m2 : 0;
+}
+
+void AddSources(const std::vector<Luminaire>& luminaires, Tracer& tracer) {
+  const double worthwhile = WorthwhileConcentration(MeanAlbedo(tracer.scene, tracer.albedo));
+  for (const Luminaire& luminaire : luminaires) {
+    tracer.sources.push_back({LuminousSurface(luminaire), DirectionSampler(luminaire), true});
+    tracer.sources.back().sends_light = ConcentrationOf(tracer, tracer.sources.back()) > worthwhile;
+  }
+}
 
 // Holds the mean and its standard error over columns (replicates), by row.
 struct MeanAndSigma {
@@ -85,8 +205,7 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
   ExpectValid(luminaires);
   ExpectValid(sensors);
   Tracer tracer{scene, rays, albedo, {}};
-  for (const Luminaire& luminaire : luminaires) tracer.sources.emplace_back(luminaire);
-
+  AddSources(luminaires, tracer);
   const Eigen::Index lamps = static_cast<Eigen::Index>(luminaires.size());
   const size_t replicates = static_cast<size_t>(options.replicates);
   const int paths = options.paths_per_sensor / options.replicates;
@@ -96,16 +215,24 @@ TracedIlluminance TraceIlluminance(const Scene& scene, const RayScene& rays,
   tbb::parallel_for(size_t{0}, sensors.size() * replicates, [&](size_t task) {
     const Sensor& sensor = sensors[task / replicates];
     const Eigen::Index run = static_cast<Eigen::Index>(task % replicates);
-    Generator rng(Mix(Mix(options.seed) + task));
+    const uint64_t seed = Mix(Mix(options.seed) + task);
+    // Light that is followed has numbers of its own: what else is drawn does not depend on it.
+    Generator rng(seed), light_rng(Mix(seed));
     const Eigen::Vector2d surface(Uniform(rng), Uniform(rng)), hemisphere(Uniform(rng), Uniform(rng));
+    const Eigen::Vector4d light(Uniform(light_rng), Uniform(light_rng), Uniform(light_rng),
+                                Uniform(light_rng));
     Eigen::VectorXd direct_lx = Eigen::VectorXd::Zero(lamps), indirect_lx = direct_lx;
+    std::vector<LightPoint> lit(tracer.sources.size());
     for (int i = 0; i < paths; ++i) {
       const Eigen::Vector2d unit = PlasticPoint(i, surface);
-      for (Eigen::Index k = 0; k < lamps; ++k) {
-        direct_lx[k] +=
-            DirectLx(rays, tracer.sources[static_cast<size_t>(k)], sensor.position, sensor.normal, unit);
+      const Eigen::Vector4d four = GoldenPoint(i, light);
+      for (size_t k = 0; k < tracer.sources.size(); ++k) {
+        const Source& source = tracer.sources[k];
+        direct_lx[static_cast<Eigen::Index>(k)] +=
+            tracer.Taken(source, unit, sensor.position, sensor.normal).lx;
+        if (source.sends_light) lit[k] = tracer.Follow(source, four.tail<2>(), four.head<2>());
       }
-      tracer.AddPath(sensor, PlasticPoint(i, hemisphere), rng, indirect_lx);
+      tracer.AddPath(sensor, PlasticPoint(i, hemisphere), lit, rng, indirect_lx);
     }
     direct[task / replicates].col(run) = direct_lx / paths;
     indirect[task / replicates].col(run) = indirect_lx / paths;

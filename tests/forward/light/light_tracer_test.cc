@@ -34,6 +34,15 @@ Luminaire IsotropicAt(const Eigen::Vector3d& position, double flux_lm) {
   return lamp;
 }
 
+// Half of the peak at 10 degrees.
+Luminaire SpotAt(const Eigen::Vector3d& position, const Eigen::Vector3d& aim, double flux_lm) {
+  Luminaire spot = IsotropicAt(position, flux_lm);
+  spot.distribution = Distribution::kCosinePower;
+  spot.cosine_exponent = 45;
+  spot.aim = aim.normalized();
+  return spot;
+}
+
 // The mean over the walls of a closed room of one reflectance is rho Phi / (A (1 - rho)); with the luminaire
 // in the middle of a cube all six walls are alike.
 TEST(LightTracer, CubeIsAnIntegratingSphere) {
@@ -98,18 +107,112 @@ TEST(LightTracer, StandardErrorsAreHonest) {
   const Scene scene = support::ClosedRoom({4, 4, 4});
   const RayScene rays(scene);
   const std::vector<Sensor> sensors = {{{1, 1.3, 0}, {0, 0, 1}}};
+  const std::vector<Luminaire> luminaires = {IsotropicAt({2, 1, 3}, 1000),
+                                             SpotAt({2, 1, 3}, {0.6, 0.3, -0.5}, 1000)};
   const auto trace = [&](int paths, uint64_t seed) {
-    return TraceIlluminance(scene, rays, {IsotropicAt({2, 1, 3}, 1000)}, Eigen::VectorXd::Constant(1, 0.6),
-                            sensors, WithPaths(paths, seed));
+    return TraceIlluminance(scene, rays, luminaires, Eigen::VectorXd::Constant(1, 0.6), sensors,
+                            WithPaths(paths, seed));
   };
-  const double reference_lx = trace(1 << 19, 1000).indirect(0, 0);
+  const TracedIlluminance reference = trace(1 << 19, 1000);
   constexpr int kSeeds = 64;
-  double squares = 0;
+  Eigen::Array2d squares = Eigen::Array2d::Zero();
   for (int seed = 0; seed < kSeeds; ++seed) {
     const TracedIlluminance traced = trace(2048, static_cast<uint64_t>(seed));
-    squares += std::pow((traced.indirect(0, 0) - reference_lx) / traced.indirect_sigma(0, 0), 2);
+    squares +=
+        ((traced.indirect - reference.indirect).array() / traced.indirect_sigma.array()).square().transpose();
   }
-  EXPECT_NEAR(squares / kSeeds, 1, kSigmas * 0.19);
+  EXPECT_NEAR(squares[0] / kSeeds, 1, kSigmas * 0.19) << "isotropic";
+  EXPECT_NEAR(squares[1] / kSeeds, 1, kSigmas * 0.19) << "spot";
+}
+
+// The pool on the floor, the only surface that reflects, as seen from the ceiling:
+//   E = rho Phi int I(w) h^2 / (pi d^4) dw        h: height of the room, d: from the sensor to where w meets the floor
+TEST(LightTracer, ASpotsPoolIsThatOfTheIntegral) {
+  constexpr double kFluxLm = 500, kHeightM = 2.5, kLampM = 2.2, kRho = 0.4;
+  const Scene scene =
+      support::ClosedRoom({4, 4, kHeightM}, {"black", "black", "black", "black", "floor", "black"});
+  const RayScene rays(scene);
+  const Luminaire spot = SpotAt({1.7, 2.1, kLampM}, {0, 0, -1}, kFluxLm);
+  const std::vector<Sensor> sensors = {{{1.5, 2.4, kHeightM - 1e-4}, {0, 0, -1}},
+                                       {{3.6, 0.5, kHeightM - 1e-4}, {0, 0, -1}}};
+  Eigen::VectorXd albedo(2);
+  albedo << 0, kRho;
+  const TracedIlluminance traced = TraceIlluminance(scene, rays, {spot}, albedo, sensors);
+  for (Eigen::Index s = 0; s < 2; ++s) {
+    constexpr int kSteps = 400;
+    double expected_lx = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      // The midpoint rule over cos(gamma): 1e-5. Within 40 degrees, all of it meets the floor; beyond lies 1e-5 of the light.
+      const double cosine = 1 - (1 - std::cos(40 * support::kPi / 180)) * (i + 0.5) / kSteps;
+      const double band_sr = (1 - std::cos(40 * support::kPi / 180)) * 2 * support::kPi / kSteps;
+      const double radius_m = kLampM * std::tan(std::acos(cosine));
+      for (int j = 0; j < kSteps; ++j) {
+        const double turn = 2 * support::kPi * (j + 0.5) / kSteps;
+        const Eigen::Vector3d y(1.7 + radius_m * std::cos(turn), 2.1 + radius_m * std::sin(turn), 0);
+        const double d2 = (sensors[static_cast<size_t>(s)].position - y).squaredNorm();
+        expected_lx += kRho * kFluxLm * IntensityPerLumen(spot, cosine).cd_per_lm * kHeightM * kHeightM /
+                       (support::kPi * d2 * d2) * band_sr / kSteps;
+      }
+    }
+    EXPECT_NEAR(traced.indirect(s, 0), expected_lx,
+                kSigmas * traced.indirect_sigma(s, 0) + 1e-3 * expected_lx);
+    EXPECT_LT(traced.indirect_sigma(s, 0), 1e-3 * expected_lx) << "too noisy for the test to tell";
+  }
+}
+
+// Whatever the distribution, the mean over all walls of what is reflected is rho Phi / (A (1 - rho)).
+TEST(LightTracer, ASpotsLightIsKept) {
+  std::mt19937_64 rng = support::TestRng();
+  constexpr int kSide = 8;
+  constexpr double kFluxLm = 1000, kSizeM = 4, kRho = 0.6;
+  const Scene scene = support::ClosedRoom({kSizeM, kSizeM, kSizeM});
+  const RayScene rays(scene);
+  std::uniform_real_distribution<double> within(0, 1);
+  std::vector<Sensor> sensors;
+  for (const Facet& facet : scene.facets) {
+    for (int i = 0; i < kSide * kSide; ++i)
+      sensors.push_back({facet.PointAt((i / kSide + within(rng)) / kSide, (i % kSide + within(rng)) / kSide),
+                         facet.Normal()});
+  }
+  const TracedIlluminance traced =
+      TraceIlluminance(scene, rays, {SpotAt({1.5, 1.2, 3}, {0.7, 0.2, -0.6}, kFluxLm)},
+                       Eigen::VectorXd::Constant(1, kRho), sensors, WithPaths(1024));
+  const double expected_lx = kRho * kFluxLm / (6 * kSizeM * kSizeM * (1 - kRho));
+  const double sigma_lx = traced.indirect_sigma.norm() / static_cast<double>(sensors.size());
+  // Where in its cell a sensor lies: as for the isotropic luminaire.
+  EXPECT_NEAR(traced.indirect.mean(), expected_lx, kSigmas * sigma_lx + 0.002 * expected_lx);
+  EXPECT_LT(sigma_lx, 0.002 * expected_lx) << "too noisy for the test to tell";
+}
+
+// A black plate hides the pool from the sensor; one over the pool keeps the light from the floor; its back reflects nothing.
+TEST(LightTracer, PlatesHideASpotsPool) {
+  const auto indirect_lx = [](const Eigen::Vector3d& corner, const std::string& material) {
+    Scene scene = support::ClosedRoom({4, 4, 2.5}, {"black", "black", "black", "black", "floor", "black"});
+    support::MaterialIndex(scene, "plate");
+    // It faces down.
+    support::AddParallelogram(scene, corner, {0, 1.6, 0}, {1.6, 0, 0}, material);
+    Eigen::VectorXd albedo(3);
+    albedo << 0, 0.5, 0.9;
+    return TraceIlluminance(scene, RayScene(scene), {SpotAt({1, 2, 2.3}, {0, 0, -1}, 500)}, albedo,
+                            {{{3.2, 2, 2.4999}, {0, 0, -1}}}, WithPaths(8192))
+        .indirect(0, 0);
+  };
+  EXPECT_GT(indirect_lx({0.2, 1.2, 2.45}, "black"), 1) << "a plate above the luminaire";
+  EXPECT_LT(indirect_lx({2.4, 1.2, 2.4}, "black"), 1e-6)
+      << "a plate below the sensor, as large as hides the room";
+  EXPECT_LT(indirect_lx({0.2, 1.2, 1}, "plate"), 0.02) << "a plate below the luminaire";
+}
+
+// There densities round to 0.
+TEST(LightTracer, PlacesInAnEdgeHaveANumber) {
+  const Scene scene = support::ClosedRoom({4, 4, 4});
+  std::vector<Sensor> sensors;
+  for (const double off_m : {0.0, 1e-12, 1e-9, 1e-7, 1e-5}) sensors.push_back({{off_m, 1.3, 0}, {0, 0, 1}});
+  const TracedIlluminance traced = TraceIlluminance(
+      scene, RayScene(scene), {IsotropicAt({2, 1, 3}, 1000), SpotAt({2, 1, 3}, {-0.6, 0.3, -0.5}, 1000)},
+      Eigen::VectorXd::Constant(1, 0.6), sensors, WithPaths(4096));
+  EXPECT_TRUE(traced.indirect.allFinite());
+  EXPECT_TRUE(traced.indirect_sigma.allFinite());
 }
 
 TEST(LightTracer, RepeatsForASeedAndOnlyForIt) {
