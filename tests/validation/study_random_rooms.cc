@@ -3,11 +3,12 @@
 //   study_random_rooms -o FOLDER [--quick] [--first SEED] [--count N] [--missing SHARE]
 //
 // Each seed is one room (tests/support/inverse/random_room.h), which shares no patch and no form factor with the model that is fitted.
-// Prints rooms.csv, a line a room, and writes it to FOLDER. Success and wrong and sure are those of inverse/study/stability_score.h:
+// Prints rooms.csv, a line a room, and writes it to FOLDER, with luminaires.csv, a line a luminaire. Success and wrong and sure are those of inverse/study/stability_score.h:
 // every luminaire within 50 mm and 10 %; one is not, nor within its own interval, and no warning says so. Ends with 1 where a room is wrong
 // and sure. --quick: two small rooms.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -48,6 +49,7 @@ struct Outcome {
   bool is_undetermined = false;
   std::string codes;  // of warnings, with spaces between
   double readings_percent = 0, seconds = 0;
+  std::string luminaires;  // lines of luminaires.csv, without the seed
 };
 
 std::vector<EstimatedLuminaire> TruthOf(const support::TracedRoom& room, const RoomFit& fit) {
@@ -71,14 +73,27 @@ double MeanReadingError(const RoomFit& fit, const RoomObservations& given) {
   return count > 0 ? 100 * sum / count : std::nan("");
 }
 
+std::string LuminaireLines(const support::RandomRoom& drawn, const RoomFit& fit) {
+  const std::vector<size_t> matches = support::MatchesOf(drawn.room, fit);
+  std::string lines;
+  for (size_t k = 0; k < matches.size(); ++k) {
+    const Luminaire& truth = drawn.room.luminaires[k];
+    const Luminaire& found = fit.fit.state.luminaires[matches[k]];
+    lines += fmt::format("{},{},{:.1f},{:.2f},{:.2f},{},{}\n", truth.id, drawn.kinds[k],
+                         1000 * (found.position - truth.position).norm(),
+                         100 * (found.flux_lm / truth.flux_lm - 1),
+                         180 / M_PI * std::atan2(found.aim.cross(truth.aim).norm(), found.aim.dot(truth.aim)),
+                         ToString(found.distribution), ToString(found.shape));
+  }
+  return lines;
+}
+
 Outcome FitDrawn(const support::RandomRoom& drawn, std::mt19937_64& rng) {
   RoomOptions options;
   options.patches.patch_size_m = 0.4;
   options.patches.element_size_m = 0.2;
   const Room model = MakeRoom(drawn.mesh, options);
-  support::TracedRoomOptions traced;
-  traced.paths_per_point = 512;
-  const RoomObservations given = support::ObserveTraced(drawn.room, model, rng, traced);
+  const RoomObservations given = support::ObserveTraced(drawn.room, model, rng);
   const auto start = std::chrono::steady_clock::now();
   const RoomFit fit = FitRoom(model, given);
   Outcome outcome;
@@ -89,6 +104,7 @@ Outcome FitDrawn(const support::RandomRoom& drawn, std::mt19937_64& rng) {
   outcome.score =
       ScoreFit(EstimatedLuminaires(fit), TruthOf(drawn.room, fit), !fit.findings.warnings.empty());
   outcome.readings_percent = MeanReadingError(fit, given);
+  outcome.luminaires = LuminaireLines(drawn, fit);
   return outcome;
 }
 
@@ -106,6 +122,7 @@ int Run(int argc, char** argv) {
       "seed,outcome,worst_mm,worst_flux_percent,readings_percent,intervals,intervals_held,undetermined,"
       "seconds,warnings,room\n";
   std::fputs(table.c_str(), stdout);
+  std::string luminaires = "seed,luminaire,kind,off_mm,flux_percent,aim_deg,distribution,shape\n";
   int wrong_and_sure = 0;
   for (int seed = sweep.first; seed < sweep.first + sweep.count; ++seed) {
     std::mt19937_64 rng(static_cast<std::uint64_t>(seed));
@@ -121,9 +138,13 @@ int Run(int argc, char** argv) {
     std::fputs(line.c_str(), stdout);
     std::fflush(stdout);
     table += line;
+    for (size_t at = 0; at < outcome.luminaires.size(); at = outcome.luminaires.find('\n', at) + 1)
+      luminaires += fmt::format("{},{}", seed,
+                                outcome.luminaires.substr(at, outcome.luminaires.find('\n', at) + 1 - at));
     wrong_and_sure += score.is_confident_wrong ? 1 : 0;
   }
   WriteText(study->folder + "/rooms.csv", table);
+  WriteText(study->folder + "/luminaires.csv", luminaires);
   return wrong_and_sure == 0 ? 0 : 1;
 }
 

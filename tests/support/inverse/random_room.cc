@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "forward/luminaire/luminaire_parts.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit::support {
@@ -142,20 +144,22 @@ bool IsFree(const Plan& plan, const std::vector<Furniture>& pieces, const Vector
   });
 }
 
-enum class LuminaireKind { kPanel, kStrip, kDownlight, kGlobe };
+enum class LuminaireKind { kPanel, kStrip, kDownlight, kGlobe, kSpot, kTurnedSpot, kWasher, kPendant };
 
 std::string NameOf(LuminaireKind kind) {
-  switch (kind) {
-    case LuminaireKind::kPanel:
-      return "panels";
-    case LuminaireKind::kStrip:
-      return "strips";
-    case LuminaireKind::kDownlight:
-      return "downlights";
-    case LuminaireKind::kGlobe:
-      return "globes";
-  }
-  return "";
+  constexpr const char* kNames[] = {"panels", "strips",       "downlights", "globes",
+                                    "spots",  "turned spots", "washers",    "pendants"};
+  return kNames[static_cast<size_t>(kind)];
+}
+
+// A spot in a short housing below the ceiling: half of the peak at 10 to 30 degrees.
+void MakeSpot(Luminaire& type, double height_m, std::mt19937_64& rng) {
+  const double half_rad = Uniform(rng, 10, 30) * M_PI / 180;
+  type.shape = LuminaireShape::kDisc, type.size_m.setConstant(Uniform(rng, 0.05, 0.11));
+  type.distribution = Distribution::kCosinePower;
+  type.cosine_exponent = std::log(0.5) / std::log(std::cos(half_rad));
+  type.flux_lm = Uniform(rng, 300, 900);
+  type.position.z() = height_m - 0.08;
 }
 
 // A type: all of one kind are alike but for place and a flux that differs by 2 %.
@@ -184,36 +188,84 @@ Luminaire DrawType(LuminaireKind kind, double height_m, std::mt19937_64& rng) {
       type.distribution = Distribution::kIsotropic, type.flux_lm = Uniform(rng, 600, 1500);
       type.position.z() = height_m - Uniform(rng, 0.4, 0.9);
       break;
+    case LuminaireKind::kSpot:
+    case LuminaireKind::kTurnedSpot:
+    case LuminaireKind::kWasher:
+      MakeSpot(type, height_m, rng);
+      break;
+    case LuminaireKind::kPendant:
+      type.shape = LuminaireShape::kRectangle;
+      type.size_m = {Uniform(rng, 0.9, 1.5), Uniform(rng, 0.1, 0.3)};
+      type.distribution = Distribution::kMeasured;
+      type.table = std::make_shared<IntensityTable>(TwoSidedTable(Uniform(rng, 0.2, 0.6)));
+      type.flux_lm = Uniform(rng, 2500, 5000);
+      type.position.z() = height_m - Uniform(rng, 0.4, 0.9);
+      break;
   }
   return type;
 }
 
-// Places over the plan at least `apart_m` from each other and from `taken`, `margin_m` from the walls.
-std::vector<Vector2d> DrawPlaces(const Plan& plan, int count, double apart_m, double margin_m,
+// The nearest point of the walls.
+Vector2d NearestWall(const Plan& plan, const Vector2d& p) {
+  Vector2d nearest = plan.corners.front();
+  for (size_t i = 0; i < plan.corners.size(); ++i) {
+    const Vector2d along = plan.corners[(i + 1) % plan.corners.size()] - plan.corners[i];
+    const double share = std::clamp((p - plan.corners[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const Vector2d q = plan.corners[i] + share * along;
+    if ((q - p).norm() < (nearest - p).norm()) nearest = q;
+  }
+  return nearest;
+}
+
+// Where luminaires of a type may hang.
+struct Spacing {
+  double apart_m = 0, from_walls_m = 0, within_m = 0;  // of each other; from walls at least and at most
+};
+
+Spacing SpacingOf(LuminaireKind kind, const Luminaire& type) {
+  const double size_m = type.size_m.maxCoeff();
+  if (kind == LuminaireKind::kWasher) return {0.8, 0.5, 1};
+  return {std::max(1.3, size_m + 0.1), std::max(0.45, size_m / 2 + 0.05), 100};
+}
+
+std::vector<Vector2d> DrawPlaces(const Plan& plan, int count, const Spacing& spacing,
                                  std::vector<Vector2d> taken, std::mt19937_64& rng) {
   const AlignedBox2d bounds = plan.Bounds();
   const size_t before = taken.size();
   for (int tries = 0; tries < 400 && static_cast<int>(taken.size() - before) < count; ++tries) {
     const Vector2d p(Uniform(rng, 0, bounds.sizes().x()), Uniform(rng, 0, bounds.sizes().y()));
-    const bool is_apart = std::all_of(taken.begin(), taken.end(),
-                                      [&](const Vector2d& other) { return (other - p).norm() > apart_m; });
-    if (is_apart && plan.Holds(p, margin_m)) taken.push_back(p);
+    const bool is_apart = std::all_of(taken.begin(), taken.end(), [&](const Vector2d& other) {
+      return (other - p).norm() > spacing.apart_m;
+    });
+    const bool is_near = (NearestWall(plan, p) - p).norm() < spacing.within_m;
+    if (is_apart && is_near && plan.Holds(p, spacing.from_walls_m)) taken.push_back(p);
   }
   return {taken.begin() + static_cast<std::ptrdiff_t>(before), taken.end()};
 }
 
+// Turned spots are tilted by up to 40 degrees to any side, washers by 20 to 40 degrees towards the nearest wall.
+Vector3d DrawAim(LuminaireKind kind, const Plan& plan, const Vector2d& p, std::mt19937_64& rng) {
+  if (kind != LuminaireKind::kTurnedSpot && kind != LuminaireKind::kWasher) return {0, 0, -1};
+  const bool is_washer = kind == LuminaireKind::kWasher;
+  const double tilt_rad = Uniform(rng, is_washer ? 20 : 0, 40) * M_PI / 180,
+               turn_rad = Uniform(rng, 0, 2 * M_PI);
+  const Vector2d side =
+      is_washer ? (NearestWall(plan, p) - p).normalized() : Vector2d(std::cos(turn_rad), std::sin(turn_rad));
+  return {std::sin(tilt_rad) * side.x(), std::sin(tilt_rad) * side.y(), -std::cos(tilt_rad)};
+}
+
 // Adds one or two kinds, and says which luminaires belong to which (by kind, their indices).
-std::vector<std::vector<int>> AddLuminaires(const Plan& plan, TracedRoom& room, std::string& words,
+std::vector<std::vector<int>> AddLuminaires(const Plan& plan, RandomRoom& drawn, std::string& words,
                                             std::mt19937_64& rng) {
+  TracedRoom& room = drawn.room;
   std::vector<std::vector<int>> kinds;
   std::vector<Vector2d> taken;
   const int count = Whole(rng, 1, 2);
   for (int i = 0; i < count; ++i) {
-    const auto kind = static_cast<LuminaireKind>(Whole(rng, 0, 3));
+    const auto kind = static_cast<LuminaireKind>(Whole(rng, 0, static_cast<int>(LuminaireKind::kPendant)));
     const Luminaire type = DrawType(kind, plan.height_m, rng);
-    const double margin_m = std::max(0.45, type.size_m.maxCoeff() / 2 + 0.05);
-    const double apart_m = std::max(1.3, type.size_m.maxCoeff() + 0.1);
-    const std::vector<Vector2d> places = DrawPlaces(plan, Whole(rng, 1, 6), apart_m, margin_m, taken, rng);
+    const std::vector<Vector2d> places =
+        DrawPlaces(plan, Whole(rng, 1, 6), SpacingOf(kind, type), taken, rng);
     if (places.empty()) continue;
     words += (kinds.empty() ? "" : " + ") + std::to_string(places.size()) + " " + NameOf(kind);
     kinds.emplace_back();
@@ -221,9 +273,11 @@ std::vector<std::vector<int>> AddLuminaires(const Plan& plan, TracedRoom& room, 
       Luminaire luminaire = type;
       luminaire.id = std::string(1, static_cast<char>('A' + room.luminaires.size()));
       luminaire.position.head<2>() = p;
+      luminaire.aim = DrawAim(kind, plan, p, rng);
       luminaire.flux_lm *= 1 + 0.02 * std::normal_distribution<double>()(rng);
       kinds.back().push_back(static_cast<int>(room.luminaires.size()));
       room.luminaires.push_back(luminaire);
+      drawn.kinds.push_back(NameOf(kind));
       taken.push_back(p);
     }
   }
@@ -295,7 +349,7 @@ RandomRoom DrawRoom(std::mt19937_64& rng, const RandomRoomOptions& options) {
   for (size_t m = 0; m < drawn.room.truth.materials.size(); ++m)
     drawn.room.albedo[static_cast<Eigen::Index>(m)] = DrawAlbedo(drawn.room.truth.materials[m], rng);
   std::string kinds;
-  AddStates(AddLuminaires(plan, drawn.room, kinds, rng), drawn.room, rng);
+  AddStates(AddLuminaires(plan, drawn, kinds, rng), drawn.room, rng);
   AddViews(plan, pieces, drawn.room, rng);
   AddReadingPlaces(plan, pieces, drawn.room, rng);
   for (const AlignedBox2d& part : plan.parts) drawn.area_m2 += part.volume();

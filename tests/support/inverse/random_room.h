@@ -1,14 +1,15 @@
 // Furnished rooms drawn at random, for sweeps: plan, furniture, reflectances, luminaires, switches, views and readings.
 //
 // Boxes of 3 to 10 m, corridors, and L-shapes, 2.4 to 3.4 m high; desks and cabinets that do not overlap; one to twelve luminaires of
-// one or two kinds: panels, strips, downlights, globes on pendants; switched alone or kind by kind, and all on in the last state. Spots are
-// left out: their indirect light comes from a pool of a square metre, which few of the light tracer's paths meet, so that its noise would be
-// tens of percent. World frame, metres; a corner of the room at the origin. Nothing here was chosen by how well it is fitted.
+// one or two kinds: panels, strips, downlights, globes on pendants; spots (half of the peak at 10 to 30 degrees) that shine straight down,
+// turned by up to 40 degrees, or at a wall beside them (washers); and pendants that shine up and down. Switched alone or kind by kind, and all
+// on in the last state. World frame, metres; a corner of the room at the origin. Nothing here was chosen by how well it is fitted.
 #ifndef LUXFIT_TESTS_SUPPORT_INVERSE_RANDOM_ROOM_H_
 #define LUXFIT_TESTS_SUPPORT_INVERSE_RANDOM_ROOM_H_
 
 #include <random>
 #include <string>
+#include <vector>
 
 #include "tests/support/inverse/traced_room.h"
 
@@ -16,9 +17,10 @@ namespace luxfit::support {
 
 struct RandomRoom {
   TracedRoom room;
-  Scene mesh;          // what the fit is given: `room.truth` without the furniture that is left out
-  std::string words;   // "L of 7.2 m x 5.1 m x 2.7 m, 4 boxes, 6 panels + 2 globes in 3 states, 8 views"
-  double area_m2 = 0;  // of the floor
+  Scene mesh;         // what the fit is given: `room.truth` without the furniture that is left out
+  std::string words;  // "L of 7.2 m x 5.1 m x 2.7 m, 4 boxes, 6 panels + 2 globes in 3 states, 8 views"
+  std::vector<std::string> kinds;  // by luminaire: "panels"
+  double area_m2 = 0;              // of the floor
 };
 
 struct RandomRoomOptions {
