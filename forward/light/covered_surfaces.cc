@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "forward/light/illuminance.h"
 #include "forward/light/internal/direct_columns.h"
 #include "forward/light/internal/gather.h"
 
@@ -96,10 +95,7 @@ CoveredLight ComputeCoveredLight(const Room& room, const Receivers& receivers,
   // M = e + rho F M, of which Exitance solves the part that is reflected.
   const Eigen::MatrixXf patch_emitted = PatchMean(room.patches, emitted);
   const Eigen::MatrixXf exitance = patch_emitted + transport.Exitance(transport.Irradiance(patch_emitted));
-  const Eigen::MatrixXf indirect = IndirectAtElements(room, exitance);
-  const Eigen::MatrixXf leaving =
-      emitted + Eigen::MatrixXf(ElementAlbedo(room.patches, transport.albedo()).asDiagonal() * indirect);
-  light.response = GatherAtReceivers(receivers, indirect, leaving).cast<double>();
+  light.response = GatherEmitted(room, receivers, transport.albedo(), emitted, exitance).cast<double>();
   return light;
 }
 

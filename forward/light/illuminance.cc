@@ -93,9 +93,8 @@ Eigen::MatrixXf GatherPrepared(const Room& room, const Receivers& receivers,
 
 Eigen::MatrixXf Gather(const Room& room, const Receivers& receivers, const Eigen::MatrixXf& at_elements,
                        const Transport& transport, const Columns& layout, const Eigen::MatrixXf& exitance) {
-  const bool is_prepared = receivers.element_to_patch.rows() > 0 || !receivers.sensor_to_patch.empty();
   // The products are by material.
-  if (is_prepared && transport.patch_factor().size() == 0)
+  if (IsPrepared(receivers) && transport.patch_factor().size() == 0)
     return GatherPrepared(room, receivers, at_elements, transport.albedo(), layout, exitance);
   return GatherThroughElements(room, receivers, at_elements, transport, layout, exitance);
 }

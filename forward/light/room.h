@@ -76,8 +76,8 @@ Receivers MakeReceivers(const Room& room, const std::vector<int>& elements,
 void PrepareGather(const Room& room, Receivers& receivers);
 
 // Holds the share of each luminaire that each place sees: elements x luminaires and receivers x luminaires,
-// in [0, 1]. Elements are probed at 2 x 2 points against `order` points a side of the luminaire (against 2
-// where those agree), sensors at their point.
+// in [0, 1]. Elements are probed at 4 x 4 points against `order` points a side of the luminaire (at their corners
+// against 2 a side where those agree), sensors at their point.
 struct LuminaireVisibility {
   Eigen::MatrixXf elements;
   Eigen::MatrixXf receivers;

@@ -101,11 +101,11 @@ class OuterLoop {
       const FrozenProblem problem{model_, before, fit_.parameters, weights_, priors_, smoothness_, at_state_};
       Eigen::VectorXd x = PackParameters(before, fit_.parameters);
       bool is_near = start_is_near || outer >= 2;
-      solved_ = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+      solved_ = SolveFrozen(problem, InnerOptions(is_near), x);
       if (is_near && !IsNear(before, WithParameters(before, fit_.parameters, x))) {
         is_near = false;
         x = PackParameters(before, fit_.parameters);
-        solved_ = SolveFrozen(problem, {options_.max_inner_iterations, is_near}, x);
+        solved_ = SolveFrozen(problem, InnerOptions(is_near), x);
       }
       fit_.state = WithParameters(before, fit_.parameters, x);
       if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
@@ -117,6 +117,15 @@ class OuterLoop {
     }
     ReflectDerivatives(true);
     return settled;
+  }
+
+  InnerSolveOptions InnerOptions(bool is_near) const {
+    InnerSolveOptions options;
+    options.max_iterations = options_.max_inner_iterations;
+    options.is_near = is_near;
+    options.negligible_decrease =
+        kLastStepSigmas * kLastStepSigmas * static_cast<double>(fit_.parameters.size());
+    return options;
   }
 
   // Lets turns count from where the luminaires point now.
@@ -180,9 +189,7 @@ class OuterLoop {
 
   // Updates visibility, model error and weights at the present state.
   void Refresh(bool with_jacobian) {
-    // Shadow edges move about as far as the luminaires; rows at an edge are left out anyway.
-    constexpr double kStillM = 2e-3;
-    if (model_.RefreezeVisibility(fit_.state, options_.visibility_order, kStillM)) solved_.reset();
+    if (model_.RefreezeVisibility(fit_.state, options_.visibility_order)) solved_.reset();
     const std::vector<bool> penumbra = model_.InPenumbra();
     at_state_ = solved_ ? *std::move(solved_) : model_.Predict(fit_.state, fit_.parameters, with_jacobian);
     solved_.reset();

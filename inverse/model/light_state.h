@@ -114,11 +114,12 @@ struct LightState {
 // Returns how far any point of a luminaire moved, in m; infinity where its shape changed.
 double MoveOf(const Luminaire& from, const Luminaire& to);
 
-// Holds the share of each luminaire that each element of a room sees: elements x luminaires, and for which luminaires
-// and `order` (forward/light/room.h). A fit that starts where another ended need not trace it again.
+// Holds the share of each luminaire that elements of a room see: elements x luminaires, and for which luminaires
+// and `order` (forward/light/room.h). What starts where a fit ended need not trace it again.
 struct FrozenVisibility {
   std::vector<Luminaire> luminaires;
   int order = 0;
+  std::vector<int> which;  // elements, in the order of rows; empty: all of the room
   Eigen::MatrixXf elements;
 };
 

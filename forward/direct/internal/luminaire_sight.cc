@@ -123,6 +123,13 @@ Eigen::Array<Sight, Eigen::Dynamic, Eigen::Dynamic> SightOfPatches(const Patches
   return sight;
 }
 
+// Returns the probes nearest to the corners of an element. Between them, one edge of a shadow hides nothing that it does
+// not hide at one of them.
+std::vector<Eigen::Vector3d> CornersOf(const std::vector<Eigen::Vector3d>& probes, bool triangle) {
+  if (probes.size() < kShadowProbes || triangle) return probes;
+  return {probes.front(), probes[kPartsASide - 1], probes[kShadowProbes - kPartsASide], probes.back()};
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> ShadowProbesOf(const Element& element, bool triangle) {
@@ -182,6 +189,7 @@ Eigen::MatrixXf ElementVisibility(const RayScene& rays, const Patches& patches,
   tbb::parallel_for(size_t{0}, elements.size(), [&](size_t i) {
     const Element& element = patches.elements[static_cast<size_t>(elements[i])];
     const std::vector<Eigen::Vector3d> probes = ShadowProbesOf(element, patches.IsTriangle(element.patch));
+    const std::vector<Eigen::Vector3d> corners = CornersOf(probes, patches.IsTriangle(element.patch));
     for (size_t k = 0; k < luminaires.size(); ++k) {
       const auto lamp = static_cast<Eigen::Index>(k);
       float& of = share(static_cast<Eigen::Index>(i), lamp);
@@ -190,8 +198,10 @@ Eigen::MatrixXf ElementVisibility(const RayScene& rays, const Patches& patches,
         of = patch_sees == Sight::kFree ? 1.0F : 0.0F;
         continue;
       }
-      // Most elements see all of a luminaire or nothing, and its outer points show which.
-      of = ProbedShare(rays, probes, element.normal, rough[k]);
+      // Most elements see all of a luminaire or nothing, and the outer points of both show which.
+      of = ProbedShare(rays, corners, element.normal, rough[k]);
+      if (corners.size() < probes.size() && of != 0 && of != 1)
+        of = ProbedShare(rays, probes, element.normal, rough[k]);
       if (order > 2 && of != 0 && of != 1) of = ProbedShare(rays, probes, element.normal, fine[k]);
     }
   });

@@ -21,6 +21,14 @@ Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& alb
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,
                                   const Eigen::MatrixXf& element_exitance);
 
+// Returns whether PrepareGather was called for the receivers.
+bool IsPrepared(const Receivers& receivers);
+
+// Returns the light of surfaces that shine: receivers x columns. `emitted`: elements x columns, what elements give beside
+// what they reflect; `exitance`: patches x columns, both together. `albedo`: by material, all patches are like it.
+Eigen::MatrixXf GatherEmitted(const Room& room, const Receivers& receivers, const Eigen::VectorXd& albedo,
+                              const Eigen::MatrixXf& emitted, const Eigen::MatrixXf& exitance);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_LIGHT_INTERNAL_GATHER_H_

@@ -41,8 +41,7 @@ BodyChoice ChooseBodies(const Room& room, const LightData& data, const Luminaire
                                    FitWith(BodyPresence::kAlways, room, problem.data, fit, priors)};
   std::array<LeftOutPrediction, 2> left_out;
   for (size_t i = 0; i < fits.size(); ++i)
-    left_out[i] =
-        PredictLeftOut(room, problem.data, fits[i], priors, problem.fold_of_row, kComparedVisibilityOrder);
+    left_out[i] = PredictLeftOut(room, problem.data, fits[i], priors, problem.fold_of_row);
   choice.presence =
       ChooseDetail({"there where on", "always there"}, ScoreTogether(problem, {&left_out[0], &left_out[1]}));
   LuminaireFit& chosen = fits[static_cast<size_t>(choice.presence.chosen)];

@@ -218,29 +218,43 @@ FittedModel FitState(const Room& room, const SubProblem& problem, const LightSta
   options.covariance = free.table_sigma > 0 || free.emission_sigma > 0;  // gives the effective parameters
   options.max_outer_iterations = effort.max_outer_iterations;
   options.max_inner_iterations = effort.max_inner_iterations;
-  options.visibility_order = kComparedVisibilityOrder;
   options.has_texture = false;  // the data are without it (inverse/fit/internal/surface_texture.h)
   const LuminaireFit fit = FitLuminaires(room, problem.data, start, problem.priors, options);
   std::vector<Luminaire> members;
   members.reserve(problem.members.size());
   for (const int k : problem.members) members.push_back(fit.state.luminaires[static_cast<size_t>(k)]);
-  return {
-      members.front(), members, free,
-      PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row, kComparedVisibilityOrder),
-      fit.effective_parts};
+  return {members.front(), members, free,
+          PredictLeftOut(room, problem.data, fit, problem.priors, problem.fold_of_row), fit.effective_parts};
+}
+
+std::vector<bool> LeaveMostRowsSmooth(const SubProblem& problem,
+                                      const std::vector<const LeftOutPrediction*>& models) {
+  const auto photos = static_cast<std::ptrdiff_t>(problem.element_of_row.size());
+  std::vector<std::ptrdiff_t> smooth;
+  smooth.reserve(models.size());
+  for (const LeftOutPrediction* model : models)
+    smooth.push_back(std::count(model->is_smooth.begin(), model->is_smooth.begin() + photos, true));
+  const std::ptrdiff_t most = *std::max_element(smooth.begin(), smooth.end());
+  std::vector<bool> leave(models.size());
+  for (size_t m = 0; m < models.size(); ++m) leave[m] = 2 * smooth[m] >= most;
+  return leave;
 }
 
 std::vector<GroupScores> ScoreTogether(const SubProblem& problem,
                                        const std::vector<const LeftOutPrediction*>& models) {
+  const std::vector<bool> counted = LeaveMostRowsSmooth(problem, models);
+  std::vector<const LeftOutPrediction*> judges;
+  for (size_t m = 0; m < models.size(); ++m)
+    if (counted[m]) judges.push_back(models[m]);
   const LeftOutPrediction& best = **std::min_element(
-      models.begin(), models.end(), [](const LeftOutPrediction* a, const LeftOutPrediction* b) {
+      judges.begin(), judges.end(), [](const LeftOutPrediction* a, const LeftOutPrediction* b) {
         return a->relative_sigma < b->relative_sigma;
       });
   const auto rows = static_cast<Eigen::Index>(problem.value.size());
   Eigen::VectorXd root_weight(rows);  // 0: does not count
   for (Eigen::Index i = 0; i < rows; ++i) {
     const auto row = static_cast<size_t>(i);
-    const bool counts = std::all_of(models.begin(), models.end(),
+    const bool counts = std::all_of(judges.begin(), judges.end(),
                                     [&](const LeftOutPrediction* model) { return model->is_smooth[row]; });
     const double variance = std::pow(best.relative_sigma * problem.value[row], 2) + problem.variance[row];
     root_weight[i] = counts ? 1 / std::sqrt(variance) : 0;

@@ -6,7 +6,7 @@
 //
 // The score is the sum of min(z^2, 9) over all rows, z the residual over its own sigma and one common model
 // error: the smallest of the models compared. What an element's rows share by its texture is whitened. Rows that a shadow edge crosses in any of these models count
-// for none, because no fit uses them. Differences of two models are paired group by group (facets, or places
+// for none, because no fit uses them; a model that would leave few rows in that way has no say in it. Differences of two models are paired group by group (facets, or places
 // of readings), because residuals of one facet are not independent.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
@@ -23,9 +23,6 @@ namespace luxfit {
 
 // Leaves out one patch in every five in a row, where a fixed state is judged and nothing is fitted again.
 inline bool IsLeftOut(int patch) { return patch % 5 == 2; }
-
-// Points along each side of a luminaire that are tested for occlusion, in fits that are compared.
-constexpr int kComparedVisibilityOrder = 3;
 
 // Holds the problem of one luminaire, or of several of a type: the data that concern them, cut into folds.
 struct SubProblem {
@@ -82,7 +79,13 @@ FittedModel FitModel(const Room& room, const SubProblem& problem, const Luminair
 FittedModel FitState(const Room& room, const SubProblem& problem, const LightState& start,
                      const FitEffort& effort = {});
 
-// Returns the scores of models by group, one for each model, over the same rows and with one model error.
+// Returns which models leave at least half as many of the photos' rows smooth as the one of them that leaves most. Others
+// have moved the luminaire to where most places see it in part, a corner or the inside of a surface, and explain little.
+std::vector<bool> LeaveMostRowsSmooth(const SubProblem& problem,
+                                      const std::vector<const LeftOutPrediction*>& models);
+
+// Returns the scores of models by group, one for each model, over the same rows and with one model error: those of the
+// models that leave most rows smooth.
 std::vector<GroupScores> ScoreTogether(const SubProblem& problem,
                                        const std::vector<const LeftOutPrediction*>& models);
 

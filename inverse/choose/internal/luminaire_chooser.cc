@@ -17,10 +17,11 @@ Selection SelectAmong(const SubProblem& problem, const std::vector<const FittedM
   left_out.reserve(models.size());
   for (const FittedModel* model : models) left_out.push_back(&model->left_out);
   const std::vector<GroupScores> scores = ScoreTogether(problem, left_out);
+  const std::vector<bool> is_eligible = LeaveMostRowsSmooth(problem, left_out);
   std::vector<SelectionCandidate> candidates;
   candidates.reserve(models.size());
   for (size_t m = 0; m < models.size(); ++m)
-    candidates.push_back({scores[m], static_cast<double>(parameters[m]), true});
+    candidates.push_back({scores[m], static_cast<double>(parameters[m]), is_eligible[m]});
   return SimplestWithinOneStandardError(candidates, options);
 }
 

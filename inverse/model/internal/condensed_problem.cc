@@ -69,10 +69,17 @@ class CondensedCost : public ceres::CostFunction {
 
 class StopAfterAcceptedStep : public ceres::IterationCallback {
  public:
+  explicit StopAfterAcceptedStep(double negligible_decrease) : negligible_cost_(negligible_decrease / 2) {}
+
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    return summary.iteration > 0 && summary.step_is_successful ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                                               : ceres::SOLVER_CONTINUE;
+    if (summary.iteration == 0) return ceres::SOLVER_CONTINUE;
+    const double promised = summary.cost_change / summary.relative_decrease;
+    return summary.step_is_successful || promised < negligible_cost_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                                     : ceres::SOLVER_CONTINUE;
   }
+
+ private:
+  double negligible_cost_;
 };
 
 }  // namespace
@@ -87,7 +94,7 @@ double SolveCondensed(const CondensedProblem& problem, const InnerSolveOptions& 
     ceres_problem.SetParameterLowerBound(x.data(), i, problem.lower[i]);
     ceres_problem.SetParameterUpperBound(x.data(), i, problem.upper[i]);
   }
-  StopAfterAcceptedStep stop;
+  StopAfterAcceptedStep stop(options.negligible_decrease);
   ceres::Solver::Options ceres_options;
   ceres_options.linear_solver_type = ceres::DENSE_QR;
   ceres_options.max_num_iterations = options.max_iterations;

@@ -52,6 +52,9 @@ struct InnerSolveOptions {
   // that damped steps stop tenths of a percent short.
   bool is_near = false;
   double near_radius = 1e8;  // of the trust region at that step; 1 / radius is the damping
+  // Ends a near solve where a rejected step promised to lower |r|^2 by less: what rounding or inexact derivatives spoil
+  // then is not worth damped steps, of which it would take many.
+  double negligible_decrease = 0;
 };
 
 // `x`: the start, within the bounds; then the solution. Returns the radius of the trust region that the

@@ -15,14 +15,15 @@ namespace {
 class FoldPredictor {
  public:
   FoldPredictor(const Room& room, const LightData& data, const LuminaireFit& fit,
-                const std::vector<ParameterPrior>& priors, const std::vector<int>& fold_of_row, int order)
+                const std::vector<ParameterPrior>& priors, const std::vector<int>& fold_of_row)
       : fit_(fit),
         priors_(PriorsOf(fit.parameters, priors)),
         smoothness_(SmoothnessRows(fit.state, fit.parameters)),
         fold_of_row_(fold_of_row),
         model_(room, data) {
     model_.SetPatchFactor(fit.patch_factor);
-    model_.FreezeVisibility(fit.state, order);
+    if (fit.visibility) model_.TakeVisibility(*fit.visibility);
+    model_.RefreezeVisibility(fit.state);
     at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
     weights_ = WeightsOf(fit, room, data);
     information_ =
@@ -92,12 +93,12 @@ class FoldPredictor {
     NormalEquations equations(x.size());
     const Eigen::VectorXd residual = weights_.Residual(at.prediction.value);
     const RowMajorMatrix jacobian = weights_.Weighed(at.prediction.jacobian);
-    for (Eigen::Index i = 0; i < residual.size(); ++i) {
-      if (FoldOf(i) == fold) continue;
-      const Eigen::VectorXd row = jacobian.row(i).transpose();
-      equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(row);
-      equations.gradient += residual[i] * row;
-    }
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < residual.size(); ++i)
+      if (FoldOf(i) != fold) kept.push_back(i);
+    const Eigen::MatrixXd rows = jacobian(kept, Eigen::all).transpose();
+    equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+    equations.gradient.noalias() += rows * residual(kept);
     equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
     AddPriors(priors_, smoothness_, x, equations);
     // A direction that only the fold determines stays where it is.
@@ -160,8 +161,8 @@ class FoldPredictor {
 
 LeftOutPrediction PredictLeftOut(const Room& room, const LightData& data, const LuminaireFit& fit,
                                  const std::vector<ParameterPrior>& priors,
-                                 const std::vector<int>& fold_of_row, int visibility_order) {
-  return FoldPredictor(room, data, fit, priors, fold_of_row, visibility_order).Run();
+                                 const std::vector<int>& fold_of_row) {
+  return FoldPredictor(room, data, fit, priors, fold_of_row).Run();
 }
 
 }  // namespace luxfit

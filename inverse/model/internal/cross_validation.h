@@ -26,11 +26,10 @@ struct LeftOutPrediction {
   Eigen::VectorXd texture_sigma;  // by material (inverse/model/internal/element_texture.h)
 };
 
-// `fold_of_row`: the fold of every row of the light model, from 0. `visibility_order`: that of
-// ComputeVisibility.
+// `fold_of_row`: the fold of every row of the light model, from 0.
 LeftOutPrediction PredictLeftOut(const Room& room, const LightData& data, const LuminaireFit& fit,
                                  const std::vector<ParameterPrior>& priors,
-                                 const std::vector<int>& fold_of_row, int visibility_order);
+                                 const std::vector<int>& fold_of_row);
 
 }  // namespace luxfit
 

@@ -141,6 +141,8 @@ LightModel::LightModel(const Room& room, const LightData& data)
   if (data.indirect_is_held) return;
   if (room.clusters) of_patches_ = receivers_;
   PrepareGather(exchange_, receivers_);
+  // It copies the receivers' rows of the form factors, which costs less than light at every element where they are few.
+  if (of_patches_ && 2 * elements.size() < room.patches.elements.size()) PrepareGather(room_, *of_patches_);
 }
 
 void LightModel::FreezeVisibility(const LightState& state, int order) {
@@ -169,23 +171,35 @@ bool LightModel::RefreezeVisibility(const LightState& state, int order, double s
 }
 
 bool LightModel::IsReflectedStale(const LightState& state, double still_m) const {
-  constexpr double kTimesStill = 5, kStillAlbedo = 0.01;
+  constexpr double kStillAlbedo = 0.01;
   if (!reflected_at_ || (reflected_at_->albedo - state.albedo).lpNorm<Eigen::Infinity>() > kStillAlbedo)
     return true;
   const std::vector<Luminaire>& before = reflected_at_->luminaires;
   for (size_t k = 0; k < before.size(); ++k) {
-    if (!(MoveOf(before[k], state.luminaires[k]) <= kTimesStill * still_m)) return true;
+    if (!(MoveOf(before[k], state.luminaires[k]) <= still_m)) return true;
   }
   return false;
 }
 
 void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
-  if (data_.indirect_is_held || frozen.elements.size() == 0) return;
+  const bool has_all = frozen.which.empty() && frozen.elements.size() > 0;
+  if (!has_all && !(data_.indirect_is_held && frozen.which == receivers_.elements)) return;
   frozen_ = frozen.luminaires;
   frozen_order_ = frozen.order;
-  visibility_.elements = frozen.elements;
-  FillReceivers(room_, receivers_, frozen_, visibility_);
   reflected_at_.reset();
+  if (!has_all) {
+    visibility_.receivers = frozen.elements;
+  } else if (data_.indirect_is_held) {
+    visibility_.receivers = frozen.elements(receivers_.elements, Eigen::all);
+  } else {
+    visibility_.elements = frozen.elements;
+    FillReceivers(room_, receivers_, frozen_, visibility_);
+  }
+}
+
+FrozenVisibility LightModel::frozen() const {
+  if (!data_.indirect_is_held) return {frozen_, frozen_order_, {}, visibility_.elements};
+  return {frozen_, frozen_order_, receivers_.elements, visibility_.receivers};
 }
 
 void LightModel::FreezeReflected(const LightState& state) {
@@ -194,18 +208,17 @@ void LightModel::FreezeReflected(const LightState& state) {
   if (data_.indirect_is_held || room_.sparse) return;
   const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0 || of_patches_;
   if (!departs && state.bodies == BodyPresence::kNone) return;
-  const Eigen::MatrixXf grey =
-      ComputeTotals(exchange_, receivers_, visibility_, state.luminaires, {&TransportFor(state.albedo)})
-          .front();
+  const std::vector<Transport> channels = departs ? ChannelsOf(state) : std::vector<Transport>();
+  std::vector<const Transport*> transports{&TransportFor(state.albedo)}, of_patches;
+  for (const Transport& channel : channels) (of_patches_ ? of_patches : transports).push_back(&channel);
+  std::vector<Eigen::MatrixXf> totals =
+      ComputeTotals(exchange_, receivers_, visibility_, state.luminaires, transports);
+  const Eigen::MatrixXf grey = std::move(totals.front());
+  totals.erase(totals.begin());
   if (state.bodies != BodyPresence::kNone) FreezeBodies(state, grey);
   if (!departs) return;
-  const std::vector<Transport> channels = ChannelsOf(state);
-  std::vector<const Transport*> transports;
-  transports.reserve(channels.size());
-  for (const Transport& channel : channels) transports.push_back(&channel);
-  FreezeColour(state, grey,
-               ComputeTotals(room_, of_patches_ ? *of_patches_ : receivers_, visibility_, state.luminaires,
-                             transports));
+  if (of_patches_) totals = ComputeTotals(room_, *of_patches_, visibility_, state.luminaires, of_patches);
+  FreezeColour(state, grey, totals);
 }
 
 std::vector<Transport> LightModel::ChannelsOf(const LightState& state) const {

@@ -47,6 +47,10 @@ struct Prediction {
   RowMajorMatrix jacobian;  // empty if not asked for
 };
 
+// How far a luminaire moves before what it lights is traced anew, in m. A shadow's edge moves about as far. Rows at
+// an edge are left out, and patches, which are far larger, take only their mean from it.
+constexpr double kStillM = 0.01;
+
 class LightModel {
  public:
   // Keeps references: `room` and `data` must outlive it. Not to be shared by threads.
@@ -56,11 +60,12 @@ class LightModel {
   // them. `order` is that of ComputeVisibility.
   void FreezeVisibility(const LightState& state, int order = 3);
   // Does the same for those luminaires of which a point has moved by more than `still_m` since; what bodies and colours
-  // do to reflected light changes slowly, and follows after five times that. Returns whether anything changed.
-  bool RefreezeVisibility(const LightState& state, int order, double still_m);
-  // Takes visible shares over from a model of the same room: RefreezeVisibility then counts from there.
+  // do to reflected light follows at the same distance. Returns whether anything changed.
+  bool RefreezeVisibility(const LightState& state, int order = 3, double still_m = kStillM);
+  // Takes visible shares over from a model of the same room: RefreezeVisibility then counts from there. Where the
+  // indirect light is held, the other's elements have to be all, or the same.
   void TakeVisibility(const FrozenVisibility& frozen);
-  FrozenVisibility frozen() const { return {frozen_, frozen_order_, visibility_.elements}; }
+  FrozenVisibility frozen() const;
   // Freezes anew what bodies and colours do to reflected light, with the visibility as it is.
   void FreezeReflected(const LightState& state);
   // Sets what the next of these two counts with: the reflectance of each patch over that of its material.

@@ -86,7 +86,8 @@ Eigen::MatrixXd ParameterShift(const Room& room, const LightData& data, const Lu
   const LightData part = WithObservations(data, rows);
   LightModel model(room, part);
   model.SetPatchFactor(fit.patch_factor);
-  model.FreezeVisibility(fit.state);
+  if (fit.visibility) model.TakeVisibility(*fit.visibility);
+  model.RefreezeVisibility(fit.state);
   const Prediction at_fit = model.Predict(fit.state, fit.parameters, true);
   const RowWeights weights = WeightsOf(room, part, model, fit, rows, photos, at_fit.value);
 

@@ -195,6 +195,14 @@ TEST(CoveredLightTest, IsThatOfADarkerPartOfTheCeiling) {
     EXPECT_GT((truth.col(k).array() / before.col(k).array()).maxCoeff(), 0.005);
 }
 
+// Products that are prepared for the receivers give what the light of every element gives.
+TEST(CoveredLightTest, IsTheSameByPreparedProducts) {
+  BodyRoom body(support::CutCeiling(kRoom, Panel(0.01), "behind"));
+  const Eigen::MatrixXd by_elements = body.Hidden();
+  PrepareGather(body.room, body.receivers);
+  EXPECT_LT((body.Hidden() - by_elements).cwiseAbs().maxCoeff(), 1e-5 * by_elements.cwiseAbs().maxCoeff());
+}
+
 // Where no facet ends at the panel's edge, the light of whole patches stands for that of the covered part.
 TEST(CoveredLightTest, NeedsNoFacetOfItsOwn) {
   const BodyRoom cut(support::CutCeiling(kRoom, Panel(0.01), "behind")),

@@ -82,6 +82,29 @@ TEST(CondensedProblem, StaysWithinBoundsAndWhereTheModelIsDefined) {
   EXPECT_LE(x[0], 1);
 }
 
+// The derivatives' sign is wrong, so that no step lowers the squares, damped or not. Damped ones are tried only where the
+// first one promised something.
+TEST(CondensedProblem, ARejectedStepThatPromisedLittleEndsTheSolve) {
+  int asked = 0;
+  CondensedProblem problem = Unbounded(1);
+  problem.equations = [&](const Eigen::VectorXd& x) {
+    ++asked;
+    return EquationsOf(-Eigen::MatrixXd::Ones(1, 1), x - Eigen::VectorXd::Constant(1, 0.1));
+  };
+  InnerSolveOptions options;
+  options.is_near = true;
+  const auto evaluations = [&](double negligible_decrease) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(1);
+    asked = 0;
+    options.negligible_decrease = negligible_decrease;
+    SolveCondensed(problem, options, x);
+    EXPECT_EQ(x[0], 0);
+    return asked;
+  };
+  EXPECT_EQ(evaluations(0.02), 2) << "the start and one step, which promised 0.01";
+  EXPECT_GT(evaluations(0.005), 4);
+}
+
 // The rows say nothing of the difference of two unknowns: it stays as it starts.
 TEST(CondensedProblem, LeavesWhatNothingDetermines) {
   CondensedProblem problem = Unbounded(2);

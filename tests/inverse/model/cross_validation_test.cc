@@ -18,7 +18,7 @@
 namespace luxfit {
 namespace {
 
-constexpr int kFolds = 5, kOrder = 3;
+constexpr int kFolds = 5;
 constexpr double kNoise = 0.01;
 
 // Rows 0, 5, 10, ... are fold 0, and so on.
@@ -52,7 +52,7 @@ struct Comparison {
 Comparison CompareWithRefits(const Room& room, const LightData& data, const LuminaireFit& fit,
                              const std::vector<ParameterPrior>& priors, const FitLuminairesOptions& options,
                              const std::vector<int>& fold_of_row) {
-  const LeftOutPrediction left_out = PredictLeftOut(room, data, fit, priors, fold_of_row, kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room, data, fit, priors, fold_of_row);
   Comparison result;
   for (int fold = 0; fold < kFolds; ++fold) {
     const LuminaireFit refit = FitWithout(room, data, fit, priors, fold_of_row, fold, options);
@@ -111,7 +111,7 @@ TEST_F(TwoFluxes, PredictionsAreThoseOfLinearLeastSquares) {
   const LuminaireFit fit = FitLuminaires(room_, data, start_, {}, options);
   ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.message;
   const std::vector<int> fold_of_row = FoldsInTurn(data.readings.size());
-  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row, kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row);
   ASSERT_EQ(left_out.value.size(), rows);
   EXPECT_EQ(left_out.relative_sigma, fit.relative_sigma);
   Eigen::MatrixXd per_lumen(rows, 2);
@@ -154,7 +154,7 @@ TEST_F(TwoFluxes, AFluxThatOneFoldAloneDeterminesStays) {
   }
   const LuminaireFit fit = FitLuminaires(room_, data, start_, {}, SteadyWeights());
   ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.message;
-  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row, kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row);
   bool has_moved = false;
   for (size_t i = 0; i < data.readings.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -265,7 +265,7 @@ TEST_F(OneLamp, DirectionsThatOneFoldAloneDeterminesStay) {
   ASSERT_EQ(fit.status, FitStatus::kConverged) << fit.message;
   std::vector<int> fold_of_row(data.readings.size(), 0);
   fold_of_row[8] = fold_of_row[21] = 1;
-  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row, kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, fold_of_row);
   double largest_move = 0;
   for (Eigen::Index i = 0; i < left_out.value.size(); ++i) {
     const double sigma = data.readings[static_cast<size_t>(i)].sigma_lx;
@@ -279,8 +279,7 @@ TEST_F(OneLamp, DirectionsThatOneFoldAloneDeterminesStay) {
 TEST_F(OneLamp, ReadingsAreSmooth) {
   const LightData data = Read(4);
   const LuminaireFit fit = FitLuminaires(room_, data, start_);
-  const LeftOutPrediction left_out =
-      PredictLeftOut(room_, data, fit, {}, FoldsInTurn(data.readings.size()), kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, FoldsInTurn(data.readings.size()));
   EXPECT_EQ(left_out.is_smooth, std::vector<bool>(data.readings.size(), true));
 }
 
@@ -288,8 +287,7 @@ TEST_F(OneLamp, WhereNothingIsFreeTheFitPredicts) {
   const LightData data = Read(4);
   start_.free[0].position = start_.free[0].flux = false;
   const LuminaireFit fit = FitLuminaires(room_, data, start_);
-  const LeftOutPrediction left_out =
-      PredictLeftOut(room_, data, fit, {}, FoldsInTurn(data.readings.size()), kOrder);
+  const LeftOutPrediction left_out = PredictLeftOut(room_, data, fit, {}, FoldsInTurn(data.readings.size()));
   EXPECT_EQ(left_out.value, fit.predicted);
 }
 
@@ -345,7 +343,7 @@ TEST(PredictLeftOut, RowsAtShadowEdgesAreNotSmooth) {
   const LuminaireFit fit = FitLuminaires(room, data, start);
   ASSERT_TRUE(fit.IsUsable()) << fit.message;
   const LeftOutPrediction left_out =
-      PredictLeftOut(room, data, fit, {}, FoldsInTurn(data.observations.size()), kOrder);
+      PredictLeftOut(room, data, fit, {}, FoldsInTurn(data.observations.size()));
   std::array<int, 3> count{};
   for (size_t i = 0; i < light.size(); ++i) {
     ++count[static_cast<size_t>(light[i])];

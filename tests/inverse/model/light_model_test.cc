@@ -178,6 +178,33 @@ TEST_F(SmallRoom, AnotherModelTakesVisibilityOver) {
   EXPECT_EQ(other.Predict(state_, {}, false).value, model.Predict(state_, {}, false).value);
 }
 
+// Where the indirect light is held, receivers alone are traced: the shares of all elements hold them, and those of the
+// same elements do, but no others.
+TEST_F(SmallRoom, AModelOfHeldLightTakesVisibilityOver) {
+  LightData held = data_;
+  held.readings.clear();
+  held.indirect_is_held = true;
+  LightData fewer = held;
+  fewer.observations.resize(held.observations.size() / 2);
+  LightState moved = state_;
+  moved.luminaires[0].position.x() += 0.4;
+  LightModel whole(room_, data_), own(room_, held);
+  whole.FreezeVisibility(moved), own.FreezeVisibility(moved);
+  const Eigen::VectorXd at_moved = own.Predict(state_, {}, false).value;
+  constexpr double kAnyMove = 1.0;  // what was taken over stays
+  for (const FrozenVisibility& frozen : {whole.frozen(), own.frozen()}) {
+    LightModel other(room_, held);
+    other.TakeVisibility(frozen);
+    other.RefreezeVisibility(state_, 3, kAnyMove);
+    EXPECT_EQ(other.Predict(state_, {}, false).value, at_moved);
+  }
+  LightModel other(room_, fewer), anew(room_, fewer);
+  other.TakeVisibility(own.frozen());
+  other.RefreezeVisibility(state_, 3, kAnyMove);
+  anew.FreezeVisibility(state_);
+  EXPECT_EQ(other.Predict(state_, {}, false).value, anew.Predict(state_, {}, false).value);
+}
+
 TEST_F(SmallRoom, StatesAreSumsOfTheirLuminaires) {
   LightData one_place;
   one_place.dimming = data_.dimming;
