@@ -73,6 +73,8 @@ luxfit_test(apps/commands misread_office_test SLOW LINK luxfit::forward fmt::fmt
 add_dependencies(apps_misread_office_test luxfit)
 luxfit_test(apps/commands misdescribed_session_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_misdescribed_session_test luxfit)
+luxfit_test(apps/commands misplaced_mesh_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
+add_dependencies(apps_misplaced_mesh_test luxfit)
 luxfit_test(apps/commands moved_tag_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_moved_tag_test luxfit)
 luxfit_test(apps/stages fit_readings_test LINK Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)

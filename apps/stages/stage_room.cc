@@ -14,6 +14,7 @@
 #include "forward/room/patches.h"
 #include "forward/room/planes.h"
 #include "forward/room/scene.h"
+#include "inverse/observe/mesh_as_if.h"
 
 namespace luxfit {
 namespace {
@@ -23,15 +24,19 @@ std::string RoomKey(const Session& session) {
   return session.scene->outline ? "scene.outline" : "scene.mesh";
 }
 
-std::string RemedyOf(const SurveyCheck& check, bool is_mesh) {
+std::string RemedyOf(const SurveyCheck& check, const Scene& scene, const std::vector<SurveyedTag>& survey,
+                     bool is_mesh) {
   if (!check.better_unit.empty())
     return fmt::format("the {} fits with unit = \"{}\"", is_mesh ? "mesh" : "room", check.better_unit);
   if (!is_mesh)
     return "measure the room's lengths again; the floor is z = 0, size has a corner at the tag map's origin, "
            "and "
            "outline puts the corners elsewhere";
-  return check.fits_y_up ? "the tags lie on it where the mesh's y axis is up: export the mesh with z up"
-                         : "check that mesh and tag map share one frame";
+  if (check.fits_y_up) return "the tags lie on it where the mesh's y axis is up: export the mesh with z up";
+  const std::vector<MeshExplanation> as_if = MeshAsIfByTags(scene, survey);
+  if (as_if.empty()) return "check that mesh and tag map share one frame";
+  return fmt::format("{} of {} tags lie on it where the mesh is {}: {}", as_if.front().tags_on_mesh,
+                     survey.size(), NamesOf(as_if), RemedyOf(as_if));
 }
 
 // Tells whether the room is cut into so few elements that form factors, elements x patches x 4 bytes, may fit in memory.
@@ -97,7 +102,7 @@ std::string SurveyComplaint(const Session& session, const Scene& scene) {
       "{}: {}: expected the surveyed tags to lie on the {}, but with unit = \"{}\" "
       "a quarter of them are {:.3g} m and more away; {}",
       session.path, is_mesh ? "scene.unit" : RoomKey(session), is_mesh ? "mesh" : "room's surfaces",
-      session.scene->unit, check.distance_m, RemedyOf(check, is_mesh));
+      session.scene->unit, check.distance_m, RemedyOf(check, scene, session.tags.survey, is_mesh));
 }
 
 LoadedMesh LoadMesh(const Session& session) {

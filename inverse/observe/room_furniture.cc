@@ -41,6 +41,8 @@ RevisedRoom LookForFurniture(const Scene& mesh, const Scene& room, const RoomPho
   FurnitureOptions options;
   options.free_places = free_places;
   RevisedRoom revised;
+  revised.mesh_as_if = FindMeshAsIf(mesh, signatures, survey);
+  if (!revised.mesh_as_if.empty()) return revised;  // all of it would be furniture that the room lacks
   revised.walls = FindMovedWalls(mesh, signatures, of_walls);
   if (revised.walls.empty()) {
     revised.furniture = ReviseFurniture(mesh, room, signatures, options);

@@ -1,7 +1,8 @@
 // Looks in the photos of registered views for walls that stand elsewhere than the mesh has them, then in the room that
-// they leave for furniture: what the mesh lacks, or has where the room has none.
+// they leave for furniture: what the mesh lacks, or has where the room has none. Before, whether the whole mesh lies
+// otherwise than the room.
 //
-//   photos of a view in every state -> SignatureView -> FindMovedWalls, ReviseFurniture -> change -> mesh with the change
+//   photos of a view in every state -> SignatureView -> FindMeshAsIf; FindMovedWalls, ReviseFurniture -> change -> mesh with the change
 //
 // Nothing is looked for where fewer than three views are registered. Metres, world frame.
 // Source: inverse/furniture/moved_walls.h, inverse/furniture/missing_pieces.h.
@@ -20,6 +21,7 @@
 #include "forward/room/scene.h"
 #include "inverse/furniture/missing_pieces.h"
 #include "inverse/furniture/moved_walls.h"
+#include "inverse/observe/mesh_as_if.h"
 #include "inverse/observe/room_photos.h"
 
 namespace luxfit {
@@ -32,6 +34,7 @@ struct FurnitureChange {
 };
 
 struct RevisedRoom {
+  std::vector<MeshExplanation> mesh_as_if;  // where there are some, nothing else is looked for
   std::vector<MovedWall> walls;
   RevisedFurniture furniture;
 };

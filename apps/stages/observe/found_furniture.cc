@@ -177,6 +177,9 @@ std::vector<PlaneMove> WallsFromJson(const json& list) {
 }
 
 void RecordFurniture(const RevisedRoom& revised, Findings& findings) {
+  if (!revised.mesh_as_if.empty())
+    findings.warnings.push_back(
+        {"mesh_as_if", InWords(revised.mesh_as_if), RemedyOf(revised.mesh_as_if), true});
   for (const MovedWall& wall : revised.walls) RecordWall(wall, findings);
   for (const MissingPiece& piece : revised.furniture.missing) RecordMove(piece, findings);
   RecordBoxes(revised.furniture.found, findings);
