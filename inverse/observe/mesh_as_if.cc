@@ -216,7 +216,7 @@ bool Holds(const std::vector<PixelSample>& as_given, Candidate& candidate) {
   e.agreement = Mean(compared.a);
   e.agreement_as_given = Mean(compared.b);
   if (e.agreement < kLeastAgreement) return false;
-  // Of shares that agree, less is worse: the roles of IsContradicted change.
+  // IsContradicted takes errors, of which more is worse. Less agreement is worse, so that the two change places.
   return candidate.is_motion ? IsBetter(compared.a, compared.b) : IsContradicted(compared.a, compared.b);
 }
 

@@ -14,7 +14,7 @@
 // photos equally.
 //
 // Photos tell where the mesh lies in the frame of the tags. A mirror is the mesh's: a mirrored tag map registers no view.
-// Of a motion or a turn nobody knows whether mesh or tag map is wrong. Metres, world frame. Source: own.
+// A motion or a turn may be the mesh's or the tag map's: photos do not tell which. Metres, world frame. Source: own.
 #ifndef LUXFIT_INVERSE_OBSERVE_MESH_AS_IF_H_
 #define LUXFIT_INVERSE_OBSERVE_MESH_AS_IF_H_
 
