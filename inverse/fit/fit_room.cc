@@ -356,7 +356,7 @@ class RoomFitter {
     options.has_texture = is_textured_;
     options.initial_relative_sigma = bodies.relative_sigma;
     options.photo_design_effect = colour.fit.photo_design_effect;
-    options.visibility = colour.fit.visibility;
+    options.frozen = colour.fit.frozen;
     EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, Priors(),
                                         options_.max_elements_to_choose, options);
     result_.data.observations = std::move(enough.observations);
@@ -403,7 +403,7 @@ class RoomFitter {
     options.start_is_near = true;
     options.initial_relative_sigma = near->relative_sigma;
     options.photo_design_effect = near->photo_design_effect;
-    options.visibility = near->visibility;
+    options.frozen = near->frozen;
     return options;
   }
 

@@ -43,7 +43,7 @@ class OuterLoop {
     fit_.parameters = FreeParameters(room, start);
     priors_ = PriorsOf(fit_.parameters, priors);
     smoothness_ = SmoothnessRows(start, fit_.parameters);
-    if (options.visibility) model_.TakeVisibility(*options.visibility);
+    if (options.frozen) model_.TakeOver(*options.frozen);
   }
 
   LuminaireFit Run() {
@@ -268,7 +268,7 @@ class OuterLoop {
   // Computes the covariance, the undetermined directions and the predictions of the readings.
   void Conclude() {
     fit_.predicted = at_state_.value;
-    fit_.visibility = std::make_shared<FrozenVisibility>(model_.frozen());
+    fit_.frozen = std::make_shared<FrozenLight>(model_.frozen());
     fit_.weight = weights_.weight;
     fit_.target = weights_.target;
     fit_.root_weight = weights_.root_weight;

@@ -92,8 +92,8 @@ struct FitLuminairesOptions {
   // fit ends beside the minimum by what reflected light would change in the weight of residuals: for fits whose result
   // is a start. The covariance is exact.
   bool steps_by_direct_light = false;
-  std::shared_ptr<const FrozenVisibility> visibility = {};  // of an earlier fit in the same room; null: none
-  std::function<void(const FitRound&)> on_round = {};       // empty: no calls
+  std::shared_ptr<const FrozenLight> frozen = {};      // of an earlier fit in the same room; null: none
+  std::function<void(const FitRound&)> on_round = {};  // empty: no calls
 };
 
 // Holds in words a combination of parameters that the data leave undetermined.
@@ -130,7 +130,7 @@ struct LuminaireFit {
   double photo_design_effect = 1;  // by which the variance of photos' rows was multiplied
   double effective_parts = 0;      // effective number, for tables and uneven emission; needs covariance
   int outer_iterations = 0;
-  std::shared_ptr<const FrozenVisibility> visibility;  // for a fit that starts here
+  std::shared_ptr<const FrozenLight> frozen;  // for a fit that starts here
   bool IsUsable() const { return status == FitStatus::kConverged || status == FitStatus::kNotConverged; }
 };
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -114,13 +115,16 @@ struct LightState {
 // Returns how far any point of a luminaire moved, in m; infinity where its shape changed.
 double MoveOf(const Luminaire& from, const Luminaire& to);
 
-// Holds the share of each luminaire that elements of a room see: elements x luminaires, and for which luminaires
-// and `order` (forward/light/room.h). What starts where a fit ended need not trace it again.
-struct FrozenVisibility {
+class ChannelTransports;  // inverse/model/internal/channel_transports.h
+
+// Holds what a fit ended with and what starts there need not compute again: the share of each luminaire that elements
+// of a room see (elements x luminaires), for which luminaires and `order` (forward/light/room.h); and its channels.
+struct FrozenLight {
   std::vector<Luminaire> luminaires;
   int order = 0;
   std::vector<int> which;  // elements, in the order of rows; empty: all of the room
   Eigen::MatrixXf elements;
+  std::shared_ptr<const ChannelTransports> channels;  // null: all light is exchanged by plain grey surfaces
 };
 
 // Returns the luminaires' fluxes by state: luminaires x states, lm.

@@ -23,7 +23,7 @@ LuminaireFit FitWith(BodyPresence presence, const Room& room, const LightData& d
   options.max_outer_iterations = 1;  // from a converged fit; PredictLeftOut goes the rest of the way
   options.start_is_near = options.steps_by_direct_light = true;
   options.initial_relative_sigma = fit.relative_sigma;
-  options.visibility = fit.visibility;
+  options.frozen = fit.frozen;
   options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`
   return FitLuminaires(room, data, state, priors, options);
 }

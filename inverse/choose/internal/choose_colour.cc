@@ -33,7 +33,7 @@ ColourChoice ChooseColour(const Room& room, const LightData& data, const Luminai
   FitLuminairesOptions options;
   options.covariance = false;
   options.start_is_near = options.steps_by_direct_light = true;
-  options.visibility = fit.visibility;
+  options.frozen = fit.frozen;
   options.photo_design_effect = fit.photo_design_effect;
   options.initial_relative_sigma = fit.relative_sigma;
   options.has_texture = fit.material_texture_sigma.sum() > 0;  // as in `fit`

@@ -53,10 +53,10 @@ class Levels {
   }
 
   LuminaireFit FitTo(const LightData& part, const LightState& start, double relative_sigma,
-                     const std::shared_ptr<const FrozenVisibility>& visibility) const {
+                     const std::shared_ptr<const FrozenLight>& frozen) const {
     FitLuminairesOptions options = OptionsFor(part);
     options.initial_relative_sigma = relative_sigma;
-    options.visibility = visibility;
+    options.frozen = frozen;
     return FitLuminaires(room_, part, start, priors_, options);
   }
 
@@ -67,7 +67,7 @@ class Levels {
     weighing.max_outer_iterations = 0;
     weighing.covariance = false;
     weighing.initial_relative_sigma = fit.relative_sigma;
-    weighing.visibility = fit.visibility;
+    weighing.frozen = fit.frozen;
     const LuminaireFit weighed = FitLuminaires(room_, more, fit.state, priors_, weighing);
     std::vector<bool> is_fitted;
     is_fitted.reserve(more.observations.size());
@@ -120,7 +120,7 @@ EnoughRows FitToEnoughRows(const Room& room, const LightData& data, const LightS
   enough.taken.observed_elements = static_cast<int>(NumberElements(data.observations).size());
   int level = enough.taken.observed_elements > kFewTimes * first_elements ? 0 : levels.last();
   LightData part = levels.UpTo(level);
-  enough.fit = levels.FitTo(part, start, options.initial_relative_sigma, options.visibility);
+  enough.fit = levels.FitTo(part, start, options.initial_relative_sigma, options.frozen);
   while (level < levels.last()) {
     const bool is_known = enough.fit.IsUsable() && enough.fit.covariance.size() > 0;
     int more = levels.last();
@@ -135,7 +135,7 @@ EnoughRows FitToEnoughRows(const Room& room, const LightData& data, const LightS
     part = levels.UpTo(level);
     enough.fit = levels.FitTo(part, is_known ? enough.fit.state : start,
                               is_known ? enough.fit.relative_sigma : options.initial_relative_sigma,
-                              enough.fit.visibility);
+                              enough.fit.frozen);
   }
   enough.taken.elements = static_cast<int>(NumberElements(part.observations).size());
   enough.observations = std::move(part.observations);

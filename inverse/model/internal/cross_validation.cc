@@ -22,7 +22,7 @@ class FoldPredictor {
         fold_of_row_(fold_of_row),
         model_(room, data) {
     model_.SetPatchFactor(fit.patch_factor);
-    if (fit.visibility) model_.TakeVisibility(*fit.visibility);
+    if (fit.frozen) model_.TakeOver(*fit.frozen);
     model_.RefreezeVisibility(fit.state);
     at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
     weights_ = WeightsOf(fit, room, data);

@@ -12,6 +12,11 @@
 namespace luxfit {
 namespace {
 
+// How far a reflectance moves before what colours and bodies do to reflected light is computed anew.
+constexpr double kStillAlbedo = 0.01;
+// The same for channels that are handed from fit to fit. Between strong colours the light then errs by 0.05 %.
+constexpr double kServedAlbedo = 0.002;
+
 // Returns the index of `sensor` and adds it where it is new. A point read in several states is one sensor.
 int IndexOf(const Sensor& sensor, std::vector<Sensor>& sensors) {
   const auto known = std::find(sensors.begin(), sensors.end(), sensor);
@@ -171,7 +176,6 @@ bool LightModel::RefreezeVisibility(const LightState& state, int order, double s
 }
 
 bool LightModel::IsReflectedStale(const LightState& state, double still_m) const {
-  constexpr double kStillAlbedo = 0.01;
   if (!reflected_at_ || (reflected_at_->albedo - state.albedo).lpNorm<Eigen::Infinity>() > kStillAlbedo)
     return true;
   const std::vector<Luminaire>& before = reflected_at_->luminaires;
@@ -181,7 +185,8 @@ bool LightModel::IsReflectedStale(const LightState& state, double still_m) const
   return false;
 }
 
-void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
+void LightModel::TakeOver(const FrozenLight& frozen) {
+  if (!data_.indirect_is_held) channels_ = frozen.channels;
   const bool has_all = frozen.which.empty() && frozen.elements.size() > 0;
   if (!has_all && !(data_.indirect_is_held && frozen.which == receivers_.elements)) return;
   frozen_ = frozen.luminaires;
@@ -197,9 +202,9 @@ void LightModel::TakeVisibility(const FrozenVisibility& frozen) {
   }
 }
 
-FrozenVisibility LightModel::frozen() const {
-  if (!data_.indirect_is_held) return {frozen_, frozen_order_, {}, visibility_.elements};
-  return {frozen_, frozen_order_, receivers_.elements, visibility_.receivers};
+FrozenLight LightModel::frozen() const {
+  if (!data_.indirect_is_held) return {frozen_, frozen_order_, {}, visibility_.elements, channels_};
+  return {frozen_, frozen_order_, receivers_.elements, visibility_.receivers, channels_};
 }
 
 void LightModel::FreezeReflected(const LightState& state) {
@@ -208,30 +213,23 @@ void LightModel::FreezeReflected(const LightState& state) {
   if (data_.indirect_is_held || room_.sparse) return;
   const bool departs = state.tint.size() > 0 || patch_factor_.size() > 0 || of_patches_;
   if (!departs && state.bodies == BodyPresence::kNone) return;
-  const std::vector<Transport> channels = departs ? ChannelsOf(state) : std::vector<Transport>();
-  std::vector<const Transport*> transports{&TransportFor(state.albedo)}, of_patches;
-  for (const Transport& channel : channels) (of_patches_ ? of_patches : transports).push_back(&channel);
+  if (departs && !(channels_ && channels_->Serve(state.albedo, state.tint, patch_factor_, kServedAlbedo)))
+    channels_ =
+        std::make_shared<ChannelTransports>(room_, exchange_, state.albedo, state.tint, patch_factor_);
+  const Transport& grey_transport = departs ? channels_->grey() : TransportFor(state.albedo);
+  std::vector<const Transport*> transports{&grey_transport}, of_patches;
+  if (departs) {
+    for (const Transport& channel : channels_->channels())
+      (of_patches_ ? of_patches : transports).push_back(&channel);
+  }
   std::vector<Eigen::MatrixXf> totals =
       ComputeTotals(exchange_, receivers_, visibility_, state.luminaires, transports);
   const Eigen::MatrixXf grey = std::move(totals.front());
   totals.erase(totals.begin());
-  if (state.bodies != BodyPresence::kNone) FreezeBodies(state, grey);
+  if (state.bodies != BodyPresence::kNone) FreezeBodies(state, grey_transport, grey);
   if (!departs) return;
   if (of_patches_) totals = ComputeTotals(room_, *of_patches_, visibility_, state.luminaires, of_patches);
   FreezeColour(state, grey, totals);
-}
-
-std::vector<Transport> LightModel::ChannelsOf(const LightState& state) const {
-  std::vector<Transport> channels;
-  channels.reserve(3);
-  if (state.tint.size() == 0) channels.emplace_back(room_.transport, state.albedo, patch_factor_);
-  for (Eigen::Index c = 0; c < state.tint.rows() && state.tint.size() > 0; ++c) {
-    constexpr double kMostAlbedo = 0.99;
-    channels.emplace_back(
-        room_.transport,
-        state.albedo.cwiseProduct(state.tint.row(c).transpose()).cwiseMin(kMostAlbedo).eval(), patch_factor_);
-  }
-  return channels;
 }
 
 void LightModel::FreezeColour(const LightState& state, const Eigen::MatrixXf& grey,
@@ -254,11 +252,12 @@ void LightModel::FreezeColour(const LightState& state, const Eigen::MatrixXf& gr
   }
 }
 
-void LightModel::FreezeBodies(const LightState& state, const Eigen::MatrixXf& total) {
+void LightModel::FreezeBodies(const LightState& state, const Transport& transport,
+                              const Eigen::MatrixXf& total) {
   const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room_, state.luminaires);
   if (surfaces.empty()) return;
-  const CoveredLight covered = ComputeCoveredLight(exchange_, receivers_, visibility_, state.luminaires,
-                                                   TransportFor(state.albedo), surfaces);
+  const CoveredLight covered =
+      ComputeCoveredLight(exchange_, receivers_, visibility_, state.luminaires, transport, surfaces);
   const Eigen::VectorXd flux = FluxesLm(state.luminaires);
   hidden_.setZero(row_count()), reflected_.setZero(row_count());
   for (Eigen::Index i = 0; i < row_count(); ++i) {

@@ -32,6 +32,7 @@
 #include "forward/light/covered_surfaces.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "inverse/model/internal/channel_transports.h"
 #include "inverse/model/internal/dimming_groups.h"
 #include "inverse/model/internal/row_block.h"
 #include "inverse/model/light_state.h"
@@ -62,10 +63,10 @@ class LightModel {
   // Does the same for those luminaires of which a point has moved by more than `still_m` since; what bodies and colours
   // do to reflected light follows at the same distance. Returns whether anything changed.
   bool RefreezeVisibility(const LightState& state, int order = 3, double still_m = kStillM);
-  // Takes visible shares over from a model of the same room: RefreezeVisibility then counts from there. Where the
-  // indirect light is held, the other's elements have to be all, or the same.
-  void TakeVisibility(const FrozenVisibility& frozen);
-  FrozenVisibility frozen() const;
+  // Takes visible shares and channels over from a model of the same room: RefreezeVisibility then counts from there. Where
+  // the indirect light is held, the other's elements have to be all, or the same.
+  void TakeOver(const FrozenLight& frozen);
+  FrozenLight frozen() const;
   // Freezes anew what bodies and colours do to reflected light, with the visibility as it is.
   void FreezeReflected(const LightState& state);
   // Sets what the next of these two counts with: the reflectance of each patch over that of its material.
@@ -98,11 +99,9 @@ class LightModel {
     int receiver = -1, state = 0;  // -1: the row receives no light
   };
   // Computes what the bodies of `state` hide of each row's light. `total`: without them, per lumen.
-  void FreezeBodies(const LightState& state, const Eigen::MatrixXf& total);
+  void FreezeBodies(const LightState& state, const Transport& transport, const Eigen::MatrixXf& total);
   // Returns whether luminaires or reflectances have changed so much that reflected light is due anew.
   bool IsReflectedStale(const LightState& state, double still_m) const;
-  // Returns the transports of the three channels, or of grey surfaces.
-  std::vector<Transport> ChannelsOf(const LightState& state) const;
   // Computes what coloured and textured surfaces, and patches instead of clusters, add to each row's light. `grey`: of
   // plain grey surfaces; `totals`: of each channel, or of grey.
   void FreezeColour(const LightState& state, const Eigen::MatrixXf& grey,
@@ -133,6 +132,7 @@ class LightModel {
   std::optional<Reflectors> reflected_at_;  // of `hidden_`, `reflected_` and `colour_`
   Eigen::VectorXd hidden_, reflected_;      // a and b; empty: no body hides anything
   Eigen::VectorXd colour_;                  // k; empty: the surfaces are grey
+  std::shared_ptr<const ChannelTransports> channels_;
   bool reflects_derivatives_ = true;
   Eigen::VectorXd patch_factor_;
   // For the reflectances of the last call: a fit that holds them mostly needs no second factorisation.

@@ -86,7 +86,7 @@ Eigen::MatrixXd ParameterShift(const Room& room, const LightData& data, const Lu
   const LightData part = WithObservations(data, rows);
   LightModel model(room, part);
   model.SetPatchFactor(fit.patch_factor);
-  if (fit.visibility) model.TakeVisibility(*fit.visibility);
+  if (fit.frozen) model.TakeOver(*fit.frozen);
   model.RefreezeVisibility(fit.state);
   const Prediction at_fit = model.Predict(fit.state, fit.parameters, true);
   const RowWeights weights = WeightsOf(room, part, model, fit, rows, photos, at_fit.value);

@@ -173,7 +173,7 @@ TEST_F(SmallRoom, RefreezingTracesThoseThatMoved) {
 TEST_F(SmallRoom, AnotherModelTakesVisibilityOver) {
   LightModel model(room_, data_), other(room_, data_);
   model.FreezeVisibility(state_);
-  other.TakeVisibility(model.frozen());
+  other.TakeOver(model.frozen());
   other.RefreezeVisibility(state_, 3, 1e-3);
   EXPECT_EQ(other.Predict(state_, {}, false).value, model.Predict(state_, {}, false).value);
 }
@@ -192,14 +192,14 @@ TEST_F(SmallRoom, AModelOfHeldLightTakesVisibilityOver) {
   whole.FreezeVisibility(moved), own.FreezeVisibility(moved);
   const Eigen::VectorXd at_moved = own.Predict(state_, {}, false).value;
   constexpr double kAnyMove = 1.0;  // what was taken over stays
-  for (const FrozenVisibility& frozen : {whole.frozen(), own.frozen()}) {
+  for (const FrozenLight& frozen : {whole.frozen(), own.frozen()}) {
     LightModel other(room_, held);
-    other.TakeVisibility(frozen);
+    other.TakeOver(frozen);
     other.RefreezeVisibility(state_, 3, kAnyMove);
     EXPECT_EQ(other.Predict(state_, {}, false).value, at_moved);
   }
   LightModel other(room_, fewer), anew(room_, fewer);
-  other.TakeVisibility(own.frozen());
+  other.TakeOver(own.frozen());
   other.RefreezeVisibility(state_, 3, kAnyMove);
   anew.FreezeVisibility(state_);
   EXPECT_EQ(other.Predict(state_, {}, false).value, anew.Predict(state_, {}, false).value);
