@@ -9,6 +9,7 @@
 
 #include "apps/export/exr_channels.h"
 #include "apps/export/lux_photos.h"
+#include "apps/stages/linearize/photo_store.h"
 #include "apps/text/file_stem.h"
 #include "apps/version.h"
 #include "calib/luminance/radiance_picture.h"
@@ -38,6 +39,14 @@ const RegisteredView* ViewOfPhoto(const LinearizedPhoto& photo, const Registrati
   const auto view = std::find_if(registration.views.begin(), registration.views.end(),
                                  [&](const RegisteredView& v) { return v.view == photo.view; });
   return view == registration.views.end() ? nullptr : &*view;
+}
+
+std::shared_ptr<const LuminanceImage> ReadPicture(const LinearizedPhotos& photos,
+                                                  const LinearizedPhoto& photo, const Camera& camera,
+                                                  const LuminancePictureOptions& options) {
+  const auto decode = [&] { return ReadCorrected(photos, photo, camera, options.corrections); };
+  return options.decoded ? options.decoded->Get(photo.file, decode)
+                         : std::make_shared<const LuminanceImage>(decode());
 }
 
 // Says in words what the values are.
@@ -110,7 +119,9 @@ std::vector<LuminancePicture> WriteLuminancePictures(const LinearizedPhotos& pho
     const RegisteredView* const view = ViewOfPhoto(photo, registered.registration);
     std::optional<Eigen::Isometry3d> cam_from_world;
     if (view) cam_from_world = view->cam_from_world;
-    const LuminanceImage image = ReadCorrected(photos, photo, registered.cameras[c], options.corrections);
+    const std::shared_ptr<const LuminanceImage> kept =
+        ReadPicture(photos, photo, registered.cameras[c], options);
+    const LuminanceImage& image = *kept;
     const double per_unit = cdm2_per_unit ? *cdm2_per_unit / kRadianceEfficacy : 1;
     std::array<ImagePlane, 3> rgb = PictureColours(image, per_unit);
     for (ImagePlane& plane : rgb) plane = Resampled(plane, places[c], views[c]);

@@ -13,6 +13,7 @@
 #define LUXFIT_APPS_EXPORT_LUMINANCE_PICTURES_H_
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct LuminancePictureOptions {
   std::string command_line;                          // as typed, for the header
   std::vector<std::optional<double>> cdm2_per_unit;  // k of each camera
   PhotoCorrections corrections;                      // what an earlier run found; default: none
+  std::shared_ptr<PhotoStore> decoded;  // photos that a stage before decoded; null, or no corrections
 };
 
 struct LuminancePicture {

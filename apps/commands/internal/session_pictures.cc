@@ -7,42 +7,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/commands/internal/session_cameras.h"
 #include "apps/export/luminance_pictures.h"
-#include "apps/stages/calibrate/calibration_images.h"
-#include "apps/stages/calibrate/stage_calibrate.h"
-#include "apps/stages/prepared_session.h"
-#include "apps/text/input_error.h"
+#include "apps/stages/linearize/photo_store.h"
 
 namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-bool CanBeRegistered(const Session& session) {
-  const bool has_tags = !session.tags.survey.empty() || session.tags.size_m > 0;
-  return !session.lights && (has_tags || !session.registration.colmap_model.empty());
-}
-
-void ExpectLenses(const Session& session) {
-  for (size_t c = 0; c < session.cameras.size(); ++c) {
-    const SessionCamera& camera = session.cameras[c];
-    if (camera.intrinsics.empty() && !CanBeCalibrated(session, camera))
-      throw InputError(
-          {session.path, camera.line}, fmt::format("camera[{}].intrinsics", c),
-          "expected the lens, which --hdr takes out of the pictures, got none; add intrinsics = \"FILE\", "
-          "or calibration_images and board");
-  }
-}
-
-// Returns the session's cameras, and poses where something tells them.
-RegisteredSession RegisteredOrNot(const Session& session, const LinearizedPhotos& photos,
-                                  RunContext& context) {
-  if (CanBeRegistered(session)) return RegisterKept(session, photos, InputsOfStages(session, ""), context);
-  ExpectLenses(session);
-  RegisteredSession cameras_alone;
-  cameras_alone.cameras = CamerasOf(session, photos, context);
-  return cameras_alone;
-}
 
 void WarnOfClipped(const std::vector<LuminancePicture>& pictures, RunContext& context) {
   const auto is_clipped = [](const LuminancePicture& picture) { return picture.saturated_share > 0; };
@@ -83,12 +55,15 @@ json WriteSessionPictures(const Session& session, const LinearizedPhotos& photos
   options.folder = context.out + "/luminance";
   options.command_line = context.provenance.command_line;
   for (const LinearizedCamera& camera : photos.cameras) options.cdm2_per_unit.push_back(camera.Cdm2PerUnit());
-  const RegisteredSession registered = RegisteredOrNot(session, photos, context);
+  context.photos = std::make_shared<PhotoStore>();
+  options.decoded = context.photos;
+  const RegisteredSession registered = CamerasWithPoses(session, photos, context);
   std::vector<LuminancePicture> pictures;
   {
     const StageTimer timer(context, "luminance", fmt::format("{} pictures", photos.photos.size()));
     pictures = WriteLuminancePictures(photos, registered, options);
   }
+  context.photos.reset();
   WarnOfClipped(pictures, context);
   json list = json::array();
   for (const LuminancePicture& picture : pictures) list.push_back(PictureJson(picture, context.out));

@@ -1,8 +1,8 @@
 // Writes the luminance pictures of `luxfit linearize --hdr`, in the frame of the session where it has tags or a model
 // of COLMAP.
 //
-// Adds a warning ("luminance_clipped") where pixels are saturated. Throws as registration does
-// (apps/stages/stages.h), and std::runtime_error where neither intrinsics nor images tell a camera's lens.
+// Adds a warning ("luminance_clipped") where pixels are saturated. Throws as CamerasWithPoses does
+// (apps/commands/internal/session_cameras.h).
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_SESSION_PICTURES_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_SESSION_PICTURES_H_
 
