@@ -3,6 +3,7 @@ luxfit_test(calib/luminance radiance_picture_test LINK luxfit::calib opencv_core
 luxfit_test(calib/luminance raw_photo_test LINK luxfit::calib)
 luxfit_test(calib/luminance heif_photo_test LINK luxfit::calib exiv2lib PkgConfig::LIBHEIF)
 luxfit_test(calib/luminance luminance_test LINK luxfit::calib)
+luxfit_test(calib/luminance luminance_spot_test LINK luxfit::calib)
 luxfit_test(calib/luminance median_test LINK luxfit::calib)
 luxfit_test(calib/luminance weighted_median_test LINK luxfit::calib)
 luxfit_test(calib/luminance bracket_test LINK luxfit::calib)

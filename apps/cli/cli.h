@@ -3,7 +3,7 @@
 // Parsing selects what to run; it runs nothing. Each group of commands is one file: cli/start_commands.cc
 // (before there is a session), cli/session_commands.cc (on a session), cli/forward_commands.cc (the forward
 // model), cli/result_commands.cc (on the results of a run), cli/room_commands.cc (on the room that a run
-// fitted).
+// fitted), cli/photo_commands.cc (on the photos of a session or of a run).
 #ifndef LUXFIT_APPS_CLI_CLI_H_
 #define LUXFIT_APPS_CLI_CLI_H_
 
@@ -27,6 +27,7 @@ void AddSessionCommands(CLI::App& app, Invocation& invocation);
 void AddForwardCommands(CLI::App& app, Invocation& invocation);
 void AddResultCommands(CLI::App& app, Invocation& invocation);
 void AddRoomCommands(CLI::App& app, Invocation& invocation);
+void AddPhotoCommands(CLI::App& app, Invocation& invocation);
 
 // Adds an example below the options of a command's help: what to type, and its output.
 void AddExample(CLI::App& command, const std::string& typed, const std::string& output);

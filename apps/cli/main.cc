@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   luxfit::AddForwardCommands(app, invocation);
   luxfit::AddResultCommands(app, invocation);
   luxfit::AddRoomCommands(app, invocation);
+  AddPhotoCommands(app, invocation);
   luxfit::AddShellCommands(app, invocation);
   try {
     app.parse(argc, argv);

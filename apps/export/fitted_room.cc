@@ -137,8 +137,17 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
           std::move(light.direct_lx)};
 }
 
+std::string AbsoluteFolder(const std::string& out) {
+  return std::filesystem::absolute(out).lexically_normal().string();
+}
+
+RegisteredSession RegisteredIn(const json& result, const std::string& folder) {
+  return result.at("views").empty() ? RegisteredSession{}
+                                    : RegistrationFromJson(ReadJson(folder + "/stages/register.json"));
+}
+
 template <typename Make>
-FittedRoom WithResultOf(const std::string& out, const Make& make) {
+auto WithResultOf(const std::string& out, const Make& make) {
   const json result = ReadResult(out + "/result.json");
   try {
     return make(result);
@@ -152,16 +161,24 @@ FittedRoom WithResultOf(const std::string& out, const Make& make) {
 }  // namespace
 
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path, FluxUnit fluxes) {
-  const std::string folder = std::filesystem::absolute(out).lexically_normal().string();
+  const std::string folder = AbsoluteFolder(out);
   return WithResultOf(folder, [&](const json& result) {
     Session session = FittedSession(result, session_path, folder + "/result.json", fluxes);
-    RegisteredSession registered;
-    if (!result.at("views").empty())
-      registered = RegistrationFromJson(ReadJson(folder + "/stages/register.json"));
+    RegisteredSession registered = RegisteredIn(result, folder);
     RunContext context;
     context.is_quiet = true;
     Room room = LoadRoom(session, context);
     return Assemble(folder, result, std::move(session), std::move(registered), std::move(room));
+  });
+}
+
+FittedPhotos ReadFittedPhotos(const std::string& out, const std::string& session_path) {
+  const std::string folder = AbsoluteFolder(out), path = folder + "/result.json";
+  return WithResultOf(folder, [&](const json& result) {
+    Session session = ReadSession(SessionPathOf(result, session_path, path));
+    ExpectSameRoom(result, session, path);
+    return FittedPhotos{folder, std::move(session), RegisteredIn(result, folder),
+                        result.value("camera_scale", 0.0)};
   });
 }
 

@@ -47,6 +47,15 @@ struct FittedRoom {
 FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_path = "",
                           FluxUnit fluxes = FluxUnit::kAny);
 
+// Holds the photos of a run, for callers that need neither room nor light.
+struct FittedPhotos {
+  std::string out;  // absolute path of the folder
+  Session session;
+  RegisteredSession registered;  // empty: a fit to readings alone
+  double camera_scale = 0;       // as above
+};
+FittedPhotos ReadFittedPhotos(const std::string& out, const std::string& session_path = "");
+
 // Makes the room of a run that still holds it and has written its result into `out`, an absolute path.
 FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);
 

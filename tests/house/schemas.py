@@ -85,6 +85,7 @@ def run_office():
     luxfit("export", out, "--only", "csv,cameras,luminaires,patches,radiance")
     shutil.copy(office / "photos/v00_evening.png", IN / "evening.png")
     luxfit("luxmap", out, IN / "evening.png", "--view", "v00", "--exposure-s", "0.206")
+    luxfit("spot", out, "v00_A:240,180", "v01_A:100,100")
     luxfit("advise", out, save="advise")
     luxfit("dim", out, "--person", "1.0,1.2,1.2,-1,0,0")
     design = "".join(f"""[[luminaire]]

@@ -59,14 +59,6 @@ void WarnOfLensShading(const LinearizedPhotos& photos, RunContext& context) {
   }
 }
 
-LuminanceOptions OptionsOf(const LinearizedCamera& camera) {
-  LuminanceOptions options;
-  options.weights = camera.given.luminance_weights;
-  options.black_level_counts = camera.given.black_level_counts;
-  options.response = camera.response;
-  return options;
-}
-
 void ExpectSize(const Photo& counts, const std::string& file, const SessionCamera& settings,
                 const Camera& camera) {
   if (counts.width_px() == camera.width_px && counts.height_px() == camera.height_px) return;
@@ -105,17 +97,26 @@ void WriteArtifact(const LinearizedPhotos& photos, size_t first_warning, nlohman
 
 }  // namespace
 
+LuminanceOptions LuminanceOptionsOf(const LinearizedCamera& camera) {
+  LuminanceOptions options;
+  options.weights = camera.given.luminance_weights;
+  options.black_level_counts = camera.given.black_level_counts;
+  options.response = camera.response;
+  return options;
+}
+
 LuminanceImage ReadExposure(const LinearizedCamera& camera, const PhotoExposure& exposure) {
   return ToRelativeLuminance(ReadCounts(camera, exposure.file), exposure.relative_exposure_s,
-                             OptionsOf(camera));
+                             LuminanceOptionsOf(camera));
 }
 
 LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
-                             const Camera& camera) {
+                             const Camera& camera, PixelNoise noise) {
   const LinearizedCamera& own = photos.cameras[static_cast<size_t>(photo.camera)];
+  LuminanceOptions options = LuminanceOptionsOf(own);
   LuminanceImage image;
   if (photo.bracket.size() > 1) {
-    BracketMerger merger(OptionsOf(own));
+    BracketMerger merger(options);
     for (const PhotoExposure& exposure : photo.bracket) {
       const Photo counts = ReadCounts(own, exposure.file);
       ExpectSize(counts, exposure.file, own.given, camera);
@@ -125,7 +126,8 @@ LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPho
   } else {
     const Photo counts = ReadCounts(own, photo.file);
     ExpectSize(counts, photo.file, own.given, camera);
-    image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, OptionsOf(own));
+    if (noise == PixelNoise::kOfAll) options.noise = DefaultNoise(counts.bits_per_channel);
+    image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, options);
   }
   if (own.vignetting) image = WithoutVignetting(std::move(image), *own.vignetting);
   return image;
@@ -139,9 +141,9 @@ std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, c
 }
 
 LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
-                             const Camera& camera, const PhotoCorrections& corrections) {
+                             const Camera& camera, const PhotoCorrections& corrections, PixelNoise noise) {
   const std::string& id = photos.cameras[static_cast<size_t>(photo.camera)].given.id;
-  return WithCorrection(ReadLuminance(photos, photo, camera), corrections.Of(id, photo.file),
+  return WithCorrection(ReadLuminance(photos, photo, camera, noise), corrections.Of(id, photo.file),
                         photo.bracket.front().relative_exposure_s);
 }
 

@@ -95,6 +95,19 @@ TEST_F(RoomCommands, APhotoOfAStateThatNobodyFittedIsALuxmeter) {
   EXPECT_TRUE(std::filesystem::exists(folder_->Path("out/luxmap/maps/v00_evening.exr")));
 }
 
+// One reading sets the scale; the renderer's own is known.
+TEST_F(RoomCommands, ASpotOfAPhotoHasItsLuminanceWithinItsSigma) {
+  const support::ProgramRun run = Command("spot", "v00_all:400,300");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json spot = Artifact("luminance/spots.json")["spots"][0];
+  const double per_cdm2_s = support::OfficeTruth().at("cameras").at("cam0").at("counts_per_cdm2_s");
+  const double luminance = spot["luminance_cd_m2"], sigma = spot["sigma_cd_m2"];
+  const double z = (luminance - spot["relative_luminance"].get<double>() / per_cdm2_s) / sigma;
+  std::printf("spot: %.2f +- %.2f cd/m2, z %.2f by the renderer's scale\n", luminance, sigma, z);
+  EXPECT_LT(std::abs(z), 2);
+  EXPECT_LT(sigma / luminance, 0.03);
+}
+
 TEST_F(RoomCommands, WhatIsNotOnAsItShouldBeIsNamed) {
   const support::ProgramRun run =
       Command("luxmap", support::kOfficeFolder +
