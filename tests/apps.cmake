@@ -69,6 +69,8 @@ luxfit_test(apps/commands luminance_pictures_test WHOLE LINK Eigen3::Eigen luxfi
 add_dependencies(apps_luminance_pictures_test luxfit)
 luxfit_test(apps/commands spot_test LINK luxfit::forward nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
 add_dependencies(apps_spot_test luxfit)
+luxfit_test(apps/commands glare_test LINK nlohmann_json::nlohmann_json opencv_core opencv_imgcodecs)
+add_dependencies(apps_glare_test luxfit)
 luxfit_test(apps/commands misread_readings_test LINK fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_misread_readings_test luxfit)
 luxfit_test(apps/commands misread_office_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)

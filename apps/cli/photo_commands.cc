@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/cli/cli.h"
+#include "apps/commands/result/glare_command.h"
 #include "apps/commands/result/spot_command.h"
 
 namespace luxfit {
@@ -59,8 +60,34 @@ void AddSpot(CLI::App& app, Invocation& invocation) {
              "v00_all      400     300          5      81  21.34 ± 0.44               0.98");
 }
 
+void AddGlare(CLI::App& app, Invocation& invocation) {
+  CLI::App* const command = app.add_subcommand(
+      "glare", "glare that photos show: vertical illuminance at the lens, UGR, DGP, glare sources");
+  const auto options = std::make_shared<GlareCommandOptions>();
+  AddPhotoInput(*command, *options);
+  command->add_option("PHOTO", options->names, "photos as VIEW_STATE (default: all)");
+  command
+      ->add_option("--ev", options->vertical_lx,
+                   "vertical illuminance at the lens of the one photo, lx, for photos that show less than a "
+                   "hemisphere")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--threshold", options->threshold,
+                   "luminance above which a pixel glares: cd/m2, or 5x for five times the photo's mean")
+      ->capture_default_str();
+  CompletePhotoCommand(*command, invocation, options, GlareCommand);
+  AddExample(*command, "luxfit glare out v00_all --ev 400",
+             "photo    field %  E_v lx            sources  L_b cd/m2  UGR                DGP\n"
+             "v00_all     29.6  400 given               0      127.3  clipped            >= 0.183\n"
+             "\n"
+             "warning: 1 of 1 photos have pixels that are saturated in every exposure: ...");
+}
+
 }  // namespace
 
-void AddPhotoCommands(CLI::App& app, Invocation& invocation) { AddSpot(app, invocation); }
+void AddPhotoCommands(CLI::App& app, Invocation& invocation) {
+  AddSpot(app, invocation);
+  AddGlare(app, invocation);
+}
 
 }  // namespace luxfit

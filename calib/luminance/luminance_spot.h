@@ -35,8 +35,8 @@ struct LuminanceSpot {
   Eigen::Vector3d relative_rgb = Eigen::Vector3d::Zero();  // mean
 };
 
-// Returns the spot about a pixel. Throws std::invalid_argument for a circle that is not within the image and for a radius
-// below 1 px, which has no spread.
+// Returns the spot about a pixel. Throws std::invalid_argument for a circle that is not within the image and for a
+// radius below 1 px, which has no spread.
 LuminanceSpot MeasureSpot(const LuminanceImage& image, const Eigen::Vector2d& pixel, double radius_px);
 
 // Returns the relative sigma u of a spot by its camera's response; 0 where the response states none.

@@ -16,7 +16,27 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Table 4.1 of CIE 117 ends here.
 constexpr double kLargestSide = 3, kLargestHeight = 1.9;
 
-double IndexAbove(double sigma_deg, double tau_deg) {
+// Holds where a direction meets the plane at distance 1 before the eye.
+struct SightPlace {
+  bool is_ahead = false;
+  double height = 0, aside = 0;  // H / D above the line of sight, T / D to either side
+
+  double Radius() const { return std::hypot(height, aside); }
+};
+
+SightPlace PlaceInSight(const Observer& observer, const Eigen::Vector3d& towards) {
+  const Eigen::Vector3d& sight = observer.sight;
+  const Eigen::Vector3d side = sight.cross(Eigen::Vector3d::UnitZ()).normalized();
+  const double ahead = towards.dot(sight);
+  if (!(ahead > 0)) return {};
+  return {true, towards.dot(side.cross(sight)) / ahead, std::abs(towards.dot(side)) / ahead};
+}
+
+double IndexBelow(double radius) { return 1 + (radius < 0.6 ? 0.8 : 1.2) * radius; }
+
+double IndexAbove(const SightPlace& at) {
+  const double sigma_deg = std::atan(at.Radius()) * kDegreesPerRad;
+  const double tau_deg = std::atan2(at.aside, at.height) * kDegreesPerRad;
   const double linear = 35.2 - 0.31889 * tau_deg - 1.22 * std::exp(-2 * tau_deg / 9);
   const double square = 21 + 0.26667 * tau_deg - 0.002963 * tau_deg * tau_deg;
   return std::exp(1e-3 * linear * sigma_deg + 1e-5 * square * sigma_deg * sigma_deg);
@@ -83,16 +103,17 @@ std::vector<Piece> PiecesOfSphere(const Luminaire& luminaire, const Eigen::Vecto
 }  // namespace
 
 double PositionIndex(const Observer& observer, const Eigen::Vector3d& towards) {
-  const Eigen::Vector3d& sight = observer.sight;
-  const Eigen::Vector3d side = sight.cross(Eigen::Vector3d::UnitZ()).normalized();
-  const Eigen::Vector3d up = side.cross(sight);
-  const double ahead = towards.dot(sight);
-  if (!(ahead > 0)) return kInfinity;
-  const double height = towards.dot(up) / ahead, aside = std::abs(towards.dot(side)) / ahead;
-  if (aside > kLargestSide || height > kLargestHeight) return kInfinity;
-  const double radius = std::hypot(height, aside);
-  if (height < 0) return 1 + (radius < 0.6 ? 0.8 : 1.2) * radius;
-  return IndexAbove(std::atan(radius) * kDegreesPerRad, std::atan2(aside, height) * kDegreesPerRad);
+  const SightPlace at = PlaceInSight(observer, towards);
+  if (!at.is_ahead || at.aside > kLargestSide || at.height > kLargestHeight) return kInfinity;
+  return at.height < 0 ? IndexBelow(at.Radius()) : IndexAbove(at);
+}
+
+double HemisphereIndex(const Observer& observer, const Eigen::Vector3d& towards) {
+  constexpr double kLargestIndex = 16, kLargestRadius = 3;
+  const SightPlace at = PlaceInSight(observer, towards);
+  if (!at.is_ahead) return kInfinity;
+  if (at.height < 0) return IndexBelow(std::min(at.Radius(), kLargestRadius));
+  return std::min(IndexAbove(at), kLargestIndex);
 }
 
 GlareSource GlareOf(const RayScene& rays, const Luminaire& luminaire, const Observer& observer, int order) {
@@ -120,6 +141,16 @@ double UnifiedGlareRating(double sum, double background_cd_m2) {
   if (!(background_cd_m2 > 0))
     throw std::invalid_argument("UnifiedGlareRating: expected a background luminance > 0");
   return sum > 0 ? 8 * std::log10(0.25 * sum / background_cd_m2) : -kInfinity;
+}
+
+double DaylightGlareProbability(double sum, double vertical_lx) {
+  if (!(vertical_lx > 0))
+    throw std::invalid_argument("DaylightGlareProbability: expected an illuminance > 0");
+  constexpr double kLowLightLx = 1000;
+  const double dgp =
+      5.87e-5 * vertical_lx + 9.18e-2 * std::log10(1 + sum / std::pow(vertical_lx, 1.87)) + 0.16;
+  const double low = std::exp(0.024 * vertical_lx - 4);
+  return std::min(1.0, vertical_lx < kLowLightLx ? dgp * low / (1 + low) : dgp);
 }
 
 }  // namespace luxfit

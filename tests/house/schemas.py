@@ -86,6 +86,7 @@ def run_office():
     shutil.copy(office / "photos/v00_evening.png", IN / "evening.png")
     luxfit("luxmap", out, IN / "evening.png", "--view", "v00", "--exposure-s", "0.206")
     luxfit("spot", out, "v00_A:240,180", "v01_A:100,100")
+    luxfit("glare", out, "v00_A", "--threshold", "5x", status=1)  # luminaires in view saturate
     luxfit("advise", out, save="advise")
     luxfit("dim", out, "--person", "1.0,1.2,1.2,-1,0,0")
     design = "".join(f"""[[luminaire]]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "apps/export/lux_photos.h"
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
+#include "inverse/control/photo_glare.h"
 #include "inverse/model/parameter.h"
 
 namespace luxfit {
@@ -103,6 +105,18 @@ const std::optional<LuminanceScale>& MeasuredPhotos::ScaleOf(size_t photo) const
   return scale[static_cast<size_t>(photos.photos[photo].camera)];
 }
 
+Eigen::Matrix3d MeasuredPhotos::LevelFromCamera(size_t photo) const {
+  const Registration& registration = registered.registration;
+  const auto view =
+      std::find_if(registration.views.begin(), registration.views.end(),
+                   [&](const RegisteredView& v) { return v.view == photos.photos[photo].view; });
+  // The frame of a tag is not level.
+  if (view == registration.views.end() || registration.frame.rfind("tag ", 0) == 0) return UprightCamera();
+  constexpr double kNearlyVertical = 0.98;
+  const Eigen::Matrix3d world_from_cam = view->cam_from_world.linear().transpose();
+  return std::abs(world_from_cam(2, 2)) < kNearlyVertical ? world_from_cam : UprightCamera();
+}
+
 LuminanceImage MeasuredPhotos::Read(size_t photo) const {
   const LinearizedPhoto& of = photos.photos[photo];
   const Camera camera = WithOwnSize(registered.cameras[static_cast<size_t>(of.camera)], of.file);
@@ -116,6 +130,10 @@ MeasuredPhotos ReadMeasuredPhotos(const MeasuredInput& input, LensNeed need, Run
   for (std::optional<LuminanceScale>& scale : measured.scale)
     if (scale && input.scale_sigma) scale->relative_sigma = input.scale_sigma;
   return measured;
+}
+
+nlohmann::json OrNull(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json();
 }
 
 void AddNoScale(const std::string& what, RunContext& context) {

@@ -1,4 +1,4 @@
-// Gives the photos of a session or of a finished run as measured luminance, for the commands that read values from them.
+// Gives the photos of a session or of a finished run as measured luminance, for commands that read values from them.
 //
 //   L = k Y,   k: cd/m2 per unit of relative luminance
 //
@@ -11,6 +11,7 @@
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_MEASURED_PHOTOS_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_MEASURED_PHOTOS_H_
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ struct MeasuredPhotos {
   // Returns the index of a photo by its name. Throws std::runtime_error that begins with `where`.
   size_t IndexOf(const std::string& name, const std::string& where) const;
   const std::optional<LuminanceScale>& ScaleOf(size_t photo) const;
+  // Returns the rotation that turns directions of the photo's camera so that z is up: by its pose, or, where that is
+  // unknown or looks nearly straight up or down, as if the camera were held upright and level.
+  Eigen::Matrix3d LevelFromCamera(size_t photo) const;
   // Reads a photo with the variance of its pixels.
   LuminanceImage Read(size_t photo) const;
 };
@@ -53,6 +57,9 @@ enum class LensNeed { kNone, kDirections };
 
 // `context` becomes that of the command.
 MeasuredPhotos ReadMeasuredPhotos(const MeasuredInput& input, LensNeed need, RunContext& context);
+
+// Returns the value, or null where it is not known.
+nlohmann::json OrNull(const std::optional<double>& value);
 
 // Adds the warning "scale_undetermined": `what` has no absolute scale.
 void AddNoScale(const std::string& what, RunContext& context);

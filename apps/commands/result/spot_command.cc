@@ -89,8 +89,6 @@ void ExpectWithinPhoto(const LuminanceImage& image, const AskedSpot& spot) {
       spot.where, width, height, spot.radius_px, spot.pixel.x(), spot.pixel.y()));
 }
 
-json OrNull(const std::optional<double>& value) { return value ? json(*value) : json(); }
-
 // Returns why a spot has no luminance, or "none".
 const char* GapOf(const LuminanceSpot& spot, bool is_absolute) {
   if (spot.saturated > 0) return "saturated";
@@ -115,6 +113,7 @@ json SpotJson(const AskedSpot& asked, const MeasuredPhotos& measured, size_t ind
   std::optional<double> response;
   if (camera.response && camera.response->has_relative_sigma()) {
     std::vector<double> exposures_s;
+    exposures_s.reserve(photo.bracket.size());
     for (const PhotoExposure& exposure : photo.bracket) exposures_s.push_back(exposure.relative_exposure_s);
     response = ResponseSigma(*camera.response, spot.relative_rgb, exposures_s, LuminanceOptionsOf(camera));
   }
@@ -134,6 +133,7 @@ json SpotJson(const AskedSpot& asked, const MeasuredPhotos& measured, size_t ind
 // Reads each photo once.
 json MeasureSpots(const std::vector<AskedSpot>& asked, const MeasuredPhotos& measured) {
   std::vector<size_t> photo_of_spot;
+  photo_of_spot.reserve(asked.size());
   for (const AskedSpot& spot : asked) photo_of_spot.push_back(measured.IndexOf(spot.photo, spot.where));
   json spots = json::array();
   for (size_t i = 0; i < asked.size(); ++i) spots.push_back(nullptr);

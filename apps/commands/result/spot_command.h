@@ -5,9 +5,9 @@
 // Y, sigma_Y, u_response: calib/luminance/luminance_spot.h; k: apps/commands/internal/measured_photos.h. An error that
 // is not known is left out, and the result says so.
 //
-// Writes OUT/luminance/spots.csv and spots.json, whose keys docs/luminance.md describes. Returns the exit status: 1 where a
-// spot has no luminance: saturated in every exposure, too dark, or without an absolute scale. Throws
-// std::runtime_error for bad input.
+// Writes OUT/luminance/spots.csv and spots.json, whose keys docs/luminance.md describes. Returns the exit
+// status: 1 where a spot has no luminance: saturated in every exposure, too dark, or without an absolute scale.
+// Throws std::runtime_error for bad input.
 #ifndef LUXFIT_APPS_COMMANDS_RESULT_SPOT_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_RESULT_SPOT_COMMAND_H_
 

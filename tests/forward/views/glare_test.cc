@@ -43,6 +43,28 @@ TEST(Glare, WhatTheTableLeavesOutDoesNotCount) {
   EXPECT_TRUE(std::isinf(PositionIndex(kObserver, Eigen::Vector3d(-1, 0, 0))));
 }
 
+// DGP's index is the same, and goes on where CIE 117's table ends.
+TEST(Glare, TheIndexOfTheHemisphereGoesOnBeyondTheTable) {
+  for (const auto& [height, side] : {std::pair{0.5, 0.1}, {1.0, 0.2}, {0.0, 2.0}, {-0.4, 0.3}, {-1.0, 2.0}})
+    EXPECT_EQ(HemisphereIndex(kObserver, Towards(height, side)),
+              PositionIndex(kObserver, Towards(height, side)));
+  EXPECT_GT(HemisphereIndex(kObserver, Towards(2.0, 0)), 15);
+  EXPECT_EQ(HemisphereIndex(kObserver, Towards(50, 0)), 16);
+  EXPECT_NEAR(HemisphereIndex(kObserver, Towards(-50, 0)), 1 + 1.2 * 3, 1e-12);
+  EXPECT_TRUE(std::isinf(HemisphereIndex(kObserver, Eigen::Vector3d(-1, 0, 0))));
+}
+
+// By hand, E_v = 3000 lx: 0.1761 + 0.0918 log10(1 + 1e8 / 3000^1.87) + 0.16, 3000^1.87 = 3.1784e6.
+TEST(Glare, DaylightGlareProbabilityByHand) {
+  EXPECT_NEAR(DaylightGlareProbability(1e8, 3000), 0.1761 + 0.0918 * std::log10(1 + 100 / 3.1784) + 0.16,
+              1e-5);
+  EXPECT_NEAR(DaylightGlareProbability(0, 2000), 0.1174 + 0.16, 1e-12);
+  EXPECT_EQ(DaylightGlareProbability(1e12, 30000), 1);
+  // In little light nobody is dazzled: exp(0.024 * 200 - 4) = 2.22554.
+  EXPECT_NEAR(DaylightGlareProbability(0, 200), (0.01174 + 0.16) * 2.22554 / 3.22554, 1e-6);
+  EXPECT_THROW(DaylightGlareProbability(1, 0), std::invalid_argument);
+}
+
 Luminaire Panel(const Eigen::Vector3d& position, double side_m, double flux_lm) {
   Luminaire panel;
   panel.position = position;
