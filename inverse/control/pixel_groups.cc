@@ -50,7 +50,7 @@ bool IsOnBorder(const PixelMask& mask, Eigen::Index v, Eigen::Index u) {
   return !is_inside || !mask(v - 1, u) || !mask(v + 1, u) || !mask(v, u - 1) || !mask(v, u + 1);
 }
 
-// GridCells of a cubic grid, with the border pixels whose directions end in them.
+// Cells of a cubic grid, with the border pixels whose directions end in them.
 using GridCell = std::array<int, 3>;
 using GridCells = std::map<GridCell, std::vector<size_t>>;
 
