@@ -88,11 +88,6 @@ Scene Shell(const Plan& plan) {
   return scene;
 }
 
-struct Furniture {
-  AlignedBox3d box;
-  std::string material;
-};
-
 // A desk's top on nothing, or a cabinet on the floor.
 Furniture DrawPiece(const Plan& plan, std::mt19937_64& rng) {
   const AlignedBox2d bounds = plan.Bounds();
@@ -328,35 +323,29 @@ double DrawAlbedo(const std::string& material, std::mt19937_64& rng) {
 
 }  // namespace
 
-RandomRoom DrawRoom(std::mt19937_64& rng, const RandomRoomOptions& options) {
+Scene WithFurniture(Scene shell, const std::vector<Furniture>& pieces) {
+  for (const Furniture& piece : pieces) AddBox(shell, piece.box, Facing::kOutward, {piece.material});
+  return shell;
+}
+
+RandomRoom DrawRoom(std::mt19937_64& rng) {
   RandomRoom drawn;
   const Plan plan = DrawPlan(rng);
-  const std::vector<Furniture> pieces = DrawFurniture(plan, rng);
-  drawn.room.truth = Shell(plan);
-  drawn.mesh = drawn.room.truth;
-  int left_out = 0;
-  // Materials of the mesh come first: pieces that it has before those that it lacks.
-  const int lacking =
-      static_cast<int>(std::lround(options.missing_share * static_cast<double>(pieces.size())));
-  for (size_t i = 0; i < pieces.size(); ++i) {
-    AddBox(drawn.room.truth, pieces[i].box, Facing::kOutward, {pieces[i].material});
-    if (i + static_cast<size_t>(lacking) < pieces.size())
-      AddBox(drawn.mesh, pieces[i].box, Facing::kOutward, {pieces[i].material});
-    else
-      ++left_out;
-  }
+  drawn.pieces = DrawFurniture(plan, rng);
+  drawn.shell = Shell(plan);
+  drawn.mesh = drawn.room.truth = WithFurniture(drawn.shell, drawn.pieces);
   drawn.room.albedo.resize(static_cast<Eigen::Index>(drawn.room.truth.materials.size()));
   for (size_t m = 0; m < drawn.room.truth.materials.size(); ++m)
     drawn.room.albedo[static_cast<Eigen::Index>(m)] = DrawAlbedo(drawn.room.truth.materials[m], rng);
   std::string kinds;
   AddStates(AddLuminaires(plan, drawn, kinds, rng), drawn.room, rng);
-  AddViews(plan, pieces, drawn.room, rng);
-  AddReadingPlaces(plan, pieces, drawn.room, rng);
+  AddViews(plan, drawn.pieces, drawn.room, rng);
+  AddReadingPlaces(plan, drawn.pieces, drawn.room, rng);
   for (const AlignedBox2d& part : plan.parts) drawn.area_m2 += part.volume();
   const Vector2d size = plan.Bounds().sizes();
   char text[160];
-  std::snprintf(text, sizeof text, "%s of %.1f m x %.1f m x %.1f m, %zu boxes, %d not in the mesh, ",
-                plan.name.c_str(), size.x(), size.y(), plan.height_m, pieces.size(), left_out);
+  std::snprintf(text, sizeof text, "%s of %.1f m x %.1f m x %.1f m, %zu boxes, ", plan.name.c_str(), size.x(),
+                size.y(), plan.height_m, drawn.pieces.size());
   drawn.words = text + kinds + " in " + std::to_string(drawn.room.dimming.size()) + " states, " +
                 std::to_string(drawn.room.eyes.size()) + " views";
   return drawn;

@@ -7,6 +7,7 @@
 #ifndef LUXFIT_TESTS_SUPPORT_INVERSE_RANDOM_ROOM_H_
 #define LUXFIT_TESTS_SUPPORT_INVERSE_RANDOM_ROOM_H_
 
+#include <Eigen/Geometry>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,19 +16,25 @@
 
 namespace luxfit::support {
 
+struct Furniture {
+  Eigen::AlignedBox3d box;
+  std::string material;
+};
+
 struct RandomRoom {
   TracedRoom room;
-  Scene mesh;         // what the fit is given: `room.truth` without the furniture that is left out
+  Scene shell;  // without furniture
+  std::vector<Furniture> pieces;
+  Scene mesh;         // what the fit is given: as `room.truth` is drawn
   std::string words;  // "L of 7.2 m x 5.1 m x 2.7 m, 4 boxes, 6 panels + 2 globes in 3 states, 8 views"
   std::vector<std::string> kinds;  // by luminaire: "panels"
   double area_m2 = 0;              // of the floor
 };
 
-struct RandomRoomOptions {
-  double missing_share = 0;  // of the furniture, which the mesh lacks
-};
+RandomRoom DrawRoom(std::mt19937_64& rng);
 
-RandomRoom DrawRoom(std::mt19937_64& rng, const RandomRoomOptions& options = {});
+// Materials come in the order of the pieces: those of the first few pieces begin those of all.
+Scene WithFurniture(Scene shell, const std::vector<Furniture>& pieces);
 
 }  // namespace luxfit::support
 
