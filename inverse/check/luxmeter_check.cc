@@ -118,6 +118,12 @@ void Explain(Disagreement& d) {
   }
 }
 
+bool AreFarOff(const std::vector<CheckedReading>& readings) {
+  constexpr double kLargePercent = 5, kTimesExplained = 2;
+  return SummarizeLuxmeter(readings).mean_abs_error_percent >
+         std::max(kLargePercent, kTimesExplained * ExplainedByTheMeterPercent(readings));
+}
+
 }  // namespace
 
 LuxmeterSummary SummarizeLuxmeter(const std::vector<CheckedReading>& readings) {
@@ -150,9 +156,15 @@ double ExplainedByTheMeterPercent(const std::vector<CheckedReading>& readings) {
 }
 
 bool ContradictTheFit(const std::vector<CheckedReading>& readings) {
-  constexpr double kLargePercent = 5, kTimesExplained = 2;
-  return SummarizeLuxmeter(readings).mean_abs_error_percent >
-         std::max(kLargePercent, kTimesExplained * ExplainedByTheMeterPercent(readings));
+  constexpr size_t kFewestToBlameOne = 3;  // of two, nobody knows which is wrong
+  if (!AreFarOff(readings)) return false;
+  if (readings.size() < kFewestToBlameOne) return true;
+  for (size_t i = 0; i < readings.size(); ++i) {
+    std::vector<CheckedReading> others = readings;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (!AreFarOff(others)) return false;
+  }
+  return true;
 }
 
 double ZScore(const CheckedReading& reading) {

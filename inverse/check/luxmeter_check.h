@@ -11,7 +11,8 @@
 // three readings.
 //
 // The readings contradict the fit where their mean error is above 5 % and above twice the one that the meter explains,
-// E |N(0, sigma)| = 0.8 sigma. Whatever the sigmas of such a fit say, its numbers are in doubt.
+// E |N(0, sigma)| = 0.8 sigma. Of three and more, this holds whichever one is left out: one alone that is wrong says nothing
+// of the fit. Whatever the sigmas of a contradicted fit say, its numbers are in doubt.
 //
 // A reading disagrees where |z| exceeds a two-sided limit. One of n readings exceeds this limit by chance in
 // 5 % of cases (Bonferroni: 0.05 / n each). A common factor beyond chance is removed from z first. Where all

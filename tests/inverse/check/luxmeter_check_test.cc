@@ -53,6 +53,14 @@ TEST(ContradictTheFit, SmallErrorsAndNoReadingsDoNot) {
   EXPECT_FALSE(ContradictTheFit({}));
 }
 
+// One of five that was read twice too high is off by 20 % in the mean of all. Nobody knows which of two is wrong.
+TEST(ContradictTheFit, OneReadingAloneDoesNot) {
+  const CheckedReading right{100, 100, 1, 0}, twice{200, 100, 2, 0};
+  EXPECT_FALSE(ContradictTheFit({right, twice, right, right, right}));
+  EXPECT_TRUE(ContradictTheFit({right, twice, right, twice, right}));
+  EXPECT_TRUE(ContradictTheFit({right, twice}));
+}
+
 TEST(ZScore, AddsTheSigmasInSquares) {
   EXPECT_NEAR(ZScore(Checked(110, 100, 3, 4)), 2, 1e-12);  // 10 / 5
   EXPECT_NEAR(ZScore(Checked(95, 100, 5, 0)), -1, 1e-12);  // below the prediction is negative

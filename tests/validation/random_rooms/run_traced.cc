@@ -104,10 +104,10 @@ void CheckReadings(const Room& model, const RoomObservations& given, RoomFit& fi
            StateName(static_cast<size_t>(reading.state)),
            {reading.illuminance_lx, predicted[i].illuminance_lx, sigma_lx, predicted[i].sigma_lx}});
   }
-  WarnOfCheck(checked, fit.findings);
   const StateTable table = TableOf(given);
   if (const std::optional<ExplainingLight> light = ExplainingLightOf(model, fit, table.states))
     WarnOfExplanations(ExplainReadings(*light, as_given), fit.findings);
+  WarnOfCheck(checked, fit.findings);
 }
 
 }  // namespace
