@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "forward/room/pieces.h"
 #include "inverse/observe/internal/adjacent_elements.h"
 
 namespace luxfit {
@@ -23,6 +24,42 @@ int RootOf(std::vector<int>& parent, int i) {
     i = up;
   }
   return i;
+}
+
+// Returns the area of the elements by the facet on which they lie.
+std::map<int, double> AreaOfFacets(const Room& room, const std::vector<int>& elements) {
+  std::map<int, double> area_m2;
+  for (const int e : elements)
+    area_m2[room.patches.PatchOf(e).facet] += room.patches.elements[static_cast<size_t>(e)].area_m2;
+  return area_m2;
+}
+
+// Holds which facets are furniture, and how much of each facet two views or more show.
+struct ShownFacets {
+  std::set<int> furniture;
+  std::map<int, double> area_m2;
+};
+
+ShownFacets ShownFacetsOf(const Room& room, const SurfaceLabels& labels) {
+  std::map<int, size_t> views;
+  for (const ElementView& v : labels.views) ++views[v.element];
+  std::vector<int> shown;
+  for (const auto& [element, count] : views)
+    if (count >= kFewestViews) shown.push_back(element);
+  ShownFacets facets{{}, AreaOfFacets(room, shown)};
+  for (const std::vector<int>& piece : LoosePieces(room.scene))
+    facets.furniture.insert(piece.begin(), piece.end());
+  return facets;
+}
+
+// Returns whether the elements, where views show something else, are most of what views show of furniture's faces.
+bool AreOfLackingPiece(const Room& room, const std::vector<int>& elements, const ShownFacets& shown) {
+  double other_m2 = 0, shown_m2 = 0;
+  for (const auto& [facet, area_m2] : AreaOfFacets(room, elements)) {
+    if (shown.furniture.count(facet) == 0) return false;
+    other_m2 += area_m2, shown_m2 += shown.area_m2.at(facet);
+  }
+  return other_m2 > 0.5 * shown_m2;
 }
 
 UnmodelledPlace PlaceOf(const Room& room, const std::vector<int>& elements,
@@ -64,8 +101,11 @@ std::vector<UnmodelledPlace> FindUnmodelled(const Room& room, const SurfaceLabel
   for (size_t i = 0; i < elements.size(); ++i)
     regions[RootOf(parent, static_cast<int>(i))].push_back(elements[i]);
   std::vector<UnmodelledPlace> places;
+  const ShownFacets shown = ShownFacetsOf(room, labels);
   for (const auto& [root, region] : regions) {
-    if (region.size() >= kFewestElements) places.push_back(PlaceOf(room, region, views));
+    if (region.size() < kFewestElements) continue;
+    places.push_back(PlaceOf(room, region, views));
+    places.back().is_of_lacking_piece = AreOfLackingPiece(room, region, shown);
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const UnmodelledPlace& a, const UnmodelledPlace& b) { return a.area_m2 > b.area_m2; });
@@ -82,6 +122,8 @@ void RecordLabels(const Room& room, const SurfaceLabels& labels, Findings& findi
                    100 * labels.common_sigma)});
   const std::vector<UnmodelledPlace> places = FindUnmodelled(room, labels);
   if (places.empty()) return;
+  const bool is_any_lacking =
+      std::any_of(places.begin(), places.end(), [](const auto& place) { return place.is_of_lacking_piece; });
   std::string words;
   double area_m2 = 0;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -89,16 +131,21 @@ void RecordLabels(const Room& room, const SurfaceLabels& labels, Findings& findi
     area_m2 += place.area_m2;
     if (i >= kMostNamed) continue;
     words +=
-        fmt::format("{}{:.2g} m2 of \"{}\" near ({:.2f}, {:.2f}, {:.2f}) m in {} views", i > 0 ? "; " : "",
+        fmt::format("{}{:.2g} m2 of \"{}\" near ({:.2f}, {:.2f}, {:.2f}) m in {} views{}", i > 0 ? "; " : "",
                     place.area_m2, room.scene.materials[static_cast<size_t>(place.material)],
-                    place.center.x(), place.center.y(), place.center.z(), place.views);
+                    place.center.x(), place.center.y(), place.center.z(), place.views,
+                    place.is_of_lacking_piece ? ", which look through it: the room lacks it" : "");
   }
   findings.warnings.push_back(
       {"unmodelled_surface",
        fmt::format("views see something else than the mesh before {:.2g} m2 of it, at {} place{}: {}",
                    area_m2, places.size(), places.size() == 1 ? "" : "s", words),
-       "add what stands there to the mesh, or take it out of the room; nothing need be done where it is a "
-       "reflection in a shiny surface: these views take no part in the fit"});
+       is_any_lacking
+           ? "take what the room lacks out of the mesh, or move it to where it stands; add to the mesh what "
+             "stands at the other places"
+           : "add what stands there to the mesh, or take it out of the room; nothing need be done where it "
+             "is a "
+             "reflection in a shiny surface: these views take no part in the fit"});
 }
 
 }  // namespace luxfit

@@ -1,4 +1,7 @@
-// Finds where views see something that the mesh lacks (inverse/observe/surface_labels.h).
+// Finds where views see something that the mesh lacks (inverse/observe/surface_labels.h), or lack what the mesh has.
+//
+// Furniture that the mesh lacks stands before a part of a surface. Where views show something else on more than half of what they
+// show of a piece's faces, they look through it: the room lacks it.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_UNMODELLED_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_UNMODELLED_H_
 
@@ -16,6 +19,7 @@ struct UnmodelledPlace {
   double area_m2 = 0;                                // of that surface
   int material = 0;                                  // that it mostly has
   int views = 0;                                     // that show something else there
+  bool is_of_lacking_piece = false;                  // the mesh has furniture there that the room lacks
 };
 
 // Returns them from large to small. Fewer than four elements are left out: an edge is a pixel off in two views.

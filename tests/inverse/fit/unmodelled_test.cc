@@ -58,6 +58,35 @@ TEST_F(UnmodelledTest, TheWarningNamesIt) {
   EXPECT_FALSE(findings.IsUndetermined());
 }
 
+// A desk's box in the room: views see something else on a share of what they show of its faces.
+std::vector<UnmodelledPlace> PlacesOnDesk(double share) {
+  Scene scene = support::ClosedRoom({4, 3.2, 2.8}, {"wall", "wall", "wall", "wall", "floor", "ceiling"});
+  support::AddBox(scene, {Eigen::Vector3d(1, 1, 0.7), Eigen::Vector3d(2.6, 1.8, 0.75)},
+                  support::Facing::kOutward, {"desk"});
+  const Room room = MakeRoom(scene, {{0.4, 0.1}, {}});
+  SurfaceLabels labels;
+  labels.is_estimated = true;
+  for (size_t e = 0; e < room.patches.elements.size(); ++e) {
+    const Eigen::Vector3d& at = room.patches.elements[e].center;
+    const bool is_desk =
+        room.scene.materials[static_cast<size_t>(room.patches.PatchOf(static_cast<int>(e)).material)] ==
+        "desk";
+    const bool is_other = is_desk && at.x() < 1 + share * 1.6;
+    for (int view = 0; view < 2; ++view)
+      labels.views.push_back({static_cast<int>(e), view, is_other ? 0.1 : 0.95});
+  }
+  return FindUnmodelled(room, labels);
+}
+
+TEST_F(UnmodelledTest, ViewsLookThroughAPieceThatTheRoomLacks) {
+  for (const double share : {0.3, 0.9}) {
+    const std::vector<UnmodelledPlace> places = PlacesOnDesk(share);
+    ASSERT_FALSE(places.empty()) << share;
+    EXPECT_EQ(places[0].is_of_lacking_piece, share > 0.5) << share;
+  }
+  for (const UnmodelledPlace& place : FindUnmodelled(room_, labels_)) EXPECT_FALSE(place.is_of_lacking_piece);
+}
+
 TEST_F(UnmodelledTest, NothingIsSaidWhereNothingWasEstimated) {
   labels_.is_estimated = false;
   Findings findings;

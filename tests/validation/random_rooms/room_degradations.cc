@@ -38,7 +38,7 @@ std::optional<NamedCause> AddFaces(double percent, std::mt19937_64&, RandomRoom&
   if (drawn.pieces.empty()) return {};
   drawn.room.truth = WithoutShare(drawn, percent);
   drawn.room.albedo.conservativeResize(static_cast<Eigen::Index>(drawn.room.truth.materials.size()));
-  return NamedCause{};
+  return NamedCause{"unmodelled_surface", {"the room lacks it"}};
 }
 
 bool IsWall(const Scene& scene, const Facet& facet) {
