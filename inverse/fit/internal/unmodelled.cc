@@ -122,8 +122,9 @@ void RecordLabels(const Room& room, const SurfaceLabels& labels, Findings& findi
                    100 * labels.common_sigma)});
   const std::vector<UnmodelledPlace> places = FindUnmodelled(room, labels);
   if (places.empty()) return;
-  const bool is_any_lacking =
-      std::any_of(places.begin(), places.end(), [](const auto& place) { return place.is_of_lacking_piece; });
+  const auto named = static_cast<std::ptrdiff_t>(std::min(kMostNamed, places.size()));
+  const bool is_any_lacking = std::any_of(places.begin(), places.begin() + named,
+                                          [](const auto& place) { return place.is_of_lacking_piece; });
   std::string words;
   double area_m2 = 0;
   for (size_t i = 0; i < places.size(); ++i) {
