@@ -140,9 +140,17 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
     evidence.states_as_if = FindStatesAsIf(room.patches, evidence.observations, states);
   {
     const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;
-    CorrectedObservations corrected =
-        CorrectRadiometry(room.patches, photos, cameras, views, DimmingSeen(states, evidence.states_as_if),
-                          std::move(evidence.observations));
+    const auto correct = [&] {
+      return CorrectRadiometry(room.patches, photos, cameras, views,
+                               DimmingSeen(states, evidence.states_as_if), evidence.observations);
+    };
+    CorrectedObservations corrected = correct();
+    if (!states.luminaires.empty() && evidence.states_as_if.empty()) {
+      if (auto alone = StatesByThemselves(room.patches, corrected.observations, states)) {
+        evidence.states_as_if.push_back(*std::move(alone));
+        corrected = correct();
+      }
+    }
     evidence.observations = std::move(corrected.observations);
     observed.radiometry = std::move(corrected.radiometry);
   }

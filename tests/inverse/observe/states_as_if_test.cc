@@ -1,10 +1,12 @@
-// Three states of two luminaires over a wall, by closed forms: P, Q and both. Photos of four views, 0.3 % of noise.
+// Three states of two luminaires over a wall, by closed forms: P, Q and both; a third, R, on the switch of Q where a test says so. Photos of four views, 0.3 % of noise.
 #include "inverse/observe/states_as_if.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -28,7 +30,7 @@ Patches Wall() {
 
 // Light of luminaire k, 2 m before the wall, on element e: h^2 / (h^2 + d^2)^2.
 double Light(int e, int k) {
-  const double h = 2, d = 0.02 * e - (k == 0 ? 1 : 3);
+  const double h = 2, d = 0.02 * e - std::array{1.0, 3.0, 2.0}.at(static_cast<size_t>(k));
   return h * h / std::pow(h * h + d * d, 2);
 }
 
@@ -44,7 +46,8 @@ std::vector<Observation> Photos(const std::vector<Eigen::VectorXd>& lit) {
         o.element = e;
         o.view = v;
         o.state = static_cast<int>(s);
-        const double light = lit[s][0] * Light(e, 0) + lit[s][1] * Light(e, 1);
+        double light = 0;
+        for (Eigen::Index k = 0; k < lit[s].size(); ++k) light += lit[s][k] * Light(e, static_cast<int>(k));
         // Gloss and cameras differ from view to view: light adds in each.
         o.relative_luminance = (1 + 0.1 * v) * light * (1 + 0.003 * normal(rng));
         o.variance = std::pow(0.003 * o.relative_luminance, 2);
@@ -91,6 +94,23 @@ TEST(StatesAsIf, DimmersAreNoMoreExactThanATenth) {
   std::vector<Eigen::VectorXd> lit = kRight;
   lit[2] = Eigen::Vector2d(0.93, 1);
   EXPECT_TRUE(FindStatesAsIf(Wall(), Photos(lit), Table(kRight)).empty());
+  EXPECT_FALSE(StatesByThemselves(Wall(), Photos(lit), Table(kRight)));
+}
+
+// No value of Q and R alike explains that R alone is off with P.
+TEST(StatesAsIf, WhatNoValueExplainsIsSaid) {
+  const std::vector<Eigen::VectorXd> table{Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 1),
+                                           Eigen::Vector3d(1, 1, 1)};
+  std::vector<Eigen::VectorXd> lit = table;
+  lit[2] = Eigen::Vector3d(1, 1, 0);
+  const StateTable given{{"p", "qr", "all"}, {"P", "Q", "R"}, table};
+  EXPECT_TRUE(FindStatesAsIf(Wall(), Photos(lit), given).empty());
+  const std::optional<StateExplanation> found = StatesByThemselves(Wall(), Photos(lit), given);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->difference_as_given, 0.05);
+  EXPECT_THAT(InWords({*found}), HasSubstr("no value of the table explains that"));
+  EXPECT_EQ(found->dimming[1], Eigen::Vector3d(0, 1, 0)) << "each state by itself";
+  EXPECT_FALSE(StatesByThemselves(Wall(), Photos(table), given));
 }
 
 TEST(StatesAsIf, TablesOfOtherSizesAreRefused) {

@@ -61,22 +61,29 @@ std::vector<PhotoSample> SamplesOf(const std::vector<Observation>& observations,
   return samples;
 }
 
-void CorrectExposures(const Room& model, const std::vector<Eigen::VectorXd>& dimming, RoomObservations& given,
-                      Findings& findings) {
-  const std::vector<StatedPhoto> photos = PhotosIn(given.observations);
-  const std::vector<PhotoSample> samples = SamplesOf(given.observations, photos);
+struct CorrectedExposures {
+  std::vector<Observation> observations;
+  std::vector<Warning> warnings;
+};
+
+CorrectedExposures CorrectExposures(const Room& model, const std::vector<Eigen::VectorXd>& dimming,
+                                    const std::vector<Observation>& observations) {
+  const std::vector<StatedPhoto> photos = PhotosIn(observations);
+  const std::vector<PhotoSample> samples = SamplesOf(observations, photos);
   OpenRadiometry open;
   open.vignetting = open.response = open.gain_is_stated = {false};
   const SelfCalibration found = SelfCalibrate(model.patches, dimming, samples, open);
-  if (!found.is_possible) return;
-  given.observations = WithCorrections(std::move(given.observations), samples, found);
+  if (!found.is_possible) return {observations, {}};
+  CorrectedExposures corrected{WithCorrections(observations, samples, found), {}};
   for (const int p : FindingsOf(found, open, {StatedVignetting::kNone}).wrong_photos) {
     const StatedPhoto& photo = photos[static_cast<size_t>(p)];
-    findings.warnings.push_back({"exposure_metadata",
-                                 fmt::format("{}: {:.2f} times as bright", PhotoName(photo.view, photo.state),
-                                             std::exp(found.log_gain[p])),
-                                 ""});
+    corrected.warnings.push_back(
+        {"exposure_metadata",
+         fmt::format("{}: {:.2f} times as bright", PhotoName(photo.view, photo.state),
+                     std::exp(found.log_gain[p])),
+         ""});
   }
+  return corrected;
 }
 
 void WarnOfConflicts(const RoomObservations& given, RoomFit& fit) {
@@ -122,9 +129,17 @@ RoomFit RunTraced(const Room& model, RoomObservations given) {
   Findings of_photos;
   LeaveOutPhotos(model, given, of_photos);
   const StateTable table = TableOf(given);
-  const std::vector<StateExplanation> states = FindStatesAsIf(model.patches, given.observations, table);
+  std::vector<StateExplanation> states = FindStatesAsIf(model.patches, given.observations, table);
+  CorrectedExposures corrected = CorrectExposures(model, DimmingSeen(table, states), given.observations);
+  if (states.empty()) {
+    if (auto alone = StatesByThemselves(model.patches, corrected.observations, table)) {
+      states.push_back(*std::move(alone));
+      corrected = CorrectExposures(model, DimmingSeen(table, states), given.observations);
+    }
+  }
   WarnOfStates(states, of_photos);
-  CorrectExposures(model, DimmingSeen(table, states), given, of_photos);
+  given.observations = std::move(corrected.observations);
+  of_photos.warnings.insert(of_photos.warnings.end(), corrected.warnings.begin(), corrected.warnings.end());
   RoomFit fit = FitRoom(model, given);
   fit.findings.warnings.insert(fit.findings.warnings.begin(), of_photos.warnings.begin(),
                                of_photos.warnings.end());
