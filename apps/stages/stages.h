@@ -120,12 +120,12 @@ RegisteredSession RegisterSession(const Session& session, const LinearizedPhotos
 std::string MethodOf(const RegisteredView& view);
 
 // Tells which photos have the variance of their pixels: merged brackets, or single photos too, by DefaultNoise.
-enum class PixelNoise { kOfBrackets, kOfAll };
+enum class NoiseNeed { kOfBrackets, kOfAll };
 
 // Reads one of the photos as relative luminance, its bracket merged. Checks that the photo is linear or its
 // camera's response known, and that it has the camera's size.
 LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
-                             const Camera& camera, PixelNoise noise = PixelNoise::kOfBrackets);
+                             const Camera& camera, NoiseNeed noise = NoiseNeed::kOfBrackets);
 // Returns how it reads the counts of a camera; the noise is not set.
 LuminanceOptions LuminanceOptionsOf(const LinearizedCamera& camera);
 // Returns the same from the context's store, where it has one.
@@ -134,7 +134,7 @@ std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, c
 // Returns the same with what an earlier run found of the photo and its camera.
 LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
                              const Camera& camera, const PhotoCorrections& corrections,
-                             PixelNoise noise = PixelNoise::kOfBrackets);
+                             NoiseNeed noise = NoiseNeed::kOfBrackets);
 
 // Observes the photos of the registered views (inverse/observe/evidence.h), and says what was found in them. Writes
 // OUT/stages/observe.json.

@@ -120,7 +120,7 @@ Eigen::Matrix3d MeasuredPhotos::LevelFromCamera(size_t photo) const {
 LuminanceImage MeasuredPhotos::Read(size_t photo) const {
   const LinearizedPhoto& of = photos.photos[photo];
   const Camera camera = WithOwnSize(registered.cameras[static_cast<size_t>(of.camera)], of.file);
-  return ReadCorrected(photos, of, camera, corrections, PixelNoise::kOfAll);
+  return ReadCorrected(photos, of, camera, corrections, NoiseNeed::kOfAll);
 }
 
 MeasuredPhotos ReadMeasuredPhotos(const MeasuredInput& input, LensNeed need, RunContext& context) {

@@ -111,7 +111,7 @@ LuminanceImage ReadExposure(const LinearizedCamera& camera, const PhotoExposure&
 }
 
 LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
-                             const Camera& camera, PixelNoise noise) {
+                             const Camera& camera, NoiseNeed noise) {
   const LinearizedCamera& own = photos.cameras[static_cast<size_t>(photo.camera)];
   LuminanceOptions options = LuminanceOptionsOf(own);
   LuminanceImage image;
@@ -126,7 +126,7 @@ LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPho
   } else {
     const Photo counts = ReadCounts(own, photo.file);
     ExpectSize(counts, photo.file, own.given, camera);
-    if (noise == PixelNoise::kOfAll) options.noise = DefaultNoise(counts.bits_per_channel);
+    if (noise == NoiseNeed::kOfAll) options.noise = DefaultNoise(counts.bits_per_channel);
     image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, options);
   }
   if (own.vignetting) image = WithoutVignetting(std::move(image), *own.vignetting);
@@ -141,7 +141,7 @@ std::shared_ptr<const LuminanceImage> ReadKept(const LinearizedPhotos& photos, c
 }
 
 LuminanceImage ReadCorrected(const LinearizedPhotos& photos, const LinearizedPhoto& photo,
-                             const Camera& camera, const PhotoCorrections& corrections, PixelNoise noise) {
+                             const Camera& camera, const PhotoCorrections& corrections, NoiseNeed noise) {
   const std::string& id = photos.cameras[static_cast<size_t>(photo.camera)].given.id;
   return WithCorrection(ReadLuminance(photos, photo, camera, noise), corrections.Of(id, photo.file),
                         photo.bracket.front().relative_exposure_s);
