@@ -13,9 +13,9 @@
 // A state all of whose photos are off by one factor may be dimmed otherwise, or its exposures are wrong. Where that alone
 // explains the photos, nothing is returned: self-calibration takes it out, and either way the fluxes are right.
 //
-// What no mistake explains, though the photos still do not add up once their exposures are corrected (by 5 %, score above 3), has a
-// cause that the table cannot state: a luminaire of several on one switch was off in a state, or lamps warmed up. Each state
-// then stands by itself.
+// Photos may still not add up once their exposures are corrected (by 5 %, score above 3), and no mistake explains it. The cause
+// is then one that the table cannot state: a luminaire of several on one switch was off in a state, or lamps warmed up.
+// Each state then stands by itself.
 //
 // Tells nothing where the table has as many independent states as states. A tone curve in the photos hides mistakes.
 // Source: superposition of light; the rule's.

@@ -51,7 +51,7 @@ std::vector<size_t> AskedPhotos(const GlareCommandOptions& options, const Measur
   return photos;
 }
 
-// What the photo shows is a part of what a luxmeter at the lens reads.
+// Expects a luxmeter at the lens to read no less than the photo shows.
 void ExpectPossibleIlluminance(const PhotoGlare& glare, const std::string& name) {
   if (!glare.is_vertical_given) return;
   constexpr double kAgrees = 0.9;

@@ -155,7 +155,7 @@ TEST(PhotoGlare, TheThresholdMayFollowTheMean) {
   EXPECT_EQ(Glare(field, photo, options).sources.size(), 1u);
 }
 
-// What a photo does not show may glare, too.
+// A source outside the photo may glare, too.
 TEST(PhotoGlare, APartOfTheFieldTellsOnlyOfItself) {
   const PixelField field = FieldOf(Pinhole());
   const ImagePlane photo = PhotoOf(field, 200, {{{0, 0, 1}, 0.1, 20000}});
