@@ -337,9 +337,9 @@ class RoomFitter {
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
-    FitLuminairesOptions from_models = OfPart();
-    from_models.start_is_near = true;  // each model was fitted with the others held
-    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), from_models);
+    // Each model was fitted with the others and the indirect light held. Where that light was wrong, the start is
+    // far: rows that disagree with it would lose their weight for good.
+    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), OfPart());
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));

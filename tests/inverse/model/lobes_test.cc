@@ -53,6 +53,20 @@ TEST(LobesNear, TurnTheAimByTheAngleAndChangeTheWidthByTheFactor) {
     EXPECT_LE(narrow.exponent, kGreatestCosinePower);
 }
 
+// Sensors straight below and above the place, at 2 and 1 m, face it.
+TEST(LobeColumns, ShineUpAndDownAlikeWhereBothSidesAreSeen) {
+  const Room room = MakeRoom(Scene{});
+  const Sensor below{{0, 0, 0}, {0, 0, 1}}, above{{0, 0, 3}, {0, 0, -1}};
+  const Lobe lobe{Distribution::kCosinePower, 1, {0, 0, -1}, true};
+  const auto column = [&](const std::vector<Sensor>& sensors) {
+    return LobeColumns(Lit(room, sensors, {{0, 0, 2}}).light[0], {lobe});
+  };
+  const Eigen::MatrixXf both = column({below, above});
+  EXPECT_NEAR(both(0, 0), 1 / (2 * support::kPi) / 4, 1e-7);
+  EXPECT_NEAR(both(1, 0), 1 / (2 * support::kPi), 1e-7);
+  EXPECT_EQ(column({below})(0, 0), 0);
+}
+
 // A sensor 2 m below the place and 1 m aside faces up.
 TEST(LobeColumns, FollowTheInverseSquareAndCosineLawForAnyAimAndWidth) {
   const Room room = MakeRoom(Scene{});
@@ -60,6 +74,7 @@ TEST(LobeColumns, FollowTheInverseSquareAndCosineLawForAnyAimAndWidth) {
   const LitPlaces lit = Lit(room, {{place + std::sqrt(5.0) * ray, {0, 0, 1}}}, {place});
   std::mt19937_64 rng = support::TestRng();
   std::vector<Lobe> lobes = SimpleLobes();
+  lobes.pop_back();  // the one to both sides, of which this sensor sees one
   for (const double exponent : {1.0, 2.0, 8.0, 13.0, 32.0, 7.3}) {
     for (int i = 0; i < 4; ++i) lobes.push_back({Distribution::kCosinePower, exponent, AnyDirection(rng)});
     lobes.push_back({Distribution::kCosinePower, exponent, ray});

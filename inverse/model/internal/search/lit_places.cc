@@ -35,6 +35,14 @@ LitPlace LightFrom(const Room& room, const std::vector<Sensor>& sensors, const E
   return place;
 }
 
+// Returns the light of a lobe that shines to both sides; none where the sensors see but one of them: the other's could
+// be as much as one likes.
+Eigen::ArrayXf TwoSidedColumn(const LitPlace& place, const Eigen::ArrayXf& cosine) {
+  const Eigen::ArrayXf lx = cosine * place.lx_per_cd.array();
+  if (lx.size() == 0 || !(lx.minCoeff() < 0 && lx.maxCoeff() > 0)) return Eigen::ArrayXf::Zero(lx.size());
+  return static_cast<float>(0.5 / M_PI) * lx.abs();
+}
+
 // Raises cosines to a power: whole ones by multiplication, in a fifth of the time.
 void RaiseTo(double exponent, Eigen::Ref<Eigen::ArrayXf> cosine) {
   if (exponent != std::floor(exponent)) {
@@ -66,7 +74,12 @@ Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobe
     }
     if (lobes[l].distribution != Distribution::kCosinePower)
       throw std::invalid_argument("LobeColumns: expected isotropic lobes and cosine powers");
-    column = (place.rays * lobes[l].aim.cast<float>()).array().max(0.0F);
+    column = (place.rays * lobes[l].aim.cast<float>()).array();
+    if (lobes[l].is_two_sided) {
+      column = TwoSidedColumn(place, column);
+      continue;
+    }
+    column = column.max(0.0F);
     RaiseTo(lobes[l].exponent, column);
     column *= static_cast<float>((lobes[l].exponent + 1) / (2 * M_PI)) * place.lx_per_cd.array();
   }

@@ -28,7 +28,7 @@ struct LitPlaces {
 };
 LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions);
 
-// Returns D, sensors x lobes. Throws std::invalid_argument for a lobe that is neither isotropic nor a cosine power.
+// Returns D, sensors x lobes. A lobe to both sides of which the sensors see but one gives nothing. Throws std::invalid_argument for a lobe that is neither isotropic nor a cosine power.
 Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobes);
 
 // Returns the cell centres of a grid through the box, so that none lies on a wall.

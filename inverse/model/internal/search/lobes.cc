@@ -36,16 +36,14 @@ std::vector<Eigen::Vector3d> DividedIcosahedron() {
 
 }  // namespace
 
-Lobe LobeOf(const Luminaire& luminaire) {
-  return {luminaire.distribution, luminaire.cosine_exponent, luminaire.aim};
-}
-
 const std::vector<Lobe>& SimpleLobes() {
   using D = Distribution;
   static const std::vector<Lobe> lobes = {
-      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}}, {D::kCosinePower, 3, {0, 0, -1}},
-      {D::kCosinePower, 8, {0, 0, -1}}, {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
-      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},  {D::kCosinePower, 1, {0, -1, 0}}};
+      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}},
+      {D::kCosinePower, 3, {0, 0, -1}}, {D::kCosinePower, 8, {0, 0, -1}},
+      {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
+      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},
+      {D::kCosinePower, 1, {0, -1, 0}}, {D::kCosinePower, 1, {0, 0, -1}, true}};
   return lobes;
 }
 

@@ -1,10 +1,12 @@
 // Lists the lobes that the search for luminaires tries: widths and aims, with no luminaire's name.
 //
-// Simple lobes are isotropic, or aimed along an axis of the room. Aimed lobes are cosine powers of three widths,
-// whose aims cover the sphere: the 42 vertices of an icosahedron with divided edges, 32 to 36 degrees apart. The
-// search refines an aimed lobe by its neighbours: six aims around it and both next widths.
+// Simple lobes are isotropic, aimed along an axis of the room, or shine up and down alike, as pendants do: a lobe to one
+// side, or to all, explains their light best at another height. Aimed lobes are cosine powers of three widths, whose
+// aims cover the sphere: the 42 vertices of an icosahedron with divided edges, 32 to 36 degrees apart. The search
+// refines an aimed lobe by its neighbours: six aims around it and both next widths.
 //
 //   I = (m + 1) cos^m(gamma) / (2 pi) cd per lm        half of the peak at cos(gamma) = 2^(-1 / m)
+//   I = |cos(gamma)| / (2 pi)                          up and down
 //
 // Source: forward/luminaire/luminaire.h (intensities).
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_LOBES_H_
@@ -22,8 +24,8 @@ struct Lobe {
   Distribution distribution = Distribution::kCosinePower;
   double exponent = 1;
   Eigen::Vector3d aim{0, 0, -1};
+  bool is_two_sided = false;  // of exponent 1
 };
-Lobe LobeOf(const Luminaire& luminaire);
 
 const std::vector<Lobe>& SimpleLobes();
 

@@ -84,7 +84,7 @@ class GroupSearch {
     const LitPlaces here = Lit(room_, places_, {source.luminaire.position});
     Tried tried;
     tried.position = source.luminaire.position;
-    tried.lobe = source.is_held ? SimpleLobes().front() : LobeOf(source.luminaire);
+    tried.lobe = source.is_held ? SimpleLobes().front() : source.lobe;
     if (source.is_held) {
       const std::vector<Tried> lobes =
           Sorted(MostlyDown(trials_.BestOfBins(lobes_, Others(sources_.size()), here)));
@@ -273,6 +273,7 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
   for (size_t j = 0; j < search.sources().size(); ++j) {
     SparseSource source;
     source.luminaire = LuminaireOf(search.sources()[j]);
+    source.lobe = search.sources()[j].lobe;
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
     source.is_seen = search.is_seen(j);

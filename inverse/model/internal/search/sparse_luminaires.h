@@ -35,7 +35,8 @@
 namespace luxfit {
 
 struct SparseSource {
-  Luminaire luminaire;  // position, aim, lobe
+  Luminaire luminaire;  // position, aim, distribution; of a lobe to both sides, that of the lower one
+  Lobe lobe;
   double strength = 0;  // g
   bool is_held = false;
   bool is_seen = false;  // it stays where photos show it
