@@ -3,16 +3,15 @@
 
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -27,22 +26,12 @@ struct Outcome {
 
 class AdviseOffice : public testing::Test {
  protected:
-  AdviseOffice() {
-    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
-                          std::filesystem::copy_options::recursive);
-  }
-
   Outcome Fit(const std::set<Photo>& photos) {
-    std::string kept;
-    for (const std::vector<std::string>& row : support::OfficeTable("photos.csv")) {
-      if (row[0] != "file" && photos.count({row[2], row[3]}) == 0) continue;
-      for (size_t i = 0; i < row.size(); ++i) kept += row[i] + (i + 1 < row.size() ? "," : "\n");
-    }
-    folder_.Write("office/photos.csv", kept);
-    const support::ProgramRun run = support::RunProgram("fit '" + folder_.Path("office/session.toml") +
-                                                        "' -o '" + folder_.Path("out") + "'");
-    EXPECT_EQ(run.status, 0) << run.output;
-    return OutcomeOf(json::parse(folder_.Read("out/result.json")));
+    office_.Write("office/photos.csv", all_photos_);
+    office_.KeepPhotos([&](const std::string& view, const std::string& state) {
+      return photos.count({view, state}) > 0;
+    });
+    return OutcomeOf(office_.ResultOf("fit", 0));
   }
 
   static Outcome OutcomeOf(const json& result) {
@@ -79,16 +68,17 @@ class AdviseOffice : public testing::Test {
         places += place.str() + "," + row[3] + "\n";
       }
     }
-    folder_.Write("places.csv", places);
+    office_.Write("places.csv", places);
   }
 
   json Advise(const std::string& options) {
-    const support::ProgramRun run = support::RunProgram("advise '" + folder_.Path("out") + "' " + options);
+    const support::ProgramRun run = support::RunProgram("advise '" + office_.Out() + "' " + options);
     EXPECT_EQ(run.status, 0) << run.output;
-    return json::parse(folder_.Read("out/advise.json"));
+    return office_.Json("out/advise.json");
   }
 
-  TempFolder folder_;
+  support::OfficeCopy office_;
+  const std::string all_photos_ = office_.Read("office/photos.csv");
 };
 
 double PredictedPositionSigmaM(const json& step) {
@@ -109,7 +99,7 @@ TEST_F(AdviseOffice, APhotoAsAdvisedTellsWhatWasPredicted) {
   }
   const Outcome before = Fit(photos);
   WritePlaces(photos);
-  const json advice = Advise("--only photos --photos '" + folder_.Path("places.csv") + "' --top 1");
+  const json advice = Advise("--only photos --photos '" + office_.Path("places.csv") + "' --top 1");
   ASSERT_EQ(advice["advice"].size(), 1u);
   const json& step = advice["advice"][0];
   photos.emplace(step["id"].get<std::string>(), step["state"].get<std::string>());

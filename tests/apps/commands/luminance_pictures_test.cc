@@ -14,9 +14,9 @@
 
 #include "forward/room/scene.h"
 #include "forward/room/visibility.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -68,36 +68,26 @@ double LuminanceOf(const cv::Vec3f& bgr) { return 179 * (0.265 * bgr[2] + 0.670 
 class LuminancePictures : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TempFolder;
-    std::filesystem::copy(support::kOfficeFolder, folder_->Path("office"),
-                          std::filesystem::copy_options::recursive);
-    std::istringstream table(folder_->Read("office/photos.csv"));
-    std::string kept;
-    for (std::string line; std::getline(table, line);) {
-      const bool is_kept =
-          kept.empty() || (line.find("_all") != std::string::npos && line.find("v08") == std::string::npos);
-      if (is_kept) kept += line + "\n";
-    }
-    folder_->Write("office/photos.csv", kept);
-    const double per_cdm2_s = support::OfficeTruth().at("cameras").at("cam0").at("counts_per_cdm2_s");
-    folder_->Replace("office/session.toml", "black_level = 0",
-                     "black_level = 0\ncdm2_per_count_s = " + std::to_string(1 / per_cdm2_s / 65535));
+    office_ = new support::OfficeCopy;
+    office_->KeepPhotos(
+        [](const std::string& view, const std::string& state) { return state == "all" && view != "v08"; });
+    office_->GiveCameraScale();
     run_ = Linearize("out");
   }
   static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
+    delete office_;
+    office_ = nullptr;
   }
 
   static support::ProgramRun Linearize(const std::string& out) {
-    return support::RunProgram("linearize " + folder_->Path("office/session.toml") + " --hdr -o " +
-                               folder_->Path(out));
+    return support::RunProgram("linearize " + office_->Path("office/session.toml") + " --hdr -o " +
+                               office_->Path(out));
   }
 
-  static TempFolder* folder_;
+  static support::OfficeCopy* office_;
   static support::ProgramRun run_;
 };
-TempFolder* LuminancePictures::folder_ = nullptr;
+support::OfficeCopy* LuminancePictures::office_ = nullptr;
 support::ProgramRun LuminancePictures::run_;
 
 // The luminance that a luxmeter's place has by the renderer's own light: rho E / pi, by colour.
@@ -110,13 +100,13 @@ TEST_F(LuminancePictures, PlacesOfTheWorldHaveTheirLuminanceAtTheirPixel) {
   const RayScene rays(ReadScene(support::kOfficeFolder + "room.obj"));
   int compared = 0;
   double sum = 0, worst = 0;
-  const json artifact = json::parse(folder_->Read("out/stages/linearize.json"));
+  const json artifact = json::parse(office_->Read("out/stages/linearize.json"));
   for (const json& picture : artifact.at("pictures")) {
     if (!picture.at("has_pose").get<bool>()) continue;
     const std::string file = "out/" + picture.at("file").get<std::string>();
-    const HeaderView view = ViewIn(HeaderOf(folder_->Read(file)));
+    const HeaderView view = ViewIn(HeaderOf(office_->Read(file)));
     ASSERT_EQ(view.type, "-vtv");
-    const cv::Mat image = cv::imread(folder_->Path(file), cv::IMREAD_UNCHANGED);
+    const cv::Mat image = cv::imread(office_->Path(file), cv::IMREAD_UNCHANGED);
     for (size_t i = 0; i < sensors.size(); ++i) {
       const Eigen::Vector2d at = SharesOf(view, sensors[i].position);
       const int u = static_cast<int>(at.x() * image.cols), v = static_cast<int>(at.y() * image.rows);
@@ -146,7 +136,7 @@ TEST_F(LuminancePictures, PlacesOfTheWorldHaveTheirLuminanceAtTheirPixel) {
 
 TEST_F(LuminancePictures, TheHeaderSaysWhatTheValuesAre) {
   ASSERT_EQ(run_.status, 0) << run_.output;
-  const std::string header = HeaderOf(folder_->Read("out/luminance/v00_all.hdr"));
+  const std::string header = HeaderOf(office_->Read("out/luminance/v00_all.hdr"));
   for (const char* line :
        {"#?RADIANCE", "EXPOSURE= 1", "FORMAT=32-bit_rle_rgbe", "PRIMARIES= 0.6400 0.3300",
         "LUMINANCE= 179*(0.265*R+0.670*G+0.065*B) cd/m2", "PHOTO= v00_all.png, view v00, state all"})
@@ -160,8 +150,8 @@ TEST_F(LuminancePictures, TheHeaderSaysWhatTheValuesAre) {
 TEST_F(LuminancePictures, OpenExrHoldsTheSameLuminance) {
   ASSERT_EQ(run_.status, 0) << run_.output;
   setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 1);
-  const cv::Mat exr = cv::imread(folder_->Path("out/luminance/v00_all.exr"), cv::IMREAD_UNCHANGED),
-                hdr = cv::imread(folder_->Path("out/luminance/v00_all.hdr"), cv::IMREAD_UNCHANGED);
+  const cv::Mat exr = cv::imread(office_->Path("out/luminance/v00_all.exr"), cv::IMREAD_UNCHANGED),
+                hdr = cv::imread(office_->Path("out/luminance/v00_all.hdr"), cv::IMREAD_UNCHANGED);
   ASSERT_EQ(exr.size(), hdr.size());
   ASSERT_EQ(exr.type(), CV_32FC1);
   for (int v = 0; v < exr.rows; v += 7) {
@@ -173,40 +163,40 @@ TEST_F(LuminancePictures, OpenExrHoldsTheSameLuminance) {
 }
 
 TEST_F(LuminancePictures, WithoutAScaleTheyAreRelative) {
-  const std::string session = folder_->Read("office/session.toml");
+  const std::string session = office_->Read("office/session.toml");
   std::string relative = session;
   relative.erase(relative.find("cdm2_per_count_s"),
                  relative.find('\n', relative.find("cdm2_per_count_s")) - relative.find("cdm2_per_count_s"));
-  folder_->Write("office/session.toml", relative);
+  office_->Write("office/session.toml", relative);
   const support::ProgramRun run = Linearize("relative");
-  folder_->Write("office/session.toml", session);
+  office_->Write("office/session.toml", session);
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("RELATIVE: cdm2_per_count_s"));
-  EXPECT_THAT(HeaderOf(folder_->Read("relative/luminance/v00_all.hdr")),
+  EXPECT_THAT(HeaderOf(office_->Read("relative/luminance/v00_all.hdr")),
               HasSubstr("LUMINANCE= RELATIVE, not cd/m2"));
 }
 
 TEST_F(LuminancePictures, WithoutTagsThereIsNoPose) {
-  const std::string session = folder_->Read("office/session.toml");
-  folder_->Replace("office/session.toml", "[tags]\nfamily = \"tag36h11\"\nmap = \"tags.json\"\n", "");
+  const std::string session = office_->Read("office/session.toml");
+  office_->Replace("office/session.toml", "[tags]\nfamily = \"tag36h11\"\nmap = \"tags.json\"\n", "");
   const support::ProgramRun run = Linearize("unplaced");
-  folder_->Write("office/session.toml", session);
+  office_->Write("office/session.toml", session);
   ASSERT_EQ(run.status, 0) << run.output;
-  const std::string header = HeaderOf(folder_->Read("unplaced/luminance/v00_all.hdr"));
+  const std::string header = HeaderOf(office_->Read("unplaced/luminance/v00_all.hdr"));
   EXPECT_THAT(header, HasSubstr("VIEW= -vtv -vh "));
   EXPECT_THAT(header, HasSubstr("POSE= unknown"));
 }
 
 // An object's camera may lack intrinsics, which photometric stereo does without.
 TEST_F(LuminancePictures, ALensThatNothingTellsIsAskedFor) {
-  folder_->Write("object/session.toml",
+  office_->Write("object/session.toml",
                  "[[camera]]\nid = \"cam0\"\n[photos]\ntable = \"photos.csv\"\n"
                  "[lights]\nmask = \"mask.png\"\ndirections = \"lights.csv\"\n");
-  folder_->Write("object/photos.csv", "file,camera,view,state,exposure_s\nmask.png,cam0,v0,a,1\n");
-  folder_->Write("object/lights.csv", "state,x,y,z\na,0,0,1\n");
-  cv::imwrite(folder_->Path("object/mask.png"), cv::Mat(8, 8, CV_16UC1, cv::Scalar(20000)));
-  const support::ProgramRun run = support::RunProgram("linearize " + folder_->Path("object/session.toml") +
-                                                      " --hdr -o " + folder_->Path("object/out"));
+  office_->Write("object/photos.csv", "file,camera,view,state,exposure_s\nmask.png,cam0,v0,a,1\n");
+  office_->Write("object/lights.csv", "state,x,y,z\na,0,0,1\n");
+  cv::imwrite(office_->Path("object/mask.png"), cv::Mat(8, 8, CV_16UC1, cv::Scalar(20000)));
+  const support::ProgramRun run = support::RunProgram("linearize " + office_->Path("object/session.toml") +
+                                                      " --hdr -o " + office_->Path("object/out"));
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("session.toml:1: camera[0].intrinsics: expected the lens"));
 }

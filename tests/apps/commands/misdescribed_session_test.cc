@@ -3,15 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/apps/program.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -22,26 +19,14 @@ using testing::Not;
 
 class MisdescribedSession : public testing::Test {
  protected:
-  MisdescribedSession() {
-    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
-                          std::filesystem::copy_options::recursive);
-  }
-
-  json Fit(int status) const {
-    const support::ProgramRun run = support::RunProgram(
-        fmt::format("fit '{}' -o '{}'", folder_.Path("office/session.toml"), folder_.Path("out")));
-    EXPECT_EQ(run.status, status) << run.output;
-    return json::parse(folder_.Read("out/result.json"));
-  }
-
-  TempFolder folder_;
+  support::OfficeCopy office_;
 };
 
 TEST_F(MisdescribedSession, ExchangedPhotosAreLeftOutAndTheRestIsRight) {
-  folder_.Replace("office/photos.csv", "v03_A.png,cam0,v03,A,", "v03_A.png,cam0,v03,other,");
-  folder_.Replace("office/photos.csv", "v03_B.png,cam0,v03,B,", "v03_B.png,cam0,v03,A,");
-  folder_.Replace("office/photos.csv", "v03_A.png,cam0,v03,other,", "v03_A.png,cam0,v03,B,");
-  const json result = Fit(0);
+  office_.Replace("office/photos.csv", "v03_A.png,cam0,v03,A,", "v03_A.png,cam0,v03,other,");
+  office_.Replace("office/photos.csv", "v03_B.png,cam0,v03,B,", "v03_B.png,cam0,v03,A,");
+  office_.Replace("office/photos.csv", "v03_A.png,cam0,v03,other,", "v03_A.png,cam0,v03,B,");
+  const json result = office_.ResultOf("fit", 0);
   ASSERT_TRUE(result.contains("photos_as_if")) << result["warnings"].dump(1);
   ASSERT_EQ(result["photos_as_if"].size(), 2u);
   for (const json& photo : result["photos_as_if"]) {
@@ -62,8 +47,8 @@ TEST_F(MisdescribedSession, ExchangedPhotosAreLeftOutAndTheRestIsRight) {
 }
 
 TEST_F(MisdescribedSession, AWrongDimmingValueLeavesTheResultUndetermined) {
-  folder_.Replace("office/session.toml", "A = 0.3", "A = 1.0");
-  const json result = Fit(1);
+  office_.Replace("office/session.toml", "A = 0.3", "A = 1.0");
+  const json result = office_.ResultOf("fit", 1);
   EXPECT_THAT(result["status_because"].dump(), HasSubstr("states_as_if"));
   ASSERT_TRUE(result.contains("states_as_if")) << result["warnings"].dump(1);
   ASSERT_EQ(result["states_as_if"].size(), 1u);

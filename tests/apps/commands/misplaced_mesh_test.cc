@@ -3,16 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
-#include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -23,14 +21,9 @@ using testing::Not;
 
 class MisplacedMesh : public testing::Test {
  protected:
-  MisplacedMesh() {
-    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
-                          std::filesystem::copy_options::recursive);
-  }
-
   // Changes x of every vertex. A mirror turns the faces round, as a modeller does.
   void ChangeX(const std::function<double(double)>& x_of, bool is_mirror) {
-    std::istringstream given(folder_.Read("office/room.obj"));
+    std::istringstream given(office_.Read("office/room.obj"));
     std::string changed;
     for (std::string line; std::getline(given, line);) {
       std::istringstream words(line);
@@ -40,22 +33,19 @@ class MisplacedMesh : public testing::Test {
       if (key == "f" && is_mirror) line = fmt::format("f {} {} {} {}", d, c, b, a);
       changed += line + "\n";
     }
-    folder_.Write("office/room.obj", changed);
+    office_.Write("office/room.obj", changed);
   }
 
-  support::ProgramRun Fit() const {
-    return support::RunProgram(
-        fmt::format("fit '{}' -o '{}' --budget 5", folder_.Path("office/session.toml"), folder_.Path("out")));
-  }
+  support::ProgramRun Fit() const { return office_.Run("fit", "--budget 5"); }
 
-  TempFolder folder_;
+  support::OfficeCopy office_;
 };
 
 TEST_F(MisplacedMesh, AMirroredMeshIsNamedAndLeavesTheResultUndetermined) {
   ChangeX([](double x) { return 6 - x; }, true);
   const support::ProgramRun run = Fit();
   EXPECT_EQ(run.status, 1) << run.output;
-  const json result = json::parse(folder_.Read("out/result.json"));
+  const json result = office_.Json("out/result.json");
   EXPECT_THAT(result["status_because"].dump(), HasSubstr("mesh_as_if"));
   const std::string warnings = result["warnings"].dump();
   EXPECT_THAT(warnings, HasSubstr("the mesh looks mirrored in x"));
@@ -65,7 +55,7 @@ TEST_F(MisplacedMesh, AMirroredMeshIsNamedAndLeavesTheResultUndetermined) {
   EXPECT_THAT(warnings, Not(HasSubstr("furniture_")));
   // The next run, which reads what this one kept, says it again.
   EXPECT_EQ(Fit().status, 1);
-  EXPECT_THAT(folder_.Read("out/result.json"), HasSubstr("the mesh looks mirrored in x"));
+  EXPECT_THAT(office_.Read("out/result.json"), HasSubstr("the mesh looks mirrored in x"));
 }
 
 TEST_F(MisplacedMesh, AShiftThatTheTagsContradictIsRefusedWithItsSize) {

@@ -4,17 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tests/support/apps/program.h"
-#include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
+#include "tests/support/apps/office_copy.h"
 
 namespace luxfit {
 namespace {
@@ -27,30 +23,18 @@ using Fields = std::vector<std::string>;  // id,x_m,y_m,z_m,nx,ny,nz,state,illum
 class MisreadOffice : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TempFolder;
-    std::filesystem::copy(support::kOfficeFolder, folder_->Path("office"),
-                          std::filesystem::copy_options::recursive);
-    right_ = folder_->Read("office/luxmeter.csv");
+    office_ = new support::OfficeCopy;
+    right_ = office_->Read("office/luxmeter.csv");
   }
-  static void TearDownTestSuite() { delete folder_; }
+  static void TearDownTestSuite() { delete office_; }
 
   static json Fit(const std::function<void(Fields&)>& mistake, int status) {
-    std::istringstream rows(right_);
-    std::string row, table;
-    std::getline(rows, row);
-    table = row + "\n";
-    while (std::getline(rows, row)) {
-      Fields fields;
-      std::istringstream of_row(row);
-      for (std::string field; std::getline(of_row, field, ',');) fields.push_back(field);
+    office_->Write("office/luxmeter.csv", right_);
+    office_->ChangeRows("office/luxmeter.csv", [&](Fields& fields) {
       mistake(fields);
-      for (size_t i = 0; i < fields.size(); ++i) table += fields[i] + (i + 1 < fields.size() ? "," : "\n");
-    }
-    folder_->Write("office/luxmeter.csv", table);
-    const support::ProgramRun run = support::RunProgram(
-        fmt::format("fit '{}' -o '{}'", folder_->Path("office/session.toml"), folder_->Path("out")));
-    EXPECT_EQ(run.status, status) << run.output;
-    return json::parse(folder_->Read("out/result.json"));
+      return true;
+    });
+    return office_->ResultOf("fit", status);
   }
 
   // One explanation, which leaves no more than the office's readings are off by (1.4 % rms).
@@ -63,10 +47,10 @@ class MisreadOffice : public testing::Test {
     EXPECT_THAT(result["status_because"].dump(), HasSubstr("readings_as_if"));
   }
 
-  static TempFolder* folder_;
+  static support::OfficeCopy* office_;
   static std::string right_;
 };
-TempFolder* MisreadOffice::folder_ = nullptr;
+support::OfficeCopy* MisreadOffice::office_ = nullptr;
 std::string MisreadOffice::right_;
 
 TEST_F(MisreadOffice, RightReadingsAreLeftAlone) {

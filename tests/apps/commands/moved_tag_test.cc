@@ -1,16 +1,13 @@
 // The office that an independent renderer photographed, one tag of its survey elsewhere: `luxfit register` names the tag, says where it
 // hangs, and blames no view.
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
-#include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -22,26 +19,20 @@ using testing::Not;
 
 class MovedTag : public testing::Test {
  protected:
-  MovedTag() {
-    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
-                          std::filesystem::copy_options::recursive);
-  }
-
   // Registers with the tag's centre moved along an axis of the room, and returns what was said.
   std::string RegisterWith(int id, int axis, double metres) const {
-    json tags = json::parse(folder_.Read("office/tags.json"));
+    json tags = office_.Json("office/tags.json");
     for (json& tag : tags)
       if (tag["id"] == id)
         tag["center_m"][static_cast<size_t>(axis)] =
             tag["center_m"][static_cast<size_t>(axis)].get<double>() + metres;
-    folder_.Write("office/tags.json", tags.dump());
-    const support::ProgramRun run = support::RunProgram(
-        fmt::format("register '{}' -o '{}'", folder_.Path("office/session.toml"), folder_.Path("out")));
+    office_.Write("office/tags.json", tags.dump());
+    const support::ProgramRun run = office_.Run("register");
     EXPECT_EQ(run.status, 0) << run.output;
     return run.output;
   }
 
-  TempFolder folder_;
+  support::OfficeCopy office_;
 };
 
 // Its views follow a tag that is 5 cm off: before each tag was tested by the others, no warning said so.

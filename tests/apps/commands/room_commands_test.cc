@@ -13,9 +13,9 @@
 #include <string>
 
 #include "forward/room/scene.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -27,27 +27,20 @@ using testing::HasSubstr;
 class RoomCommands : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new TempFolder;
-    std::filesystem::copy(support::kOfficeFolder, folder_->Path("office"),
-                          std::filesystem::copy_options::recursive);
-    std::istringstream table(folder_->Read("office/photos.csv"));
-    std::string kept;
-    for (std::string line; std::getline(table, line);) {
-      if (line.find("evening") == std::string::npos) kept += line + "\n";
-    }
-    folder_->Write("office/photos.csv", kept);
-    run_ = support::RunProgram("run " + folder_->Path("office/session.toml") + " -o " + folder_->Path("out"));
+    office_ = new support::OfficeCopy;
+    office_->KeepPhotos([](const std::string&, const std::string& state) { return state != "evening"; });
+    run_ = office_->Run("run");
   }
   static void TearDownTestSuite() {
-    delete folder_;
-    folder_ = nullptr;
+    delete office_;
+    office_ = nullptr;
   }
   void SetUp() override { ASSERT_EQ(run_.status, 0) << run_.output; }
 
   static support::ProgramRun Command(const std::string& name, const std::string& arguments) {
-    return support::RunProgram(name + " " + folder_->Path("out") + " " + arguments);
+    return support::RunProgram(name + " " + office_->Out() + " " + arguments);
   }
-  static json Artifact(const std::string& name) { return json::parse(folder_->Read("out/" + name)); }
+  static json Artifact(const std::string& name) { return office_->Json("out/" + name); }
 
   // Without noise, of the state evening.
   static double EveningLux(const std::string& place) {
@@ -63,10 +56,10 @@ class RoomCommands : public testing::Test {
     return lux;
   }
 
-  static TempFolder* folder_;
+  static support::OfficeCopy* office_;
   static support::ProgramRun run_;
 };
-TempFolder* RoomCommands::folder_ = nullptr;
+support::OfficeCopy* RoomCommands::office_ = nullptr;
 support::ProgramRun RoomCommands::run_;
 
 TEST_F(RoomCommands, APhotoOfAStateThatNobodyFittedIsALuxmeter) {
@@ -92,7 +85,7 @@ TEST_F(RoomCommands, APhotoOfAStateThatNobodyFittedIsALuxmeter) {
     EXPECT_NEAR(place["seen_lx"].get<double>(), lux, 0.02 * lux) << place["id"];
   }
   EXPECT_GE(seen, 4);
-  EXPECT_TRUE(std::filesystem::exists(folder_->Path("out/luxmap/maps/v00_evening.exr")));
+  EXPECT_TRUE(std::filesystem::exists(office_->Path("out/luxmap/maps/v00_evening.exr")));
 }
 
 // One reading sets the scale; the renderer's own is known.
@@ -112,7 +105,7 @@ TEST_F(RoomCommands, WhatIsNotOnAsItShouldBeIsNamed) {
   const support::ProgramRun run =
       Command("luxmap", support::kOfficeFolder +
                             "photos/v00_evening.png --pose tags --exposure-s 0.206 --state all -o " +
-                            folder_->Path("tags"));
+                            office_->Path("tags"));
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("luminaire B is at 0.00"));
   EXPECT_THAT(run.output, Not(HasSubstr("luminaire D is at")));
@@ -130,7 +123,7 @@ TEST_F(RoomCommands, APhotoWithoutExposureIsNamedItself) {
 }
 
 TEST_F(RoomCommands, TheOneThatDiffersFromTheDesignIsNamed) {
-  folder_->Write("design.toml", R"([[luminaire]]
+  office_->Write("design.toml", R"([[luminaire]]
 id = "A"
 photometry = "lambertian"
 position_m = [1.5, 2.0, 2.79]
@@ -156,7 +149,7 @@ flux_lm = 850
 id = "L1"
 illuminance_lx = 200
 )");
-  const support::ProgramRun run = Command("commission", "--design " + folder_->Path("design.toml"));
+  const support::ProgramRun run = Command("commission", "--design " + office_->Path("design.toml"));
   ASSERT_EQ(run.status, 0) << run.output;
   const json result = Artifact("commission/commission.json");
   for (const json& l : result["comparison"]["luminaires"]) {
@@ -167,8 +160,8 @@ illuminance_lx = 200
     }
   }
   EXPECT_GE(result["levels"]["targets"][0]["assured95_lx"].get<double>(), 200 - 1e-3);
-  folder_->Replace("design.toml", "illuminance_lx = 200", "illuminance_lx = 2000");
-  const support::ProgramRun much = Command("commission", "--design " + folder_->Path("design.toml"));
+  office_->Replace("design.toml", "illuminance_lx = 200", "illuminance_lx = 2000");
+  const support::ProgramRun much = Command("commission", "--design " + office_->Path("design.toml"));
   EXPECT_EQ(much.status, 1);
   EXPECT_THAT(much.output, HasSubstr("E at L1: lacks"));
 }
@@ -186,11 +179,11 @@ TEST_F(RoomCommands, ADropAtTheEyeIsKept) {
 TEST_F(RoomCommands, ExportsAreWhatOthersRead) {
   const support::ProgramRun run = Command("export", "--only luminaires,patches,radiance,csv,cameras");
   ASSERT_EQ(run.status, 0) << run.output;
-  const Scene room = ReadScene(folder_->Path("office/room.obj"));
-  const Scene ply = ReadScene(folder_->Path("out/export/patches/patches.ply"));
+  const Scene room = ReadScene(office_->Path("office/room.obj"));
+  const Scene ply = ReadScene(office_->Path("out/export/patches/patches.ply"));
   EXPECT_NEAR((ply.Bounds().sizes() - room.Bounds().sizes()).norm(), 0, 1e-6);
-  EXPECT_THAT(folder_->Read("out/export/csv/luminaires.csv"), HasSubstr("flux_lm,flux_sigma_lm"));
-  EXPECT_THAT(folder_->Read("out/export/cameras/colmap/images.txt"), HasSubstr("v00_"));
+  EXPECT_THAT(office_->Read("out/export/csv/luminaires.csv"), HasSubstr("flux_lm,flux_sigma_lm"));
+  EXPECT_THAT(office_->Read("out/export/cameras/colmap/images.txt"), HasSubstr("v00_"));
   EXPECT_EQ(Command("export", "--only nothing").status, 2);
 }
 
@@ -199,7 +192,7 @@ TEST_F(RoomCommands, RadianceAgrees) {
   if (std::system("command -v oconv > /dev/null 2>&1 && command -v rtrace > /dev/null 2>&1") != 0)
     GTEST_SKIP() << "Radiance (oconv, rtrace) is not installed";
   ASSERT_EQ(Command("export", "--only radiance").status, 0);
-  const std::string scene = folder_->Path("out/export/radiance");
+  const std::string scene = office_->Path("out/export/radiance");
   const std::string command = "cd " + scene +
                               " && oconv materials.rad room.rad state_C.rad > scene.oct && rtrace -h -I -ab "
                               "8 -ad 512 -as 128 -aa 0.15 "

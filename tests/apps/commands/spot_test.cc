@@ -7,9 +7,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/office_truth.h"
-#include "tests/support/temp_folder.h"
 
 namespace luxfit {
 namespace {
@@ -20,24 +20,17 @@ using testing::HasSubstr;
 class Spot : public testing::Test {
  protected:
   Spot() {
-    std::filesystem::copy(support::kOfficeFolder, folder_.Path("office"),
-                          std::filesystem::copy_options::recursive);
-    folder_.Write("office/photos.csv",
+    office_.Write("office/photos.csv",
                   "file,camera,view,state,exposure_s\nphotos/v00_all.png,cam0,v00,all,0.0848\n"
                   "photos/v01_A.png,cam0,v01,A,0.115\n");
-    per_cdm2_s_ = support::OfficeTruth().at("cameras").at("cam0").at("counts_per_cdm2_s");
-    folder_.Replace("office/session.toml", "black_level = 0",
-                    "black_level = 0\ncdm2_per_count_s = " + json(1 / per_cdm2_s_ / 65535).dump());
+    office_.GiveCameraScale();
   }
 
-  support::ProgramRun Run(const std::string& arguments) const {
-    return support::RunProgram("spot " + folder_.Path("office/session.toml") + " " + arguments + " -o " +
-                               folder_.Path("out"));
-  }
-  json Artifact() const { return json::parse(folder_.Read("out/luminance/spots.json")); }
+  support::ProgramRun Run(const std::string& arguments) const { return office_.Run("spot", arguments); }
+  json Artifact() const { return office_.Json("out/luminance/spots.json"); }
 
-  TempFolder folder_;
-  double per_cdm2_s_ = 0;
+  support::OfficeCopy office_;
+  const double per_cdm2_s_ = support::OfficeTruth().at("cameras").at("cam0").at("counts_per_cdm2_s");
 };
 
 TEST_F(Spot, IsTheMeanOfItsCountsByTheScale) {
@@ -50,7 +43,7 @@ TEST_F(Spot, IsTheMeanOfItsCountsByTheScale) {
     const json& spot = spots[i];
     const int x = spot.at("x_px"), y = spot.at("y_px");
     const cv::Mat photo = cv::imread(
-        folder_.Path(i == 0 ? "office/photos/v00_all.png" : "office/photos/v01_A.png"), cv::IMREAD_UNCHANGED);
+        office_.Path(i == 0 ? "office/photos/v00_all.png" : "office/photos/v01_A.png"), cv::IMREAD_UNCHANGED);
     double sum = 0;
     int pixels = 0;
     for (int dv = -2; dv <= 2; ++dv) {
@@ -69,12 +62,12 @@ TEST_F(Spot, IsTheMeanOfItsCountsByTheScale) {
     EXPECT_NEAR(spot.at("sigma_cd_m2"), luminance * std::hypot(noise, 0.03), 1e-4 * luminance);
   }
   EXPECT_THAT(run.output, HasSubstr("spread %"));
-  EXPECT_THAT(folder_.Read("out/luminance/spots.csv"), HasSubstr("\nv00_all,v00,all,cam0,400,300,2,13,"));
+  EXPECT_THAT(office_.Read("out/luminance/spots.csv"), HasSubstr("\nv00_all,v00,all,cam0,400,300,2,13,"));
 }
 
 TEST_F(Spot, ATableOfSpotsIsRead) {
-  folder_.Write("spots.csv", "photo,x_px,y_px,radius_px\nv00_all,400,300,3\nv01_A,100.5,100,1\n");
-  const support::ProgramRun run = Run(folder_.Path("spots.csv"));
+  office_.Write("spots.csv", "photo,x_px,y_px,radius_px\nv00_all,400,300,3\nv01_A,100.5,100,1\n");
+  const support::ProgramRun run = Run(office_.Path("spots.csv"));
   ASSERT_EQ(run.status, 0) << run.output;
   EXPECT_EQ(Artifact().at("spots").at(0).at("pixels"), 29);
   EXPECT_EQ(Artifact().at("spots").at(1).at("pixels"), 2);
@@ -83,7 +76,7 @@ TEST_F(Spot, ATableOfSpotsIsRead) {
 
 // A luminaire shines there.
 TEST_F(Spot, SaturatedPixelsHaveNoLuminance) {
-  const cv::Mat photo = cv::imread(folder_.Path("office/photos/v00_all.png"), cv::IMREAD_UNCHANGED);
+  const cv::Mat photo = cv::imread(office_.Path("office/photos/v00_all.png"), cv::IMREAD_UNCHANGED);
   int x = 0, y = 0;
   for (int v = 20; v + 20 < photo.rows; ++v) {
     for (int u = 20; u + 20 < photo.cols; ++u) {
@@ -104,7 +97,7 @@ TEST_F(Spot, SaturatedPixelsHaveNoLuminance) {
 }
 
 TEST_F(Spot, DarkPixelsHaveNoLuminance) {
-  cv::imwrite(folder_.Path("office/photos/v01_A.png"), cv::Mat(360, 480, CV_16UC3, cv::Scalar(3, 3, 3)));
+  cv::imwrite(office_.Path("office/photos/v01_A.png"), cv::Mat(360, 480, CV_16UC3, cv::Scalar(3, 3, 3)));
   const support::ProgramRun run = Run("v01_A:100,100");
   EXPECT_EQ(run.status, 1) << run.output;
   EXPECT_THAT(run.output, HasSubstr("too dark"));
@@ -112,9 +105,9 @@ TEST_F(Spot, DarkPixelsHaveNoLuminance) {
 }
 
 TEST_F(Spot, WithoutAScaleThereAreNoCandelas) {
-  const std::string session = folder_.Read("office/session.toml");
+  const std::string session = office_.Read("office/session.toml");
   const size_t at = session.find("cdm2_per_count_s");
-  folder_.Write("office/session.toml", session.substr(0, at) + session.substr(session.find('\n', at)));
+  office_.Write("office/session.toml", session.substr(0, at) + session.substr(session.find('\n', at)));
   const support::ProgramRun run = Run("v01_A:100,100");
   EXPECT_EQ(run.status, 1) << run.output;
   EXPECT_THAT(run.output, HasSubstr("relative units"));
@@ -139,22 +132,22 @@ TEST_F(Spot, BadInputIsNamed) {
   expect("v00_all:100,359",
          "expected a circle within the photo of 480 x 360 pixels, got 5 px about (100, 359)");
   expect("v00_all:100,100 --radius 0.5", "--radius");
-  expect(folder_.Path("none.csv"), "none.csv");
-  folder_.Write("spots.csv", "photo,x_px,y_px,radius_px\nv00_all,400,300,3\nv00_all,400,300,0\n");
-  expect(folder_.Path("spots.csv"), "spots.csv:3: radius_px: expected 1 or more, got 0");
-  folder_.Write("spots.csv", "photo,x_px,y_px\nv00_all,400,300\nv09_A,400,300\n");
-  expect(folder_.Path("spots.csv"), "spots.csv:3: expected v00_all or v01_A, got \"v09_A\"");
+  expect(office_.Path("none.csv"), "none.csv");
+  office_.Write("spots.csv", "photo,x_px,y_px,radius_px\nv00_all,400,300,3\nv00_all,400,300,0\n");
+  expect(office_.Path("spots.csv"), "spots.csv:3: radius_px: expected 1 or more, got 0");
+  office_.Write("spots.csv", "photo,x_px,y_px\nv00_all,400,300\nv09_A,400,300\n");
+  expect(office_.Path("spots.csv"), "spots.csv:3: expected v00_all or v01_A, got \"v09_A\"");
 }
 
 TEST_F(Spot, ASessionNeedsAFolderForItsResults) {
   const support::ProgramRun run =
-      support::RunProgram("spot " + folder_.Path("office/session.toml") + " v00_all:100,100");
+      support::RunProgram("spot " + office_.Path("office/session.toml") + " v00_all:100,100");
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("-o: expected the folder for the results of a session"));
 }
 
 TEST_F(Spot, AFolderThatIsNoRunIsRefused) {
-  const support::ProgramRun run = support::RunProgram("spot " + folder_.Path("office") + " v00_all:100,100");
+  const support::ProgramRun run = support::RunProgram("spot " + office_.Path("office") + " v00_all:100,100");
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.output, HasSubstr("result.json"));
 }

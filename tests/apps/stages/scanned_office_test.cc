@@ -8,16 +8,15 @@
 
 #include <Eigen/Core>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 
 #include "forward/room/scene.h"
-#include "tests/paths.h"
-#include "tests/support/apps/program.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/forward/scan_of.h"
+#include "tests/support/office_truth.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/truth_comparison.h"
 
@@ -38,16 +37,11 @@ struct OfficeErrors {
 // other names there.
 template <typename Change>
 OfficeErrors RunOffice(const Change& change) {
-  const std::string fixture = std::string(LUXFIT_FIXTURES) + "/office";
-  const TempFolder folder;
-  std::filesystem::copy(fixture, folder.Path("office"), std::filesystem::copy_options::recursive);
-  change(folder);
-  const support::ProgramRun run = support::RunProgram("run " + folder.Path("office/session.toml") +
-                                                      " --budget 900 -o " + folder.Path("out"));
-  EXPECT_EQ(run.status, 0) << run.output;
-  const json result = json::parse(folder.Read("out/result.json"));
+  const support::OfficeCopy office;
+  change(office);
+  const json result = office.ResultOf("run", 0, "--budget 900");
   EXPECT_EQ(result["status"], "done");
-  json truth = json::parse(std::ifstream(fixture + "/truth.json"));
+  json truth = support::OfficeTruth();
   truth["materials"].clear();
   OfficeErrors errors{CompareWithTruth(result, truth), result["summary"]["mean_abs_error_percent"],
                       static_cast<int>(result.value("furniture", json::array()).size()),
@@ -63,11 +57,11 @@ OfficeErrors RunOffice(const Change& change) {
 }
 
 TEST(ScannedOffice, LuminairesAreFound) {
-  const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
+  const OfficeErrors errors = RunOffice([](const TempFolder& office) {
     std::mt19937_64 rng(1);
-    support::WriteTriangles(support::ScanOf(ReadScene(folder.Path("office/room.obj")), {}, rng),
-                            folder.Path("office/scan.obj"));
-    folder.Replace("office/session.toml", "room.obj", "scan.obj");
+    support::WriteTriangles(support::ScanOf(ReadScene(office.Path("office/room.obj")), {}, rng),
+                            office.Path("office/scan.obj"));
+    office.Replace("office/session.toml", "room.obj", "scan.obj");
   });
   EXPECT_LT(errors.luminaires.worst_position_mm, 9.9);   // 6.6 mm
   EXPECT_LT(errors.luminaires.worst_flux_percent, 1.3);  // 0.85 %
@@ -76,8 +70,8 @@ TEST(ScannedOffice, LuminairesAreFound) {
 
 // Two desks, a cabinet and a door are missing: 14 m2 of what the photos show. Desks and cabinet are found in them.
 TEST(ScannedOffice, ThreeLengthsAreEnough) {
-  const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
-    folder.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
+  const OfficeErrors errors = RunOffice([](const TempFolder& office) {
+    office.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
   });
   EXPECT_LT(errors.luminaires.worst_position_mm, 26);    // 17.6 mm
   EXPECT_LT(errors.luminaires.worst_flux_percent, 6.3);  // 4.2 %
@@ -105,8 +99,8 @@ void MoveVertices(const std::string& path, const std::string& groups, const Move
 }
 
 TEST(ScannedOffice, ACabinetThatTheMeshHasElsewhereIsPutBack) {
-  const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
-    MoveVertices(folder.Path("office/room.obj"), "cabinet", [](Eigen::Vector3d& p) { p.y() += 1; });
+  const OfficeErrors errors = RunOffice([](const TempFolder& office) {
+    MoveVertices(office.Path("office/room.obj"), "cabinet", [](Eigen::Vector3d& p) { p.y() += 1; });
   });
   EXPECT_LT(errors.luminaires.worst_position_mm, 13);    // 8.7 mm
   EXPECT_LT(errors.luminaires.worst_flux_percent, 1.8);  // 1.17 %
@@ -118,8 +112,8 @@ TEST(ScannedOffice, ACabinetThatTheMeshHasElsewhereIsPutBack) {
 
 // Left at x = 6.05 m, the wall cost 12 mm and 1.6 %.
 TEST(ScannedOffice, AWallThatTheMeshHasElsewhereIsPutBack) {
-  const OfficeErrors errors = RunOffice([](const TempFolder& folder) {
-    MoveVertices(folder.Path("office/room.obj"), "room", [](Eigen::Vector3d& p) {
+  const OfficeErrors errors = RunOffice([](const TempFolder& office) {
+    MoveVertices(office.Path("office/room.obj"), "room", [](Eigen::Vector3d& p) {
       if (p.x() == 6) p.x() = 6.05;
     });
   });

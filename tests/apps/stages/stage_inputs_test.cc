@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/stage_cache.h"
 #include "tests/paths.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/temp_folder.h"
 
 namespace luxfit {
@@ -20,19 +20,14 @@ using ::testing::IsEmpty;
 
 class StageInputsTest : public ::testing::Test {
  protected:
-  StageInputsTest() {
-    fs::copy(fs::path(LUXFIT_FIXTURES) / "office", folder_.Path("office"), fs::copy_options::recursive);
-    before_ = Now();
-  }
+  SessionInputs Now() const { return InputsOfStages(ReadSession(office_.Session()), ""); }
 
-  SessionInputs Now() const { return InputsOfStages(ReadSession(folder_.Path("office/session.toml")), ""); }
-
-  TempFolder folder_;
-  SessionInputs before_;
+  support::OfficeCopy office_;
+  SessionInputs before_ = Now();
 };
 
 TEST_F(StageInputsTest, NothingChangedIsNothing) {
-  folder_.Replace("office/session.toml", "name =", "# a comment more\nname =");
+  office_.Replace("office/session.toml", "name =", "# a comment more\nname =");
   const SessionInputs now = Now();
   EXPECT_THAT(ChangedInputs(before_.linearize, now.linearize), IsEmpty());
   EXPECT_THAT(ChangedInputs(before_.registration, now.registration), IsEmpty());
@@ -41,43 +36,42 @@ TEST_F(StageInputsTest, NothingChangedIsNothing) {
 }
 
 TEST_F(StageInputsTest, AnOutlineTouchesRegistrationAndWhatFollows) {
-  folder_.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
+  office_.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
   const SessionInputs by_size = Now();
   EXPECT_THAT(ChangedInputs(before_.linearize, by_size.linearize), IsEmpty());
   EXPECT_THAT(ChangedInputs(before_.registration, by_size.registration),
               ElementsAre("[scene]", "mesh room.obj"));
-  folder_.Replace("office/session.toml", "size = [6, 4, 2.8]", "size = [6, 4, 2.9]");
+  office_.Replace("office/session.toml", "size = [6, 4, 2.8]", "size = [6, 4, 2.9]");
   EXPECT_THAT(ChangedInputs(by_size.registration, Now().registration), ElementsAre("[scene]"));
   EXPECT_THAT(ChangedInputs(by_size.result, Now().result), ElementsAre("[scene]"));
-  folder_.Replace("office/session.toml", "size = [6, 4, 2.9]", "size = [6, 4, 2.8]  # measured");
+  office_.Replace("office/session.toml", "size = [6, 4, 2.9]", "size = [6, 4, 2.8]  # measured");
   EXPECT_THAT(ChangedInputs(by_size.result, Now().result), IsEmpty());
-  folder_.Replace("office/session.toml", "[tags]",
+  office_.Replace("office/session.toml", "[tags]",
                   "[[scene.box]]\nname = \"a\"\nmin = [1, 1, 0]\nmax = [2, 2, 1]\n[tags]");
   EXPECT_THAT(ChangedInputs(by_size.result, Now().result), ElementsAre("[scene]"));
 }
 
 TEST_F(StageInputsTest, ABufferBesideAGltfIsAPartOfTheMesh) {
-  folder_.Write("office/my room.bin", "0123");
-  folder_.Write("office/room.gltf",
+  office_.Write("office/my room.bin", "0123");
+  office_.Write("office/room.gltf",
                 R"({"buffers": [{"uri": "my%20room.bin", "byteLength": 4}, {"uri": "data:;base64,AA=="}]})");
-  folder_.Replace("office/session.toml", "mesh = \"room.obj\"", "mesh = \"room.gltf\"");
+  office_.Replace("office/session.toml", "mesh = \"room.obj\"", "mesh = \"room.gltf\"");
   const SessionInputs before = Now();
-  folder_.Write("office/my room.bin", "0124");
+  office_.Write("office/my room.bin", "0124");
   EXPECT_THAT(ChangedInputs(before.registration, Now().registration), ElementsAre("mesh room.gltf"));
-  EXPECT_THAT(ReadSession(folder_.Path("office/session.toml")).input_files,
-              Contains(folder_.Path("office/my room.bin")));
+  EXPECT_THAT(ReadSession(office_.Session()).input_files, Contains(office_.Path("office/my room.bin")));
 }
 
 TEST_F(StageInputsTest, AReadingTouchesTheFitAlone) {
-  folder_.Replace("office/luxmeter.csv", "341.73", "342");
+  office_.Replace("office/luxmeter.csv", "341.73", "342");
   const SessionInputs now = Now();
   EXPECT_THAT(ChangedInputs(before_.observe, now.observe), IsEmpty());
   EXPECT_THAT(ChangedInputs(before_.result, now.result), ElementsAre("readings"));
 }
 
 TEST_F(StageInputsTest, ALuminaireTouchesTheFitAlone) {
-  folder_.Write("office/session.toml",
-                folder_.Read("office/session.toml") +
+  office_.Write("office/session.toml",
+                office_.Read("office/session.toml") +
                     "\n[[luminaire]]\nid = \"A\"\nflux_lm = 3600\nflux_sigma_lm = 100\n");
   const SessionInputs now = Now();
   EXPECT_THAT(ChangedInputs(before_.observe, now.observe), IsEmpty());
@@ -85,7 +79,7 @@ TEST_F(StageInputsTest, ALuminaireTouchesTheFitAlone) {
 }
 
 TEST_F(StageInputsTest, APhotoTouchesAllThatLooksAtIt) {
-  fs::copy_file(folder_.Path("office/photos/v00_A.png"), folder_.Path("office/photos/v00_B.png"),
+  fs::copy_file(office_.Path("office/photos/v00_A.png"), office_.Path("office/photos/v00_B.png"),
                 fs::copy_options::overwrite_existing);
   const SessionInputs now = Now();
   for (const auto& [earlier, later] : {std::pair(before_.linearize, now.linearize),
@@ -96,7 +90,7 @@ TEST_F(StageInputsTest, APhotoTouchesAllThatLooksAtIt) {
 }
 
 TEST_F(StageInputsTest, TheTagMapLeavesLuminanceAlone) {
-  folder_.Write("office/tags.json", folder_.Read("office/tags.json") + "\n");
+  office_.Write("office/tags.json", office_.Read("office/tags.json") + "\n");
   const SessionInputs now = Now();
   EXPECT_THAT(ChangedInputs(before_.linearize, now.linearize), IsEmpty());
   EXPECT_THAT(ChangedInputs(before_.registration, now.registration), ElementsAre("[tags]"));
