@@ -60,9 +60,8 @@ class OfficeCopy : public TempFolder {
   // Leaves in the table those photos for which `keeps(view, state)` is true.
   template <typename Keeps>
   void KeepPhotos(const Keeps& keeps) const {
-    ChangeRows("office/photos.csv", [&](const std::vector<std::string>& photo) {
-      return keeps(photo.at(2), photo.at(3));
-    });
+    ChangeRows("office/photos.csv",
+               [&](const std::vector<std::string>& photo) { return keeps(photo.at(2), photo.at(3)); });
   }
 
   // Gives the camera its true scale.
