@@ -7,6 +7,7 @@
 
 #include "calib/luminance/bright_blobs.h"
 #include "inverse/observe/internal/expect_known.h"
+#include "inverse/observe/internal/explained_observations.h"
 
 namespace luxfit {
 namespace {
@@ -133,26 +134,19 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
                                  photo.observations.end());
     observed.elements.push_back(photo.observations.size());
   }
-  evidence.observations = InOneUnit(std::move(evidence.observations), photos, views);
-  evidence.photos_as_if = FindPhotosAsIf(room.patches, evidence.observations);
-  evidence.observations = WithoutPhotos(evidence.observations, evidence.photos_as_if);
-  if (!states.luminaires.empty())
-    evidence.states_as_if = FindStatesAsIf(room.patches, evidence.observations, states);
   {
     const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;
-    const auto correct = [&] {
-      return CorrectRadiometry(room.patches, photos, cameras, views,
-                               DimmingSeen(states, evidence.states_as_if), evidence.observations);
-    };
-    CorrectedObservations corrected = correct();
-    if (!states.luminaires.empty() && evidence.states_as_if.empty()) {
-      if (auto alone = StatesByThemselves(room.patches, corrected.observations, states)) {
-        evidence.states_as_if.push_back(*std::move(alone));
-        corrected = correct();
-      }
-    }
-    evidence.observations = std::move(corrected.observations);
-    observed.radiometry = std::move(corrected.radiometry);
+    ExplainedObservations explained = ExplainObservations(
+        room.patches, InOneUnit(std::move(evidence.observations), photos, views), states,
+        [&](const std::vector<Eigen::VectorXd>& dimming, const std::vector<Observation>& observations) {
+          CorrectedObservations corrected =
+              CorrectRadiometry(room.patches, photos, cameras, views, dimming, observations);
+          observed.radiometry = std::move(corrected.radiometry);
+          return std::move(corrected.observations);
+        });
+    evidence.observations = std::move(explained.observations);
+    evidence.photos_as_if = std::move(explained.photos_as_if);
+    evidence.states_as_if = std::move(explained.states_as_if);
   }
   const std::vector<PhotoBlobs> blobs = ListBlobs(std::move(seen), evidence.photos_as_if);
   SeenLuminairesOptions seen_options;

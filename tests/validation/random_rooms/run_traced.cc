@@ -13,14 +13,13 @@
 #include "apps/stages/explain_check.h"
 #include "apps/stages/observe/explained_photos.h"
 #include "inverse/fit/explaining_light.h"
-#include "inverse/observe/evidence.h"
+#include "inverse/observe/internal/explained_observations.h"
 #include "inverse/observe/state_conflicts.h"
 
 namespace luxfit {
 namespace {
 
-void LeaveOutPhotos(const Room& model, RoomObservations& given, Findings& findings) {
-  const std::vector<PhotoAsIf> found = FindPhotosAsIf(model.patches, given.observations);
+void WarnOfPhotos(const std::vector<PhotoAsIf>& found, Findings& findings) {
   for (const PhotoAsIf& p : found) {
     const std::string name = PhotoName(p.view, p.state), other = PhotoName(p.view, p.as_if);
     if (!p.is_exchanged)
@@ -28,7 +27,9 @@ void LeaveOutPhotos(const Room& model, RoomObservations& given, Findings& findin
     else if (p.state < p.as_if)
       findings.warnings.push_back({"photos_as_if", name + " and " + other + " look exchanged", ""});
   }
-  given.observations = WithoutPhotos(given.observations, found);
+}
+
+void LeaveOutOutlines(const std::vector<PhotoAsIf>& found, RoomObservations& given) {
   const auto is_of_one = [&](const SeenOutline& o) {
     return std::any_of(found.begin(), found.end(),
                        [&](const PhotoAsIf& p) { return p.view == o.view && p.state == o.state; });
@@ -126,20 +127,20 @@ std::string PhotoName(int view, int state) {
 std::string PlaceName(size_t reading) { return "P" + std::to_string(reading); }
 
 RoomFit RunTraced(const Room& model, RoomObservations given) {
+  std::vector<Warning> of_exposures;
+  ExplainedObservations explained = ExplainObservations(
+      model.patches, std::move(given.observations), TableOf(given),
+      [&](const std::vector<Eigen::VectorXd>& dimming, const std::vector<Observation>& observations) {
+        CorrectedExposures corrected = CorrectExposures(model, dimming, observations);
+        of_exposures = std::move(corrected.warnings);
+        return std::move(corrected.observations);
+      });
+  given.observations = std::move(explained.observations);
+  LeaveOutOutlines(explained.photos_as_if, given);
   Findings of_photos;
-  LeaveOutPhotos(model, given, of_photos);
-  const StateTable table = TableOf(given);
-  std::vector<StateExplanation> states = FindStatesAsIf(model.patches, given.observations, table);
-  CorrectedExposures corrected = CorrectExposures(model, DimmingSeen(table, states), given.observations);
-  if (states.empty()) {
-    if (auto alone = StatesByThemselves(model.patches, corrected.observations, table)) {
-      states.push_back(*std::move(alone));
-      corrected = CorrectExposures(model, DimmingSeen(table, states), given.observations);
-    }
-  }
-  WarnOfStates(states, of_photos);
-  given.observations = std::move(corrected.observations);
-  of_photos.warnings.insert(of_photos.warnings.end(), corrected.warnings.begin(), corrected.warnings.end());
+  WarnOfPhotos(explained.photos_as_if, of_photos);
+  WarnOfStates(explained.states_as_if, of_photos);
+  of_photos.warnings.insert(of_photos.warnings.end(), of_exposures.begin(), of_exposures.end());
   RoomFit fit = FitRoom(model, given);
   fit.findings.warnings.insert(fit.findings.warnings.begin(), of_photos.warnings.begin(),
                                of_photos.warnings.end());

@@ -1,6 +1,6 @@
 // Fits what photos and readings of a traced room tell, by the steps of `luxfit run` that begin at observations.
 //
-//   observations -> photos of another state left out -> states explained -> exposures corrected (inverse/observe/evidence.h)
+//   observations -> explained and corrected (inverse/observe/internal/explained_observations.h)
 //                -> FitRoom -> states that photos contradict -> readings checked and explained
 //
 // The camera has no vignetting and a straight response, both known. No pictures exist: furniture is not looked for.

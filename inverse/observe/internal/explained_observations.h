@@ -1,0 +1,36 @@
+// Finds what photos contradict of what is said of them, and corrects them by what they say.
+//
+//   1. photos that show another state, or are exchanged, are left out          inverse/observe/photos_as_if.h
+//   2. a mistake in the table of states is found                               inverse/observe/states_as_if.h
+//   3. exposures, vignetting and response are corrected by the states as they were: by a wrong table, right photos would be
+//      blamed. States that still do not add up stand by themselves, and the correction is repeated
+#ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_EXPLAINED_OBSERVATIONS_H_
+#define LUXFIT_INVERSE_OBSERVE_INTERNAL_EXPLAINED_OBSERVATIONS_H_
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "inverse/observe/observe.h"
+#include "inverse/observe/photos_as_if.h"
+#include "inverse/observe/states_as_if.h"
+
+namespace luxfit {
+
+struct ExplainedObservations {
+  std::vector<PhotoAsIf> photos_as_if;
+  std::vector<StateExplanation> states_as_if;
+  std::vector<Observation> observations;  // corrected, without the photos that are named
+};
+
+// Returns the observations corrected by the dimming of the states. The last call's counts.
+using CorrectObservations = std::function<std::vector<Observation>(
+    const std::vector<Eigen::VectorXd>& dimming, const std::vector<Observation>&)>;
+
+// `observations`: of all photos, in one unit.
+ExplainedObservations ExplainObservations(const Patches& patches, std::vector<Observation> observations,
+                                          const StateTable& states, const CorrectObservations& correct);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_INVERSE_OBSERVE_INTERNAL_EXPLAINED_OBSERVATIONS_H_
