@@ -42,9 +42,10 @@ void AddReport(CLI::App& app, Invocation& invocation) {
     options->command_line = invocation.command_line;
     invocation.run = [options] { return ReportCommand(*options); };
   });
-  AddExample(*command, "luxfit report out",
-             "Work plane, state all: 40 points, mean 345.9 ± 14 lx, least 248 ± 9.8 lx, U0 0.7169 ± 0.0032\n"
-             "done      3.0 s, out/report.html, 3.3 MB");
+  AddExample(
+      *command, "luxfit report out",
+      "Work plane, state all: 40 points, mean 346.4 ± 14 lx, least 248.6 ± 9.9 lx, U0 0.7178 ± 0.0044\n"
+      "done      3.0 s, out/report.html, 3.3 MB");
 }
 
 }  // namespace

@@ -21,17 +21,18 @@ std::vector<FaceValues> ValuesOf(const FittedRoom& fitted, const Eigen::VectorXd
     values.push_back({"indirect_" + lx + of, total - direct});
     values.push_back({cd + of, albedo.cwiseProduct(total) / M_PI});
   };
+  const PlaceLight& light = fitted.light->AtElements();
   std::vector<std::string> states, ids;
   for (const SessionState& state : fitted.session.states) states.push_back(state.id);
   for (const Luminaire& luminaire : fitted.luminaires) ids.push_back(luminaire.id);
   const std::vector<std::string> state_stems = DistinctFileStems(states), id_stems = DistinctFileStems(ids);
   for (size_t s = 0; s < states.size(); ++s) {
     const Eigen::VectorXd dimming = DimmingOf(fitted, states[s]);
-    add(state_stems[s], fitted.element_lx * dimming, fitted.element_direct_lx * dimming);
+    add(state_stems[s], light.Under(dimming), light.direct_lx * dimming);
   }
   for (size_t k = 0; k < ids.size(); ++k) {
     const Eigen::Index column = static_cast<Eigen::Index>(k);
-    add("of_" + id_stems[k], fitted.element_lx.col(column), fitted.element_direct_lx.col(column));
+    add("of_" + id_stems[k], light.total_lx.col(column), light.direct_lx.col(column));
   }
   return values;
 }
@@ -62,7 +63,7 @@ ExportedFiles ExportPatches(const FittedRoom& fitted, const std::string& folder)
   ValueMesh coarse = MeshOfPatches(patches, fitted.room.scene.materials);
   for (const FaceValues& value : elements.values)
     coarse.values.push_back({value.name, PatchMeans(patches, value.values)});
-  const Eigen::VectorXd shown = fitted.element_lx * DimmingOf(fitted, BrightestState(fitted));
+  const Eigen::VectorXd shown = fitted.light->AtElements().Under(DimmingOf(fitted, BrightestState(fitted)));
   const ColourScale scale = ScaleOf(shown.cast<float>().transpose().array(), "");
   const auto write = [&](const std::string& name, const std::string& text) {
     WriteText(folder + "/" + name, text);

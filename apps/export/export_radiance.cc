@@ -72,14 +72,15 @@ std::string PredictionCsv(const FittedRoom& fitted, const ReadingPlaces& places)
   std::vector<std::string> fields{"id"};
   for (const std::string& state : states) fields.push_back(CsvField("lux of " + state));
   std::string text = CsvLine(fields);
-  const Eigen::MatrixXd lux = LightAt(fitted, places.sensors).total_lx;
+  const PlaceLight light = fitted.light->LightAt(places.sensors);
+  std::vector<Eigen::VectorXd> lux;  // by state
+  for (const std::string& state : states) lux.push_back(light.Under(DimmingOf(fitted, state)));
   for (size_t i = 0; i < places.sensors.size(); ++i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i);
     const auto& of = places.sensor_of_reading;
     const auto reading = std::find(of.begin(), of.end(), row) - of.begin();
     fields = {CsvField(fitted.session.luxmeter.readings[static_cast<size_t>(reading)].id)};
-    for (const std::string& state : states)
-      fields.push_back(CsvField(lux.row(row).dot(DimmingOf(fitted, state))));
+    for (const Eigen::VectorXd& of_state : lux) fields.push_back(CsvField(of_state[row]));
     text += CsvLine(fields);
   }
   return text;

@@ -99,13 +99,14 @@ std::string PatchCsv(const FittedRoom& fitted) {
   const std::string unit = fitted.is_absolute ? "lx" : "relative";
   std::vector<std::string> fields{"patch", "material", "x_m", "y_m",     "z_m",
                                   "nx",    "ny",       "nz",  "area_m2", "albedo"};
+  const PlaceLight& light = fitted.light->AtElements();
   std::vector<Eigen::VectorXd> columns;
   for (size_t k = 0; k < fitted.luminaires.size(); ++k) {
     const Eigen::Index column = static_cast<Eigen::Index>(k);
     fields.push_back(CsvField("illuminance_" + unit + " of " + fitted.luminaires[k].id));
-    columns.push_back(PatchMeans(fitted.room.patches, fitted.element_lx.col(column)));
+    columns.push_back(PatchMeans(fitted.room.patches, light.total_lx.col(column)));
     fields.push_back(CsvField("direct_" + unit + " of " + fitted.luminaires[k].id));
-    columns.push_back(PatchMeans(fitted.room.patches, fitted.element_direct_lx.col(column)));
+    columns.push_back(PatchMeans(fitted.room.patches, light.direct_lx.col(column)));
   }
   std::string text = CsvLine(fields);
   for (size_t p = 0; p < fitted.room.patches.patches.size(); ++p) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <utility>
 
 #include "apps/stages/observe/found_furniture.h"
@@ -11,11 +10,9 @@
 #include "apps/stages/session_check.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
-#include "forward/light/covered_surfaces.h"
-#include "forward/light/illuminance.h"
-#include "inverse/model/light_state.h"
 
 namespace luxfit {
 namespace {
@@ -67,33 +64,31 @@ Eigen::VectorXd AlbedoOf(const json& result, const Scene& scene) {
   return albedo;
 }
 
-// Returns receivers x luminaires, lx.
-PlaceLight LightOf(const Room& room, const Receivers& receivers, const std::vector<Luminaire>& luminaires,
-                   const Eigen::VectorXd& albedo, const std::string& bodies) {
-  const LuminaireVisibility visibility = ComputeVisibility(room, receivers, luminaires);
-  const Transport transport(room.transport, albedo);
-  const Illuminance light = ComputeIlluminance(room, receivers, visibility, luminaires, transport);
-  Eigen::MatrixXd total = light.total.cast<double>();
-  if (bodies != ToString(BodyPresence::kNone)) {
-    const std::vector<CoveredSurface> surfaces = FindCoveredSurfaces(room, luminaires);
-    total -= HiddenLight(surfaces,
-                         ComputeCoveredLight(room, receivers, visibility, luminaires, transport, surfaces),
-                         albedo, kBodyAlbedo, bodies == ToString(BodyPresence::kAlways));
+// Returns the tint of each material in the exchange of light; empty where that is grey.
+Eigen::Matrix3Xd TintOf(const json& result, const Scene& scene) {
+  Eigen::Matrix3Xd tint;
+  for (const json& material : result.at("materials")) {
+    const auto at = std::find(scene.materials.begin(), scene.materials.end(), material.at("name"));
+    if (at == scene.materials.end() || !material.contains("tint_in_model")) continue;
+    if (tint.size() == 0) tint.setOnes(3, static_cast<Eigen::Index>(scene.materials.size()));
+    tint.col(at - scene.materials.begin()) = VectorFromJson(material.at("tint_in_model"));
   }
-  const Eigen::VectorXd flux_lm = FluxesLm(luminaires);
-  return {total * flux_lm.asDiagonal(), light.direct.cast<double>() * flux_lm.asDiagonal()};
+  return tint;
 }
 
-// Returns when the fit's luminaires have bodies; "none" in results that do not say.
-std::string BodiesOf(const json& result) {
-  return result.value("luminaire_bodies", ToString(BodyPresence::kNone));
+// Returns the factors of patches that stages/fit.json holds; empty where there are none.
+Eigen::VectorXd PatchFactorIn(const std::string& out) {
+  const std::string path = out + "/stages/fit.json";
+  if (!std::filesystem::exists(path)) return {};
+  const std::vector<double> factor = ReadJson(path).value("patch_factor", std::vector<double>());
+  return Eigen::Map<const Eigen::VectorXd>(factor.data(), static_cast<Eigen::Index>(factor.size()));
 }
 
-PlaceLight LightOfElements(const Room& room, const std::vector<Luminaire>& luminaires,
-                           const Eigen::VectorXd& albedo, const std::string& bodies) {
-  std::vector<int> elements(room.patches.elements.size());
-  std::iota(elements.begin(), elements.end(), 0);
-  return LightOf(room, MakeReceivers(room, elements, {}), luminaires, albedo, bodies);
+BodyPresence BodiesOf(const json& result) {
+  const std::string word = result.value("luminaire_bodies", ToString(BodyPresence::kNone));
+  for (const BodyPresence bodies : {BodyPresence::kWhenOn, BodyPresence::kAlways})
+    if (word == ToString(bodies)) return bodies;
+  return BodyPresence::kNone;
 }
 
 Session FittedSession(const json& result, const std::string& given, const std::string& path,
@@ -121,20 +116,22 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
   RunContext context;
   context.is_quiet = true;
   session = OnSurfaceOf(room, std::move(session));
-  std::vector<Luminaire> luminaires = GivenLuminaires(session, "report", context);
-  Eigen::VectorXd albedo = AlbedoOf(result, room.scene);
-  PlaceLight light = LightOfElements(room, luminaires, albedo, BodiesOf(result));
+  const Eigen::Vector3d weights = LuminanceWeights(session);
+  FittedScene scene{GivenLuminaires(session, "report", context),
+                    AlbedoOf(result, room.scene),
+                    BodiesOf(result),
+                    TintOf(result, room.scene),
+                    PatchFactorIn(out),
+                    weights / weights.sum()};
+  const auto held_room = std::make_shared<const Room>(std::move(room));
   return {out,
           std::make_shared<const json>(result),
           std::move(session),
           std::move(registered),
-          std::move(room),
-          std::move(luminaires),
-          std::move(albedo),
           !result.at("luminaires").at(0).contains("flux_relative"),
           result.value("camera_scale", 0.0),
-          std::move(light.total_lx),
-          std::move(light.direct_lx)};
+          held_room,
+          std::make_shared<const FittedLight>(*held_room, std::move(scene))};
 }
 
 std::string AbsoluteFolder(const std::string& out) {
@@ -187,11 +184,6 @@ FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Ro
     return Assemble(out, result, FittedSession(result, "", out + "/result.json", FluxUnit::kAny),
                     std::move(registered), std::move(room));
   });
-}
-
-PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors, int rays_per_sensor) {
-  return LightOf(fitted.room, MakeReceivers(fitted.room, {}, sensors, rays_per_sensor), fitted.luminaires,
-                 fitted.albedo, BodiesOf(*fitted.result));
 }
 
 Eigen::VectorXd DimmingOf(const FittedRoom& fitted, const std::string& state) {

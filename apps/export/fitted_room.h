@@ -3,10 +3,7 @@
 //
 // The room is read from OUT (result.json, stages/register.json) and from the session of the run. Geometry,
 // patches and reflectances are those of the fit, and luminaires those it found, so that predictions agree
-// with the result. Light has one column for each luminaire fully on by itself: states and dimming are sums of
-// columns.
-//
-//   E_e(state) = sum_k d_k(state) element_lx(e, k)
+// with the result. All light is FittedLight's (inverse/model/fitted_light.h).
 //
 // Where the fit has no absolute scale (`is_absolute` false), fluxes and illuminances are relative, in the
 // unit of result.json's flux_relative.
@@ -26,6 +23,7 @@
 #include "apps/session/session.h"
 #include "apps/stages/stages.h"
 #include "forward/light/room.h"
+#include "inverse/model/fitted_light.h"
 
 namespace luxfit {
 
@@ -34,13 +32,13 @@ struct FittedRoom {
   std::shared_ptr<const nlohmann::json> result;  // result.json
   Session session;                               // as written, with the luminaires that the fit found
   RegisteredSession registered;                  // empty: a fit to readings alone
-  Room room;
-  std::vector<Luminaire> luminaires;
-  Eigen::VectorXd albedo;             // by material of the room, as the fit took it
-  bool is_absolute = true;            // lm and lx
-  double camera_scale = 0;            // relative luminance per cd/m2; 0: not known
-  Eigen::MatrixXd element_lx;         // elements x luminaires
-  Eigen::MatrixXd element_direct_lx;  // the direct part
+  bool is_absolute = true;                       // lm and lx
+  double camera_scale = 0;                       // relative luminance per cd/m2; 0: not known
+  std::shared_ptr<const Room> held_room;
+  std::shared_ptr<const FittedLight> light;  // in that room
+  const Room& room = *held_room;
+  const std::vector<Luminaire>& luminaires = light->scene().luminaires;
+  const Eigen::VectorXd& albedo = light->scene().albedo;  // by material of the room, as the fit took it
 };
 
 // `session_path` replaces the one that result.json names; empty: that one. `fluxes`: which the caller can use.
@@ -58,14 +56,6 @@ FittedPhotos ReadFittedPhotos(const std::string& out, const std::string& session
 
 // Makes the room of a run that still holds it and has written its result into `out`, an absolute path.
 FittedRoom FittedRoomOf(const std::string& out, RegisteredSession registered, Room room);
-
-// Computes the light at any places, sensors x luminaires, lx. Indirect light takes `rays_per_sensor` rays for
-// each place.
-struct PlaceLight {
-  Eigen::MatrixXd total_lx, direct_lx;
-};
-PlaceLight LightAt(const FittedRoom& fitted, const std::vector<Sensor>& sensors,
-                   int rays_per_sensor = kSensorRays);
 
 // Returns the dimming of the luminaires in a state of the session. Throws std::runtime_error naming the known
 // states.

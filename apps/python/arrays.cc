@@ -3,9 +3,12 @@
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "apps/text/suggest.h"
 
 namespace luxfit {
 
@@ -76,6 +79,23 @@ std::vector<Sensor> SensorsFrom(const RowMajorXd& position_m, const RowMajorXd& 
     sensors.push_back({position_m.row(i), direction.normalized()});
   }
   return sensors;
+}
+
+Eigen::VectorXd DimmingFrom(const std::vector<Luminaire>& luminaires,
+                            const std::map<std::string, double>& dimming) {
+  std::vector<std::string> ids;
+  ids.reserve(luminaires.size());
+  for (const Luminaire& luminaire : luminaires) ids.push_back(luminaire.id);
+  Eigen::VectorXd by_luminaire = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(ids.size()));
+  for (const auto& [id, value] : dimming) {
+    const auto at = std::find(ids.begin(), ids.end(), id);
+    if (at == ids.end()) throw std::runtime_error("dimming: " + ExpectedOneOf(ids, id));
+    if (!(value >= 0 && value <= 1))
+      throw std::runtime_error("dimming: " + id + ": expected a number from 0 to 1, got " +
+                               std::to_string(value));
+    by_luminaire[at - ids.begin()] = value;
+  }
+  return by_luminaire;
 }
 
 py::dict PatchArrays(const Patches& patches) {

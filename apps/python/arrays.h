@@ -5,11 +5,13 @@
 #include <pybind11/pybind11.h>
 
 #include <Eigen/Core>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "forward/direct/sensor.h"
+#include "forward/luminaire/luminaire.h"
 #include "forward/room/patches.h"
 
 namespace luxfit {
@@ -40,6 +42,11 @@ Eigen::Matrix<Number, Eigen::Dynamic, 1> MemberColumn(const std::vector<T>& list
 // Makes cosine-corrected sensors from two n x 3 arrays; normals may have any length except 0. Throws
 // std::runtime_error for other shapes and for values that are not finite.
 std::vector<Sensor> SensorsFrom(const RowMajorXd& position_m, const RowMajorXd& normal);
+
+// Returns the dimming of each luminaire from that of those that are on. Throws std::runtime_error for a luminaire that is
+// none of these and for a dimming that is not a number from 0 to 1.
+Eigen::VectorXd DimmingFrom(const std::vector<Luminaire>& luminaires,
+                            const std::map<std::string, double>& dimming);
 
 // Returns center_m, normal (n, 3), area_m2 (n,), material (n,) and vertices_m (n, 4, 3). Vertices are the
 // corners in order; a triangle repeats its last one.

@@ -24,6 +24,7 @@
 #include "calib/luminance/image.h"
 #include "forward/room/threads.h"
 #include "inverse/fit/fit_room.h"
+#include "inverse/model/fitted_light.h"
 #include "inverse/observe/observe_photos.h"
 
 namespace luxfit {
@@ -37,6 +38,8 @@ struct FoundLight {
   std::vector<std::string> materials;
   std::vector<EstimatedLuminaire> luminaires;
   std::vector<PredictedReading> readings;
+  std::shared_ptr<const Room> changed;  // with the furniture that photos show; null: none
+  const Room* room = nullptr;           // of the fit: that, or the caller's
 };
 
 int IndexOf(const std::vector<std::string>& names, const std::string& name, const std::string& place) {
@@ -274,6 +277,8 @@ FoundLight FitWithoutSession(const MeshRoom& room, const py::dict& states,
   fitted.materials = fitted_room.scene.materials;
   fitted.luminaires = EstimatedLuminaires(fitted.fit);
   fitted.readings = PredictedReadings(fitted.fit);
+  fitted.room = &fitted_room;
+  fitted.changed = std::move(changed);
   return fitted;
 }
 
@@ -284,6 +289,15 @@ Eigen::VectorXd PredictedLx(const FoundLight& fitted, double PredictedReading::*
     numbers[r] = reading.is_known ? reading.*member : std::numeric_limits<double>::quiet_NaN();
   }
   return numbers;
+}
+
+Eigen::VectorXd LightOfFoundRoom(const FoundLight& fitted, const RowMajorXd& position_m,
+                                 const RowMajorXd& normal, const StateDimming& dimming) {
+  const std::vector<Sensor> places = SensorsFrom(position_m, normal);
+  const FittedScene scene = FittedSceneOf(fitted.fit.fit, fitted.fit.data);
+  const Eigen::VectorXd by_luminaire = DimmingFrom(scene.luminaires, dimming);
+  const py::gil_scoped_release release;
+  return FittedLight(*fitted.room, scene).LightAt(places).Under(by_luminaire);
 }
 
 std::map<std::string, double> AlbedoByMaterial(const FoundLight& fitted) {
@@ -354,6 +368,10 @@ void BindFit(py::module_& module) {
           "prediction_sigma_lx",
           [](const FoundLight& f) { return PredictedLx(f, &PredictedReading::sigma_lx); },
           "(n,): of the prediction, model error included.")
+      .def("illuminance", &LightOfFoundRoom, py::arg("position_m"), py::arg("normal"), py::arg("dimming"),
+           "(S,): illuminance in lx at places, as predicted_lx: with bodies and colours. position_m, normal "
+           "(S, 3). "
+           "dimming: {luminaire: 0 to 1}; the others are off.")
       .def_property_readonly(
           "status",
           [](const FoundLight& f) {
@@ -367,7 +385,7 @@ void BindFit(py::module_& module) {
              py::arg("cameras") = std::vector<std::filesystem::path>{}, py::arg("tags") = py::none(),
              py::arg("readings") = std::vector<py::dict>{},
              py::arg("albedo") = std::map<std::string, double>{}, py::arg("tag_family") = "tag36h11",
-             py::arg("furniture") = "find", py::arg("threads") = 0,
+             py::arg("furniture") = "find", py::arg("threads") = 0, py::keep_alive<0, 1>(),
              "Fits luminaires and reflectances to photos and luxmeter readings, without a session file.\n\n"
              "states: {state: {luminaire: dimming 0 to 1}}. photos: dicts of file, view, state, exposure_s "
              "and camera "

@@ -356,6 +356,11 @@ class _Fitted(metaclass=_Pybind11Type):
     @property
     def prediction_sigma_lx(self) -> NDArray[numpy.float64]:
         """(n,): sigmas of the predictions, model error included, lx."""
+    def illuminance(self, position_m: ArrayLike, normal: ArrayLike, dimming: dict[str, float]) -> NDArray[numpy.float64]:
+        """Illuminance in lx at places (S,), as predicted_lx: with bodies and colours. position_m, normal (S, 3).
+
+        dimming: {luminaire: 0..1}; the others are off. Of a Result, the meter is that of the session.
+        """
 
 class Result(_Fitted):
     """Result of a fit. Lists of dicts have the keys of result.json; arrays are in the order of those lists, NaN where undetermined."""

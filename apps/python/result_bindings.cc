@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "apps/commands/commands.h"
 #include "apps/export/fit_uncertainty.h"
+#include "apps/export/fitted_room.h"
 #include "apps/python/arrays.h"
 #include "apps/python/bindings.h"
 #include "apps/session/earlier_result.h"
@@ -25,6 +27,7 @@ using nlohmann::json;
 struct Result {
   json whole;
   FitUncertainty fit;
+  std::string out;  // folder
 
   const json& List(const std::string& key) const {
     static const json kNone = json::array();
@@ -35,7 +38,7 @@ struct Result {
 
 Result ReadResultOf(const std::filesystem::path& given) {
   const std::filesystem::path path = ResultFileOf(given.string()), out = path.parent_path();
-  Result result{ReadResult(path.string()), {}};
+  Result result{ReadResult(path.string()), {}, out.string()};
   if (std::filesystem::exists(out / "stages" / "fit.json")) result.fit = ReadFitUncertainty(out.string());
   return result;
 }
@@ -69,6 +72,15 @@ std::vector<std::string> Names(const json& list, const std::string& key) {
   names.reserve(list.size());
   for (const json& entry : list) names.push_back(entry.value(key, ""));
   return names;
+}
+
+Eigen::VectorXd LightOfResult(const Result& result, const RowMajorXd& position_m, const RowMajorXd& normal,
+                              const std::map<std::string, double>& dimming) {
+  std::vector<Sensor> places = SensorsFrom(position_m, normal);
+  const py::gil_scoped_release release;
+  const FittedRoom fitted = ReadFittedRoom(result.out);
+  for (Sensor& place : places) place.response = fitted.session.luxmeter.response;
+  return fitted.light->LightAt(places).Under(DimmingFrom(fitted.luminaires, dimming));
 }
 
 RowMajorXd CovarianceOf(const Result& result, const std::vector<std::string>& names) {
@@ -148,6 +160,10 @@ void AddParameters(ResultClass& result) {
       .def_property_readonly(
           "covariance", [](const Result& r) { return RowMajorXd(r.fit.covariance); },
           "(p, p) of the parameters; empty where there is none.")
+      .def("illuminance", &LightOfResult, py::arg("position_m"), py::arg("normal"), py::arg("dimming"),
+           "(S,): illuminance in lx at places, as predicted_lx: with bodies and colours, by the session's "
+           "meter. "
+           "position_m, normal (S, 3). dimming: {luminaire: 0 to 1}; the others are off.")
       .def("covariance_of", &CovarianceOf, py::arg("names"), "Covariance of these parameters alone.")
       .def(
           "position_covariance_m2",

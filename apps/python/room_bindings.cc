@@ -16,7 +16,7 @@
 #include "forward/factors/form_factors.h"
 #include "forward/light/room.h"
 #include "forward/room/scene.h"
-#include "inverse/model/fit_uncertainty.h"
+#include "inverse/model/fitted_light.h"
 
 namespace luxfit {
 namespace {
@@ -77,10 +77,10 @@ py::dict SensorLight(const MeshRoom& room, const std::vector<Luminaire>& luminai
                      const RowMajorXd& position_m, const RowMajorXd& normal, const Albedo& given) {
   const std::vector<Sensor> sensors = SensorsFrom(position_m, normal);
   const Eigen::VectorXd albedo = AlbedoOf(room, given);
-  PredictedPlaces light;
+  PlaceLight light;
   {
     const py::gil_scoped_release release;
-    light = PredictPlaces(room, luminaires, albedo, sensors, {});
+    light = FittedLight(room, {luminaires, albedo}).LightAt(sensors);
   }
   py::dict result;
   result["illuminance_lx"] = light.total_lx;
@@ -137,7 +137,8 @@ void BindRoom(py::module_& module) {
           "Root mean square of 1 - row sum before it is enforced.")
       .def("illuminance", &SensorLight, py::arg("luminaires"), py::arg("position_m"), py::arg("normal"),
            py::arg("albedo"),
-           "Illuminance in lx at sensors: dict of illuminance_lx and direct_lx (S, K), by luminaire at its "
+           "Illuminance in lx at sensors, without bodies of luminaires (of a fit: RoomFit.illuminance): dict "
+           "of illuminance_lx and direct_lx (S, K), by luminaire at its "
            "flux; "
            "light adds, so E(dimming) = illuminance_lx @ dimming. position_m, normal (S, 3); albedo: a "
            "reflectance "

@@ -30,7 +30,7 @@ struct ReportPlane {
   int refined = 1;
   PlaneGrid fine_grid;
   std::vector<GridPointKind> fine_kinds;
-  Eigen::MatrixXd fine_lx;  // points x luminaires
+  PlaceLight fine;
 };
 
 // Holds a wall, a ceiling, or the cylindrical illuminance over an area.
@@ -52,7 +52,8 @@ struct ReportPlaces {
   std::vector<ReportPlane> planes;
   std::vector<ReportSurface> surfaces;
   std::vector<ReportObserver> observers;
-  PredictedPlaces light;
+  PlaceLight light;
+  std::vector<Eigen::VectorXd> state_lx;  // by state of the session
   double relative_model_error = 0;
   std::vector<std::string> undetermined;  // parameters of the fit
 };
@@ -83,10 +84,12 @@ void LightFinePoints(const FittedRoom& fitted, std::vector<ReportPlane>& planes)
       sensors.push_back({point, plane.fine_grid.normal, {}});
   }
   if (sensors.empty()) return;
-  const Eigen::MatrixXd total_lx = LightAt(fitted, sensors, kRays).total_lx;
+  const PlaceLight light = fitted.light->LightAt(sensors, {}, kRays);
   Eigen::Index first = 0;
   for (ReportPlane& plane : planes) {
-    plane.fine_lx = total_lx.middleRows(first, plane.fine_grid.points.cols());
+    plane.fine.total_lx = light.total_lx.middleRows(first, plane.fine_grid.points.cols());
+    if (light.body_response.size() > 0)
+      plane.fine.body_response = light.body_response.middleRows(first, plane.fine_grid.points.cols());
     first += plane.fine_grid.points.cols();
   }
 }
@@ -211,16 +214,18 @@ ReportPlaces PlacesOf(const FittedRoom& fitted, const FitUncertainty& fit, const
   }
   places.relative_model_error = fit.relative_model_sigma;
   places.undetermined = NamesOf(fit.Undetermined());
-  places.light = PredictPlaces(fitted.room, fitted.luminaires, fitted.albedo, sensors,
-                               fit.covariance.size() > 0 ? ParameterCovariance{fit.parameters, fit.covariance}
-                                                         : ParameterCovariance{});
+  places.light = fitted.light->LightAt(sensors, fit.covariance.size() > 0
+                                                    ? ParameterCovariance{fit.parameters, fit.covariance}
+                                                    : ParameterCovariance{});
+  for (const SessionState& state : fitted.session.states)
+    places.state_lx.push_back(places.light.Under(DimmingOf(fitted, state.id)));
   // Sigmas would be too small where a parameter is not known at all.
   if (!places.undetermined.empty()) places.light.factor.resize(0, 0);
   return places;
 }
 
 // Returns the factor of the covariance for places from `first` on, under dimming.
-Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd& dimming, Eigen::Index first,
+Eigen::MatrixXd FactorUnder(const PlaceLight& light, const Eigen::VectorXd& dimming, Eigen::Index first,
                             Eigen::Index count) {
   if (light.factor.size() == 0) return {};
   const Eigen::Index lamps = dimming.size();
@@ -231,37 +236,39 @@ Eigen::MatrixXd FactorUnder(const PredictedPlaces& light, const Eigen::VectorXd&
 }
 
 PlaneStatistics StatisticsUnder(const ReportPlaces& places, const ReportPlane& plane,
-                                const Eigen::VectorXd& dimming) {
+                                const Eigen::VectorXd& light_lx, const Eigen::VectorXd& dimming) {
   const Eigen::Index count = plane.grid.points.cols();
   std::vector<bool> counts;
   counts.reserve(plane.kinds.size());
   for (const GridPointKind kind : plane.kinds) counts.push_back(kind == GridPointKind::kCounts);
-  return StatisticsOf(places.light.total_lx.middleRows(plane.first_place, count) * dimming, counts,
+  return StatisticsOf(light_lx.segment(plane.first_place, count), counts,
                       FactorUnder(places.light, dimming, plane.first_place, count),
                       places.relative_model_error);
 }
 
 // Returns the glare rating. It is NaN where it is undefined: no background light, or a luminaire that is on
 // without a known luminous area.
-double GlareUnder(const ReportPlaces& places, const ReportObserver& observer,
+double GlareUnder(const ReportPlaces& places, const ReportObserver& observer, const Eigen::VectorXd& light_lx,
                   const Eigen::VectorXd& dimming) {
   constexpr double kNotDefined = std::numeric_limits<double>::quiet_NaN();
   if (observer.is_inside) return kNotDefined;
-  double sum = 0, indirect_lx = 0;
+  double sum = 0;
   for (Eigen::Index k = 0; k < dimming.size(); ++k) {
     const GlareSource& source = observer.sources[static_cast<size_t>(k)];
     if (dimming[k] > 0 && !source.is_defined) return kNotDefined;
     sum += dimming[k] * dimming[k] * source.sum;
-    indirect_lx +=
-        dimming[k] * (places.light.total_lx(observer.place, k) - places.light.direct_lx(observer.place, k));
   }
+  const double indirect_lx =
+      light_lx[observer.place] - places.light.direct_lx.row(observer.place).dot(dimming);
   return indirect_lx > 0 ? UnifiedGlareRating(sum, indirect_lx / M_PI) : kNotDefined;
 }
 
 // Encodes the light of `count` places from `first` on; the rows of a place are its luminaires.
-json LightJson(const PredictedPlaces& light, Eigen::Index first, Eigen::Index count) {
+json LightJson(const PlaceLight& light, Eigen::Index first, Eigen::Index count) {
   const Eigen::Index lamps = light.total_lx.cols();
   json block = {{"total", Base64Floats(light.total_lx.middleRows(first, count))}};
+  if (light.body_response.size() > 0)
+    block["body"] = Base64Floats(light.body_response.middleRows(first, count));
   block["modes"] = light.factor.cols();
   if (light.factor.size() > 0)
     block["factor"] = Base64Floats(light.factor.middleRows(first * lamps, count * lamps));
@@ -300,9 +307,10 @@ json PlaneJson(const FittedRoom& fitted, const ReportPlaces& places, const Repor
                 {"light", LightJson(places.light, plane.first_place, plane.grid.points.cols())},
                 {"statistics", json::array()}};
   entry["kinds"] = KindsJson(plane.kinds);
-  for (const SessionState& state : fitted.session.states)
-    entry["statistics"].push_back(StatisticsJson(StatisticsUnder(places, plane, DimmingOf(fitted, state.id)),
-                                                 places.light.factor.size() > 0));
+  for (size_t s = 0; s < places.state_lx.size(); ++s)
+    entry["statistics"].push_back(StatisticsJson(
+        StatisticsUnder(places, plane, places.state_lx[s], DimmingOf(fitted, fitted.session.states[s].id)),
+        places.light.factor.size() > 0));
   return entry;
 }
 
@@ -323,9 +331,11 @@ json ObserverJson(const FittedRoom& fitted, const ReportPlaces& places, const Re
                                 {"solid_angle_sr", source.solid_angle_sr},
                                 {"luminance_cd_m2", source.luminance_cd_m2},
                                 {"least_index", source.least_index}});
-  for (const SessionState& state : fitted.session.states) {
-    entry["rating"].push_back(NumberOrNull(GlareUnder(places, observer, DimmingOf(fitted, state.id))));
-  }
+  if (places.light.body_response.size() > 0)
+    entry["body"] = VectorJson(places.light.body_response.row(observer.place).transpose());
+  for (size_t s = 0; s < places.state_lx.size(); ++s)
+    entry["rating"].push_back(NumberOrNull(
+        GlareUnder(places, observer, places.state_lx[s], DimmingOf(fitted, fitted.session.states[s].id))));
   return entry;
 }
 
@@ -341,6 +351,8 @@ json ReportPlacesJson(const FittedRoom& fitted, const FitUncertainty& fit, const
         {{"position_m", VectorJson(sensor.position)}, {"normal", VectorJson(sensor.normal)}});
   page["point_of_reading"] = places.readings.sensor_of_reading;
   page["point_light"] = LightJson(places.light, 0, count);
+  if (places.light.body_incident.size() > 0)
+    page["body_incident_lx"] = MatrixJson(places.light.body_incident);
   page["relative_model_error"] = places.relative_model_error;
   page["undetermined"] = places.undetermined;
   page["left_out"] = NamesOf(places.light.left_out);
@@ -348,7 +360,7 @@ json ReportPlacesJson(const FittedRoom& fitted, const FitUncertainty& fit, const
     json entry = PlaneJson(fitted, places, plane);
     entry["fine"] = {{"refined", plane.refined},
                      {"kinds", KindsJson(plane.fine_kinds)},
-                     {"total", Base64Floats(plane.fine_lx)}};
+                     {"light", LightJson(plane.fine, 0, plane.fine.total_lx.rows())}};
     page["planes"].push_back(entry);
   }
   page["surfaces"] = json::array();

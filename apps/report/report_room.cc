@@ -59,6 +59,20 @@ std::vector<uint16_t> DirectShares(const Eigen::MatrixXd& direct, const Eigen::M
   return shares;
 }
 
+// Adds what cells get of the light on the surface behind each body: shares of the body's largest, which is added, too.
+void AddBodies(const Eigen::MatrixXd& response, json& room) {
+  std::vector<uint16_t> shares;
+  shares.reserve(static_cast<size_t>(response.size()));
+  room["body_largest"] = VectorJson(response.colwise().maxCoeff().transpose());
+  for (const auto& of_body : response.colwise()) {
+    const double largest = of_body.maxCoeff();
+    for (const double value : of_body)
+      shares.push_back(
+          static_cast<uint16_t>(largest > 0 ? std::lround(65535 * std::max(value, 0.0) / largest) : 0));
+  }
+  room["body"] = Base64Shorts(shares);
+}
+
 // Returns luminous intensity (cd) over gamma in the half planes at C and C + 180 degrees.
 json PlaneCurve(const Luminaire& luminaire, double c_rad) {
   const LuminaireAxes axes = AxesOf(luminaire);
@@ -95,14 +109,18 @@ json ReportRoomJson(const FittedRoom& fitted) {
   const Patches& patches = fitted.room.patches;
   if (patches.elements.empty()) return nullptr;
   const DisplayCells display = MergeForDisplay(patches, kMaxDisplayCells);
-  const Eigen::MatrixXd total = CellMeans(patches, display, fitted.element_lx);
-  const Eigen::MatrixXd direct = CellMeans(patches, display, fitted.element_direct_lx);
+  const PlaceLight& light = fitted.light->AtElements();
+  const Eigen::MatrixXd total = CellMeans(patches, display, light.total_lx);
+  const Eigen::MatrixXd direct = CellMeans(patches, display, light.direct_lx);
   const Eigen::AlignedBox3d box = fitted.room.scene.Bounds();
-  return {{"facets", FacetsJson(fitted, display)},    {"cells", CellPlacesJson(fitted, display)},
-          {"elements", patches.elements.size()},      {"merged", display.merged},
-          {"total", Base64Floats(total.transpose())}, {"direct", Base64Shorts(DirectShares(direct, total))},
-          {"materials", fitted.room.scene.materials}, {"albedo", VectorJson(fitted.albedo)},
-          {"min_m", VectorJson(box.min())},           {"max_m", VectorJson(box.max())}};
+  json room = {
+      {"facets", FacetsJson(fitted, display)},    {"cells", CellPlacesJson(fitted, display)},
+      {"elements", patches.elements.size()},      {"merged", display.merged},
+      {"total", Base64Floats(total.transpose())}, {"direct", Base64Shorts(DirectShares(direct, total))},
+      {"materials", fitted.room.scene.materials}, {"albedo", VectorJson(fitted.albedo)},
+      {"min_m", VectorJson(box.min())},           {"max_m", VectorJson(box.max())}};
+  if (light.body_response.size() > 0) AddBodies(CellMeans(patches, display, light.body_response), room);
+  return room;
 }
 
 json ReportLuminairesJson(const FittedRoom& fitted, const FitUncertainty& fit) {

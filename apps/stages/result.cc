@@ -63,6 +63,8 @@ json MaterialsJson(const Session& session, const Room& room, const RoomFit& fit)
     material["by_indirect_light"] = static_cast<bool>(by_indirect_light[m]);
     // Unseen materials are listed too, since they also reflect light.
     material["albedo_in_model"] = fit.fit.state.albedo[static_cast<Eigen::Index>(m)];
+    if (fit.fit.state.tint.size() > 0)
+      material["tint_in_model"] = Vector(fit.fit.state.tint.col(static_cast<Eigen::Index>(m)));
     materials.push_back(material);
   }
   return materials;

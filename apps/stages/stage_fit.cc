@@ -41,6 +41,8 @@ void WriteArtifact(const RoomFit& room_fit, const RunContext& context) {
   artifact["covariance"] = nlohmann::json::array();
   for (const auto row : fit.covariance.rowwise())
     artifact["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
+  if (fit.patch_factor.size() > 0)
+    artifact["patch_factor"] = std::vector<double>(fit.patch_factor.begin(), fit.patch_factor.end());
   WriteJson(context.out + "/stages/fit.json", artifact);
 }
 

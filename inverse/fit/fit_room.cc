@@ -31,6 +31,7 @@
 #include "inverse/fit/internal/name_in_order.h"
 #include "inverse/fit/internal/odd_luminaires.h"
 #include "inverse/fit/internal/outlines.h"
+#include "inverse/fit/internal/predict_readings.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
 #include "inverse/fit/internal/surface_texture.h"
@@ -71,7 +72,7 @@ class RoomFitter {
     result_.types = CompareTypeFluxes(fit);
     WarnOfDeviatingFluxes(fit.state, result_.types, result_.findings);
     WarnOfOddLuminaires(fit.state, FindOddLuminaires(fit, result_.data), result_.findings);
-    result_.fit = std::move(fit);
+    result_.fit = WithPredictedReadings(room_, result_.data, std::move(fit));
     WarnOfMisfit(room_, result_, result_.findings);
     WarnOfIndirectAlbedo(room_, result_, result_.findings);
     RecordOutcome(given_, result_, result_.findings);

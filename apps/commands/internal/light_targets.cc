@@ -21,6 +21,12 @@ IlluminancePlane PlaneOf(const FittedRoom& fitted, const TargetArea& area) {
   return *plane;
 }
 
+// Returns the columns of light by which levels are planned: the bodies of all luminaires hang there.
+Eigen::MatrixXd LightWithAllOn(const FittedRoom& fitted, const std::vector<Sensor>& sensors) {
+  const auto count = static_cast<Eigen::Index>(fitted.luminaires.size());
+  return fitted.light->LightAt(sensors).While(Eigen::VectorXd::Ones(count));
+}
+
 // Returns the light at the points of an area that count, points x luminaires.
 Eigen::MatrixXd LightOver(const FittedRoom& fitted, const TargetArea& area) {
   const PlaneGrid grid = GridOf(PlaneOf(fitted, area));
@@ -34,7 +40,7 @@ Eigen::MatrixXd LightOver(const FittedRoom& fitted, const TargetArea& area) {
   if (sensors.empty())
     throw std::runtime_error("targets: area " + Quoted(area.id) +
                              ": expected points in free air over the floor, found none; move it");
-  return LightAt(fitted, sensors).total_lx;
+  return LightWithAllOn(fitted, sensors);
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ RoomTargets TargetsOf(const FittedRoom& fitted, const std::vector<DesignPoint>& 
   std::vector<Sensor> sensors;
   sensors.reserve(points.size());
   for (const DesignPoint& point : points) sensors.push_back(point.sensor);
-  const Eigen::MatrixXd at_points = sensors.empty() ? Eigen::MatrixXd() : LightAt(fitted, sensors).total_lx;
+  const Eigen::MatrixXd at_points = sensors.empty() ? Eigen::MatrixXd() : LightWithAllOn(fitted, sensors);
   for (size_t i = 0; i < points.size(); ++i) {
     targets.requirements.push_back({{fmt::format("E at {}", points[i].id),
                                      at_points.row(static_cast<Eigen::Index>(i)), points[i].illuminance_lx},

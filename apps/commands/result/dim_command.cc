@@ -156,8 +156,8 @@ int DimCommand(const DimCommandOptions& options) {
   std::vector<Sensor> sensors;
   sensors.reserve(gazes.size());
   for (const Gaze& gaze : gazes) sensors.push_back({gaze.eye_m, gaze.direction});
-  const PlaceLight light = LightAt(fitted, sensors);
-  EyeLight eyes{light.total_lx, {}};
+  const PlaceLight light = fitted.light->LightAt(sensors);
+  EyeLight eyes{light.While(now), {}};
   eyes.in_view.resize(light.total_lx.rows(), light.total_lx.cols());
   for (size_t p = 0; p < gazes.size(); ++p) {
     for (size_t k = 0; k < fitted.luminaires.size(); ++k)

@@ -38,7 +38,7 @@ struct Watched {
   Eigen::MatrixXd flux_covariance;
   double relative_model_sigma = 0;
   std::vector<Place> places;
-  Eigen::MatrixXd place_lx;  // places x luminaires
+  PlaceLight light;  // at the places
 };
 
 int ElementUnder(const Room& room, const Sensor& sensor) {
@@ -65,9 +65,7 @@ Watched Watch(const FittedRoom& fitted) {
     watched.places.push_back({fitted.session.luxmeter.readings[static_cast<size_t>(reading)].id,
                               ElementUnder(fitted.room, given.sensors[i])});
   }
-  watched.place_lx = given.sensors.empty()
-                         ? Eigen::MatrixXd(0, static_cast<Eigen::Index>(fitted.luminaires.size()))
-                         : LightAt(fitted, given.sensors).total_lx;
+  watched.light = fitted.light->LightAt(given.sensors);
   return watched;
 }
 
@@ -85,14 +83,19 @@ json DimmingJson(const FittedRoom& fitted, const CurrentDimming& current) {
   return list;
 }
 
-// Returns the light at a place over that at the middle of the element under it, because the photo shows the
-// element's mean.
-double AtPlace(const Watched& watched, const CurrentDimming& current, size_t place) {
-  if (!current.is_determined) return 1;
-  const int element = watched.places[place].element;
-  const double there = watched.place_lx.row(static_cast<Eigen::Index>(place)).dot(current.dimming);
-  const double middle = watched.fitted.element_lx.row(element).dot(current.dimming);
-  return there > 0 && middle > 0 ? there / middle : 1;
+// Returns the light at each place over that at the middle of the element under it, because the photo shows the
+// element's mean. It is 1 where nothing is known.
+Eigen::VectorXd AtPlaces(const Watched& watched, const CurrentDimming& current) {
+  Eigen::VectorXd ratio = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(watched.places.size()));
+  if (!current.is_determined) return ratio;
+  const Eigen::VectorXd there_lx = watched.light.Under(current.dimming);
+  const Eigen::VectorXd middle_lx = watched.fitted.light->AtElements().Under(current.dimming);
+  for (Eigen::Index i = 0; i < ratio.size(); ++i) {
+    const int element = watched.places[static_cast<size_t>(i)].element;
+    if (element >= 0 && there_lx[i] > 0 && middle_lx[element] > 0)
+      ratio[i] = there_lx[i] / middle_lx[element];
+  }
+  return ratio;
 }
 
 // Lists the illuminance of every place: from the element under it where the photo shows that, and from the
@@ -100,10 +103,11 @@ double AtPlace(const Watched& watched, const CurrentDimming& current, size_t pla
 json PlacesJson(const Watched& watched, const CurrentDimming& current,
                 const std::vector<ElementIlluminance>& elements) {
   json list = json::array();
+  const Eigen::VectorXd at_place = AtPlaces(watched, current);
   std::vector<PlaceIlluminance> predicted;
   if (current.is_determined)
-    predicted =
-        LightByDimming(watched.place_lx, current, watched.flux_covariance, watched.relative_model_sigma);
+    predicted = LightByDimming(watched.light.While(current.dimming), current, watched.flux_covariance,
+                               watched.relative_model_sigma);
   for (size_t i = 0; i < watched.places.size(); ++i) {
     const Place& place = watched.places[i];
     json entry = {{"id", place.id},
@@ -114,9 +118,9 @@ json PlacesJson(const Watched& watched, const CurrentDimming& current,
     const auto seen = std::find_if(elements.begin(), elements.end(),
                                    [&](const ElementIlluminance& e) { return e.element == place.element; });
     if (place.element >= 0 && seen != elements.end()) {
-      const double at_place = AtPlace(watched, current, i);
-      entry["seen_lx"] = at_place * seen->illuminance_lx;
-      entry["seen_sigma_lx"] = at_place * seen->sigma_lx;
+      const double ratio = at_place[static_cast<Eigen::Index>(i)];
+      entry["seen_lx"] = ratio * seen->illuminance_lx;
+      entry["seen_sigma_lx"] = ratio * seen->sigma_lx;
     }
     if (!predicted.empty()) {
       entry["predicted_lx"] = predicted[i].illuminance_lx;
@@ -186,7 +190,7 @@ json PhotoJson(const Watched& watched, const NewPhotos& read, const NewPhoto& ph
                     photo.photo.file, 100 * lux.saturated_share));
   const std::vector<ElementIlluminance> elements =
       ElementsOf(ObservePhoto(view.strict, image, 0, 0), fitted.room.patches, watched.scale);
-  const CurrentDimming current = EstimateDimming(fitted.element_lx, elements);
+  const CurrentDimming current = EstimateDimming(fitted.light->AtElements().total_lx, elements);
   WarnOfPhoto(fitted, name, options.state, current, context);
   const std::string path = context.out + "/maps/" + stem;
   WriteLuxMap(lux, path, name);

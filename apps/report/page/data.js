@@ -14,7 +14,7 @@ export const shorts = (text) => new Uint16Array(bytesOf(text));
 // Decodes light at places: rows (place, luminaire), and the factor of their covariance with one row for each of
 // `modes`.
 function decodeLight(light) {
-  return { total: floats(light.total), modes: light.factor ? light.modes : 0,
+  return { total: floats(light.total), body: light.body ? floats(light.body) : null, modes: light.factor ? light.modes : 0,
     factor: light.factor ? floats(light.factor) : null };
 }
 
@@ -25,7 +25,7 @@ function decodeRoom(room) {
   let cell = 0;
   room.cells.of_facet.forEach((count, facet) => { for (let i = 0; i < count; ++i) facetOf[cell++] = facet; });
   return { ...room, corners: floats(room.facets.corners), kinds, places, facetOf, count: room.cells.count,
-    total: floats(room.total), direct: shorts(room.direct) };
+    total: floats(room.total), direct: shorts(room.direct), body: room.body ? shorts(room.body) : null };
 }
 
 export function readData() {
@@ -33,6 +33,7 @@ export function readData() {
   data.room = decodeRoom(data.room);
   data.places.point_light = decodeLight(data.places.point_light);
   for (const plane of [...data.places.planes, ...data.places.surfaces]) plane.light = decodeLight(plane.light);
+  for (const plane of data.places.planes) plane.fine.light = decodeLight(plane.fine.light);
   data.unit = data.is_absolute ? 'lx' : 'rel. units';
   data.fluxUnit = data.is_absolute ? 'lm' : 'rel. units';
   data.luminanceUnit = data.is_absolute ? 'cd/m\u00b2' : 'rel. units';

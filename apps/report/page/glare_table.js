@@ -39,7 +39,7 @@ export function glareTable(data, light) {
   if (!data.is_absolute) return h('p', null, 'UGR is not determined: it needs luminances in cd/m\u00b2, and this session has no absolute scale.');
   light.onChange(() => {
     const sigma = ratingSigma(data, light.dimming);
-    const rated = observers.map((o) => ({ observer: o, ...glare(o, light.dimming) }));
+    const rated = observers.map((o) => ({ observer: o, ...glare(o, light.dimming, light.taken()) }));
     replace(body, table([
       { title: 'Observer', text: true, of: (r) => r.observer.id },
       { title: 'Eye', unit: 'm', of: (r) => vector(r.observer.eye_m, 2) },

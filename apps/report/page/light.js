@@ -1,4 +1,5 @@
-// Computes the light of any dimming: sums of the columns of single luminaires (light adds).
+// Computes the light of any dimming: sums of the columns of single luminaires, less what the bodies of those that are
+// on take from the light of the others (inverse/model/fitted_light.h).
 
 export class Light {
   constructor(data) {
@@ -29,6 +30,13 @@ export class Light {
     return this.data.states.find(same) || null;
   }
 
+  // Returns by luminaire what its body takes from the light of the others, while it is on; null where light adds.
+  taken() {
+    const incident = this.data.places.body_incident_lx;
+    if (!incident) return null;
+    return this.dimming.map((d, j) => (d > 0 ? incident[j].reduce((sum, e, k) => sum + e * this.dimming[k], 0) : 0));
+  }
+
   // Returns the illuminance of all cells of the room, and its direct part.
   cells() {
     const room = this.data.room, n = room.count;
@@ -41,18 +49,22 @@ export class Light {
         direct[c] += e * room.direct[k * n + c] / 65535;
       }
     });
+    (room.body ? this.taken() : []).forEach((t, j) => {
+      for (let c = 0; t !== 0 && c < n; ++c) total[c] -= t * room.body_largest[j] * room.body[j * n + c] / 65535;
+    });
     return { total, direct };
   }
 
   // Returns illuminance at places and, where it is known, the factor of its covariance (rows of `modes`).
   places(light) {
-    const lamps = this.dimming.length, count = light.total.length / lamps;
+    const lamps = this.dimming.length, count = light.total.length / lamps, taken = light.body ? this.taken() : null;
     const value = new Float64Array(count), factor = light.factor ? new Float64Array(count * light.modes) : null;
     for (let i = 0; i < count; ++i) {
       for (let k = 0; k < lamps; ++k) {
         const d = this.dimming[k], row = i * lamps + k;
         value[i] += d * light.total[row];
         for (let m = 0; factor && m < light.modes; ++m) factor[i * light.modes + m] += d * light.factor[row * light.modes + m];
+        if (taken) value[i] -= taken[k] * light.body[row];
       }
     }
     return { value, factor, modes: light.modes };
@@ -95,8 +107,8 @@ export function verdict(margin, sigma) {
 
 // Returns the unified glare rating of an observer (forward/views/glare.h); null, with the reason, where it is
 // undefined. Luminaires that are points are left out, since their luminous area is not known: the rating is then a
-// lower bound.
-export function glare(observer, dimming) {
+// lower bound. `taken`: Light.taken().
+export function glare(observer, dimming, taken) {
   if (observer.is_inside) return { rating: null, reason: 'the eye would be inside a solid' };
   let sum = 0, indirect = 0;
   const points = [];
@@ -104,7 +116,7 @@ export function glare(observer, dimming) {
     const source = observer.sources[k];
     if (dimming[k] > 0 && !source.is_defined) points.push(k);
     sum += dimming[k] * dimming[k] * source.sum;
-    indirect += dimming[k] * observer.indirect_lx[k];
+    indirect += dimming[k] * observer.indirect_lx[k] - (taken ? taken[k] * observer.body[k] : 0);
   }
   if (!(indirect > 0)) return { rating: null, points, reason: 'no background light' };
   const background = indirect / Math.PI;

@@ -86,7 +86,7 @@ function numbers({ data, light, planes }) {
         compare(own[a], want[b]);
     }
     for (const observer of data.places.observers) {
-      const own = glare(observer, light.dimming);
+      const own = glare(observer, light.dimming, light.taken());
       if (own.points && own.points.length === 0) compare(own.rating, observer.rating[s]);
     }
   });

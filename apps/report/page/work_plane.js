@@ -2,7 +2,6 @@
 // standard's grid, and its requirements.
 
 import { ColourScale, niceStep, rangeOf } from './colour_scale.js';
-import { floats } from './data.js';
 import { h, replace, svg } from './dom.js';
 import { digits, fixed, isNumber, plusMinus } from './format.js';
 import { isolines } from './isolux.js';
@@ -20,7 +19,7 @@ export class WorkPlane {
   constructor(data, light, plane) {
     Object.assign(this, { data, light, plane });
     this.counts = plane.kinds.map((kind) => kind === 0);
-    this.fine = { nu: plane.count_u * plane.fine.refined, nv: plane.count_v * plane.fine.refined, total: floats(plane.fine.total), kinds: plane.fine.kinds };
+    this.fine = { nu: plane.count_u * plane.fine.refined, nv: plane.count_v * plane.fine.refined, light: plane.fine.light, kinds: plane.fine.kinds };
     this.asked = { average: plane.average_lx, uniformity: plane.uniformity };
     this.picture = h('div', { class: 'plane-picture' });
     this.numbers = h('div', { class: 'plane-numbers' });
@@ -48,12 +47,9 @@ export class WorkPlane {
   }
 
   update() {
-    const places = this.light.places(this.plane.light), lamps = this.light.dimming.length, { nu, nv, total, kinds } = this.fine;
-    const values = new Float64Array(nu * nv);
-    for (let i = 0; i < values.length; ++i) {
-      for (let k = 0; k < lamps; ++k) values[i] += this.light.dimming[k] * total[i * lamps + k];
-      if (kinds[i] !== 0) values[i] = NaN;
-    }
+    const places = this.light.places(this.plane.light), { kinds } = this.fine;
+    const values = this.light.places(this.fine.light).value;
+    for (let i = 0; i < values.length; ++i) if (kinds[i] !== 0) values[i] = NaN;
     this.statistics = statistics(places, this.counts, this.data.places.relative_model_error);
     replace(this.picture, this.draw(values, places.value));
     replace(this.numbers, this.table());

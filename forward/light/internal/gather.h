@@ -9,13 +9,10 @@
 
 #include <Eigen/Core>
 
+#include "forward/light/element_albedo.h"
 #include "forward/light/room.h"
 
 namespace luxfit {
-
-// Returns the reflectance of every element, from that of materials and the factor of its patch (Transport).
-Eigen::VectorXf ElementAlbedo(const Patches& patches, const Eigen::VectorXd& albedo,
-                              const Eigen::VectorXd& patch_factor = {});
 
 // Returns receivers x columns, from the elements' indirect illuminance and exitance (elements x columns).
 Eigen::MatrixXf GatherAtReceivers(const Receivers& receivers, const Eigen::MatrixXf& element_indirect_lx,

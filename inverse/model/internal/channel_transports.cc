@@ -11,21 +11,23 @@ bool AreEqual(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 
 }  // namespace
 
+std::vector<Eigen::VectorXd> ChannelAlbedo(const Eigen::VectorXd& albedo, const Eigen::Matrix3Xd& tint) {
+  constexpr double kMostAlbedo = 0.99;
+  if (tint.size() == 0) return {albedo};
+  std::vector<Eigen::VectorXd> channels;
+  for (const auto& of_channel : tint.rowwise())
+    channels.emplace_back(albedo.cwiseProduct(of_channel.transpose()).cwiseMin(kMostAlbedo));
+  return channels;
+}
+
 ChannelTransports::ChannelTransports(const Room& room, const Room& exchange, Eigen::VectorXd albedo,
                                      Eigen::Matrix3Xd tint, Eigen::VectorXd patch_factor)
     : albedo_(std::move(albedo)),
       tint_(std::move(tint)),
       patch_factor_(std::move(patch_factor)),
       grey_(exchange.transport, albedo_) {
-  constexpr Eigen::Index kChannels = 3;
-  channels_.reserve(kChannels);
-  if (tint_.size() == 0) channels_.emplace_back(room.transport, albedo_, patch_factor_);
-  for (Eigen::Index c = 0; c < kChannels && tint_.size() > 0; ++c) {
-    constexpr double kMostAlbedo = 0.99;
-    channels_.emplace_back(room.transport,
-                           albedo_.cwiseProduct(tint_.row(c).transpose()).cwiseMin(kMostAlbedo).eval(),
-                           patch_factor_);
-  }
+  for (const Eigen::VectorXd& channel : ChannelAlbedo(albedo_, tint_))
+    channels_.emplace_back(room.transport, channel, patch_factor_);
 }
 
 bool ChannelTransports::Serve(const Eigen::VectorXd& albedo, const Eigen::Matrix3Xd& tint,

@@ -13,6 +13,9 @@
 
 namespace luxfit {
 
+// Returns the reflectances by material in each channel: three, or those given where there is no tint.
+std::vector<Eigen::VectorXd> ChannelAlbedo(const Eigen::VectorXd& albedo, const Eigen::Matrix3Xd& tint);
+
 class ChannelTransports {
  public:
   // `exchange`: whose patches exchange grey light: `room`, or its clusters. `albedo`: by material; `tint`: by material,

@@ -84,6 +84,9 @@ class LightModel {
   // surfaces, in the rows' units. Bodies and colours do not count. Not for sparse rooms.
   RowMajorMatrix LightReflectedBy(const LightState& state, const std::vector<CoveredSurface>& surfaces) const;
 
+  // The places of all rows; a place of several rows is there once. -1: the row receives no light.
+  const Receivers& receivers() const { return receivers_; }
+  int ReceiverOf(int row) const { return rows_[static_cast<size_t>(row)].receiver; }
   int row_count() const { return static_cast<int>(rows_.size()); }
   const std::vector<std::unique_ptr<RowBlock>>& blocks() const { return blocks_; }
   // The block of a row, and the row's place in it.

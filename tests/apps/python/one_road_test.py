@@ -50,6 +50,19 @@ class OneRoad(unittest.TestCase):
         cls.found = luxfit.fit_room(**cls.given)
         with tempfile.TemporaryDirectory() as out:
             cls.run_of_session = luxfit.fit(OFFICE / "session.toml", out)
+            cls.places = [[reading[key] for reading in cls.given["readings"]] for key in ("position_m", "normal")]
+            cls.light_of_run = cls.light_by_state(cls.run_of_session)
+
+    @classmethod
+    def light_by_state(cls, fit):
+        return {state: fit.illuminance(*cls.places, dimming) for state, dimming in cls.given["states"].items()}
+
+    def test_light_at_the_readings_places_is_what_was_predicted_there(self):
+        states = [reading["state"] for reading in self.given["readings"]]
+        for fit, light in (self.found, self.light_by_state(self.found)), (self.run_of_session, self.light_of_run):
+            np.testing.assert_allclose([light[s][i] for i, s in enumerate(states)], fit.predicted_lx, rtol=1e-6)
+        with self.assertRaisesRegex(luxfit.InputError, "dimming"):
+            self.found.illuminance(*self.places, {"Z": 1})
 
     def expect_one_light(self, found, run):
         self.assertEqual(found.luminaire_ids, run.luminaire_ids)

@@ -7,6 +7,7 @@
 
 #include "forward/light/covered_surfaces.h"
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/model/fitted_light.h"
 #include "inverse/model/internal/light_model.h"
 #include "tests/support/forward/cut_ceiling.h"
 
@@ -79,6 +80,32 @@ class RoomWithPanel : public testing::Test {
   LightData data_;
   LightState state_;
 };
+
+// A fitted room's light is that of the fit's own rows, whichever bodies there are. Rows hold what bodies hide relative to the
+// light without them, in single precision.
+TEST_F(RoomWithPanel, FittedLightIsThatOfTheRows) {
+  constexpr double kRounding = 2e-6;
+  for (const BodyPresence bodies : {BodyPresence::kNone, BodyPresence::kWhenOn, BodyPresence::kAlways}) {
+    const Eigen::VectorXd rows = Predict(bodies).value;
+    const FittedLight light(room_, {state_.luminaires, state_.albedo, bodies});
+    const PlaceLight place = light.LightAt({data_.readings[0].sensor});
+    for (const Reading& reading : data_.readings) {
+      const Eigen::VectorXd& dimming = data_.dimming[static_cast<size_t>(reading.state)];
+      const double row_lx = rows[rows.size() - 3 + reading.state];
+      EXPECT_NEAR(place.Under(dimming)[0], row_lx, kRounding * row_lx) << ToString(bodies) << reading.state;
+      EXPECT_NEAR((place.While(dimming) * dimming)[0], row_lx, kRounding * row_lx);
+    }
+    for (size_t i = 0; i < data_.observations.size(); ++i) {
+      const Observation& o = data_.observations[i];
+      const double gain =
+          state_.camera_scale * state_.albedo[room_.patches.PatchOf(o.element).material] / M_PI;
+      const double element_lx =
+          light.AtElements().Under(data_.dimming[static_cast<size_t>(o.state)])[o.element];
+      const double row = rows[static_cast<Eigen::Index>(i)];
+      ASSERT_NEAR(gain * element_lx, row, kRounding * row) << ToString(bodies) << i;
+    }
+  }
+}
 
 // A room whose part behind the panel reflects as a body does, by the model without bodies, loses the same light
 // but for the share that passes beside the body. The limits are those of the derivative below, which departs for the

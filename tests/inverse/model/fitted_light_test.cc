@@ -1,4 +1,4 @@
-#include "inverse/model/fit_uncertainty.h"
+#include "inverse/model/fitted_light.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +30,9 @@ struct Office {
     luminaires.push_back(lamp);
   }
 
+  PlaceLight Predicted(const ParameterCovariance& known) const {
+    return FittedLight(room, {luminaires, albedo}).LightAt(places, known);
+  }
   // Light at the places as the forward model has it, lx, places x luminaires.
   Eigen::MatrixXd Light(const std::vector<Luminaire>& lamps, const Eigen::VectorXd& rho) const {
     const Receivers receivers = MakeReceivers(room, {}, places);
@@ -51,22 +54,19 @@ const ParameterId kExponentOfB{ParameterKind::kLuminaire, "B", LuminaireQuantity
 const ParameterId kWall{ParameterKind::kAlbedo, "wall"};
 const ParameterId kNodeOfZ{ParameterKind::kLuminaire, "Z", LuminaireQuantity::kGammaNode, 3};
 
-TEST(PredictedPlaces, ColumnsAreThoseOfTheForwardModel) {
+TEST(FittedLight, ColumnsAreThoseOfTheForwardModel) {
   const Office office;
-  const PredictedPlaces predicted =
-      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({kFluxOfA}, Eigen::VectorXd::Constant(1, 0.02)));
+  const PlaceLight predicted = office.Predicted(Diagonal({kFluxOfA}, Eigen::VectorXd::Constant(1, 0.02)));
   const Eigen::MatrixXd light = office.Light(office.luminaires, office.albedo);
   EXPECT_LT((predicted.total_lx - light).cwiseAbs().maxCoeff(), 1e-4 * light.maxCoeff());
   EXPECT_TRUE((predicted.direct_lx.array() < predicted.total_lx.array()).all());
 }
 
 // A flux known to 2 % makes its column uncertain by 2 %, and no other.
-TEST(PredictedPlaces, AFluxMovesItsOwnColumn) {
+TEST(FittedLight, AFluxMovesItsOwnColumn) {
   const Office office;
-  const PredictedPlaces predicted =
-      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({kFluxOfA, {ParameterKind::kLogCameraScale, ""}}, Eigen::Vector2d(0.02, 0.5)));
+  const PlaceLight predicted = office.Predicted(
+      Diagonal({kFluxOfA, {ParameterKind::kLogCameraScale, ""}}, Eigen::Vector2d(0.02, 0.5)));
   for (Eigen::Index i = 0; i < 2; ++i) {
     EXPECT_NEAR(predicted.factor.row(2 * i).norm(), 0.02 * predicted.total_lx(i, 0), 1e-9);
     EXPECT_NEAR(predicted.factor.row(2 * i + 1).norm(), 0, 1e-9);
@@ -75,7 +75,7 @@ TEST(PredictedPlaces, AFluxMovesItsOwnColumn) {
 }
 
 // The factor against finite differences of the forward model: albedo, position, exponent, each by itself.
-TEST(PredictedPlaces, SigmasAreThoseOfFiniteDifferences) {
+TEST(FittedLight, SigmasAreThoseOfFiniteDifferences) {
   const Office office;
   const auto moved = [&](const ParameterId& id, double by) {
     std::vector<Luminaire> lamps = office.luminaires;
@@ -87,9 +87,7 @@ TEST(PredictedPlaces, SigmasAreThoseOfFiniteDifferences) {
   };
   for (const auto& [id, sigma] :
        {std::pair<ParameterId, double>(kHeightOfB, 0.02), {kExponentOfB, 0.05}, {kWall, 0.01}}) {
-    const PredictedPlaces predicted =
-        PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                      Diagonal({id}, Eigen::VectorXd::Constant(1, sigma)));
+    const PlaceLight predicted = office.Predicted(Diagonal({id}, Eigen::VectorXd::Constant(1, sigma)));
     const Eigen::MatrixXd difference = 0.5 * (moved(id, sigma) - moved(id, -sigma));
     for (Eigen::Index i = 0; i < 2; ++i) {
       for (Eigen::Index k = 0; k < 2; ++k) {
@@ -101,20 +99,16 @@ TEST(PredictedPlaces, SigmasAreThoseOfFiniteDifferences) {
   }
 }
 
-TEST(PredictedPlaces, UnknownParametersAreNamed) {
+TEST(FittedLight, UnknownParametersAreNamed) {
   const Office office;
-  const PredictedPlaces predicted =
-      PredictPlaces(office.room, office.luminaires, office.albedo, office.places,
-                    Diagonal({kFluxOfA, kNodeOfZ}, Eigen::Vector2d(0.02, 1)));
+  const PlaceLight predicted = office.Predicted(Diagonal({kFluxOfA, kNodeOfZ}, Eigen::Vector2d(0.02, 1)));
   EXPECT_EQ(predicted.left_out, std::vector<ParameterId>{kNodeOfZ});
-  EXPECT_THROW(PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {{kFluxOfA}, {}}),
-               std::invalid_argument);
+  EXPECT_THROW(office.Predicted({{kFluxOfA}, {}}), std::invalid_argument);
 }
 
-TEST(PredictedPlaces, WithoutACovarianceThereIsLightAlone) {
+TEST(FittedLight, WithoutACovarianceThereIsLightAlone) {
   const Office office;
-  const PredictedPlaces predicted =
-      PredictPlaces(office.room, office.luminaires, office.albedo, office.places, {});
+  const PlaceLight predicted = office.Predicted({});
   EXPECT_EQ(predicted.factor.size(), 0);
   EXPECT_GT(predicted.total_lx.minCoeff(), 0);
 }
