@@ -68,8 +68,8 @@ class TakenRows {
   using Cluster = std::pair<int, int>;  // patch and state
 
   bool IsTaken(const PhotoRow& row) const { return taken_.count({row.element, row.state}) > 0; }
-  // Returns what the shared error takes away of a cluster's information, for sums over its rows.
-  Eigen::MatrixXd SharedPart(double count, const Eigen::VectorXd& sum) const;
+  // Returns the root x of what the shared error takes away of a cluster's information, x x^T, for sums over its rows.
+  Eigen::VectorXd SharedPart(double count, const Eigen::VectorXd& sum) const;
 
   PhotoSigmas sigmas_;
   double rows_per_element_;

@@ -143,5 +143,18 @@ TEST(Information, SizesThatDoNotFitAreRefused) {
   EXPECT_THROW(TakenRows(kSigmas, 1).InformationOf(uneven), std::invalid_argument);
 }
 
+// As many rows and parameters as Eigen multiplies in blocks, which it cannot of nothing.
+TEST(TakenRows, APhotoOfWhatWasTakenAddsNothing) {
+  TakenRows taken({0.01, 0.01, 0.01}, 1);
+  std::vector<PhotoRow> photo(200);
+  for (int i = 0; i < 200; ++i) {
+    photo[static_cast<size_t>(i)].element = i;
+    photo[static_cast<size_t>(i)].derivative = Eigen::VectorXd::Constant(150, 1);
+  }
+  EXPECT_FALSE(taken.InformationOf(photo).isZero());
+  taken.Add(photo);
+  EXPECT_TRUE(taken.InformationOf(photo).isZero());
+}
+
 }  // namespace
 }  // namespace luxfit
