@@ -59,6 +59,8 @@ luxfit_test(apps/stages fit_stop_test SLOW LINK luxfit_apps nlohmann_json::nlohm
 add_dependencies(apps_fit_stop_test luxfit)
 luxfit_test(apps/text terminal_test LINK luxfit_apps)
 add_dependencies(apps_terminal_test luxfit)
+luxfit_test(apps/commands advise_first_test LINK nlohmann_json::nlohmann_json)
+add_dependencies(apps_advise_first_test luxfit)
 luxfit_test(apps/commands advise_test LINK nlohmann_json::nlohmann_json)
 add_dependencies(apps_advise_test luxfit)
 luxfit_test(apps/commands advise_office_test SLOW WHOLE LINK luxfit::forward nlohmann_json::nlohmann_json)

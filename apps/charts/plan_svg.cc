@@ -198,7 +198,9 @@ std::string Luminaires(const Plan& plan, const json& luminaires) {
       const double radius = size.empty() ? 0 : 0.5 * plan.scale * size[0].get<double>();
       text += SvgCircle(x, y, std::max(6.0, radius), style);
     }
-    text += SvgText(x + 8, y - 8, l["id"].get<std::string>() + ": " + FluxText(l), " font-weight=\"bold\"");
+    const std::string id = l["id"];
+    text +=
+        SvgText(x + 8, y - 8, l.contains("flux_lm") ? id + ": " + FluxText(l) : id, " font-weight=\"bold\"");
   }
   return text;
 }
@@ -281,10 +283,13 @@ std::string AdvicePlanSvg(const std::string& name, const Scene& scene, const jso
   const double height = plan.scale * plan.box.sizes().y() + 2 * kPlanMarginPx;
   std::string text = Outlines(plan, scene) + Cameras(plan, result["views"]) +
                      Luminaires(plan, result["luminaires"]) + AdvisedPlaces(plan, advice["advice"]);
-  text += SvgText(kPlanMarginPx, height + 8,
-                  fmt::format("{}: red: what to take next, by rank and state (a wedge: a photo, a dot: a "
-                              "reading). Blue: views that there are.",
-                              name));
+  const bool is_guess = advice.contains("assumed");
+  text +=
+      SvgText(kPlanMarginPx, height + 8,
+              fmt::format("{}: red: what to take {}, by rank and state (a wedge: a photo, a dot: a "
+                          "reading). {}.",
+                          name, is_guess ? "first" : "next",
+                          is_guess ? "Yellow: luminaires, given or guessed" : "Blue: views that there are"));
   return SvgDocument(kPlanWidthPx, height + kPlanLegendPx, text);
 }
 

@@ -122,23 +122,29 @@ void AddDim(CLI::App& app, Invocation& invocation) {
 
 void AddAdvise(CLI::App& app, Invocation& invocation) {
   CLI::App* const command = app.add_subcommand(
-      "advise", "which photo or reading to take next: what each would tell of fluxes and positions");
+      "advise", "which photo or reading to take first or next: what each would tell of fluxes and positions");
   const auto options = std::make_shared<AdviseCommandOptions>();
-  AddRunFolder(*command, options->out);
+  command
+      ->add_option("INPUT", options->input,
+                   "the folder of a run; or a session file, or its folder, before the first photo")
+      ->required();
   command->add_option(
       "--of", options->of,
       "what to know better: flux | position | readings | a luminaire (default: flux and position)");
   command->add_option("--only", options->only, "photos | readings (default: both)")
       ->check(CLI::IsMember({"photos", "readings"}));
-  command->add_option("--top", options->top, "how many to name, each given those before")
-      ->capture_default_str()
+  command
+      ->add_option("--top", options->top,
+                   "how many to name, each given those before (default: 5 of a run, 12 of a session)")
       ->check(CLI::Range(1, 50));
   command->add_option(
       "--photos", options->photo_table,
       "places where a camera may stand, CSV: id,x_m,y_m,z_m,dx,dy,dz[,state] (default: a grid)");
   command->add_option("--readings", options->reading_table,
                       "places of the luxmeter, CSV: id,x_m,y_m,z_m,nx,ny,nz,state (default: a grid)");
-  command->add_option("--plan", options->plan, "where to draw the plan (default: OUT/advise.svg)");
+  command->add_option("-o,--out", options->out,
+                      "folder for advise.json and advise.svg (default: that of the run; of a session, none)");
+  command->add_option("--plan", options->plan, "where to draw the plan (default: advise.svg in that folder)");
   Complete(*command, invocation, options, AdviseCommand);
   AddExample(*command, "luxfit advise out --only photos --of position --top 2",
              "worst now: position of C 32 mm\n"

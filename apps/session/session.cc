@@ -67,6 +67,7 @@ Session WithTables(const TomlCursor& root, const std::string& folder, Session se
     session.states = StatesOfLights(tables.front());
   } else if (const auto states = root.Find("states")) {
     session.states = ReadStates(*states, session.groups);
+    session.states_are_named = true;
   } else {
     session.states = {OnlyState(tables, session.luminaires)};
   }

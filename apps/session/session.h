@@ -181,7 +181,8 @@ struct Session {
   std::vector<SessionPhoto> photos;
   std::vector<SessionGroup> groups;  // in file order
   std::vector<SessionState>
-      states;  // in file order; absent in the file: one state named by the tables, all on
+      states;                     // in file order; absent in the file: one state named by the tables, all on
+  bool states_are_named = false;  // the file has [states]
   std::vector<SessionLuminaire>
       luminaires;  // [[luminaire]], completed by those that [groups] or [states] name, in that order
   bool count_is_estimated = false;  // there may be more luminaires than those, all on in the only state

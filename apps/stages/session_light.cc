@@ -23,24 +23,6 @@ KnownPhotometry PhotometryOf(const SessionLuminaire& given) {
   return given.gamma_deg.empty() ? KnownPhotometry::kTableOpen : KnownPhotometry::kTable;
 }
 
-KnownLuminaire KnownOf(const SessionLuminaire& given) {
-  KnownLuminaire known;
-  GivenLuminaire read = ReadGivenLuminaire(given);
-  known.luminaire = std::move(read.luminaire);
-  known.file = std::move(read.file);
-  known.photometry = PhotometryOf(given);
-  known.photometry_name = given.photometry;
-  known.shape_is_known = given.shape.has_value();
-  known.position_m = given.position_m;
-  known.position_sigma_m = given.position_sigma_m;
-  known.aim = given.aim;
-  known.heading = given.heading;
-  known.flux_lm = given.flux_lm;
-  known.flux_sigma_lm = given.flux_sigma_lm;
-  known.is_held = given.is_held;
-  return known;
-}
-
 Meter MeterOf(const Session& session, const std::vector<LuminaireReading>& readings) {
   const SessionLuxmeter& given = session.luxmeter;
   Meter meter;
@@ -63,7 +45,31 @@ Meter MeterOf(const Session& session, const std::vector<LuminaireReading>& readi
   return meter;
 }
 
-// Returns the luminance reflectance that the session gives, by material of the room's mesh.
+StatedVignetting VignettingOf(const SessionCamera& camera) {
+  if (camera.vignetting == "none") return StatedVignetting::kNone;
+  return camera.vignetting == "estimate" ? StatedVignetting::kEstimate : StatedVignetting::kFlatField;
+}
+
+}  // namespace
+
+KnownLuminaire KnownOf(const SessionLuminaire& given) {
+  KnownLuminaire known;
+  GivenLuminaire read = ReadGivenLuminaire(given);
+  known.luminaire = std::move(read.luminaire);
+  known.file = std::move(read.file);
+  known.photometry = PhotometryOf(given);
+  known.photometry_name = given.photometry;
+  known.shape_is_known = given.shape.has_value();
+  known.position_m = given.position_m;
+  known.position_sigma_m = given.position_sigma_m;
+  known.aim = given.aim;
+  known.heading = given.heading;
+  known.flux_lm = given.flux_lm;
+  known.flux_sigma_lm = given.flux_sigma_lm;
+  known.is_held = given.is_held;
+  return known;
+}
+
 std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room) {
   std::vector<std::optional<double>> known(room.scene.materials.size());
   for (size_t m = 0; session.scene && m < known.size(); ++m) {
@@ -73,13 +79,6 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
   }
   return known;
 }
-
-StatedVignetting VignettingOf(const SessionCamera& camera) {
-  if (camera.vignetting == "none") return StatedVignetting::kNone;
-  return camera.vignetting == "estimate" ? StatedVignetting::kEstimate : StatedVignetting::kFlatField;
-}
-
-}  // namespace
 
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   std::vector<Eigen::VectorXd> by_state;

@@ -3,6 +3,7 @@
 #define LUXFIT_APPS_STAGES_SESSION_LIGHT_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "apps/stages/stages.h"
@@ -12,6 +13,12 @@ namespace luxfit {
 
 // Returns one vector for each state, in the order of session.luminaires.
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session);
+
+// Throws as ReadGivenLuminaire does.
+KnownLuminaire KnownOf(const SessionLuminaire& given);
+
+// Returns the luminance reflectance that the session gives, by material of the room's mesh.
+std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Room& room);
 
 StateTable StateTableOf(const Session& session);
 

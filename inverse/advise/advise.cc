@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "inverse/advise/information.h"
 #include "inverse/advise/internal/asked_quantities.h"
 #include "inverse/advise/internal/candidate_information.h"
+#include "inverse/advise/internal/placed_luminaires.h"
 #include "inverse/advise/internal/prior_knowledge.h"
 
 namespace luxfit {
@@ -29,6 +33,13 @@ double GainOf(const std::vector<SigmaChange>& changes) {
   return gain;
 }
 
+// Returns how many quantities become determined.
+int NewlyDetermined(const AdviceStep& step) {
+  return static_cast<int>(std::count_if(
+      step.changes.begin(), step.changes.end(),
+      [](const SigmaChange& change) { return change.is_determined && !change.was_determined; }));
+}
+
 // Takes candidates one by one, the best first.
 class Adviser {
  public:
@@ -38,7 +49,9 @@ class Adviser {
         known_(KnowledgeOf(room, given)),
         information_(room, given, known_),
         asked_(known_, given.is_absolute, options),
-        root_(CovarianceRoot(known_.covariance)) {
+        root_(CovarianceRoot(known_.covariance)),
+        placed_(given, known_) {
+    placed_.Update(root_);
     for (size_t r = 0; r < given.predicted.size(); ++r)
       asked_.AddReading(known_, given.predicted[r].id, information_.DerivativeOfPredicted(r));
     const std::vector<double> sigmas =
@@ -78,7 +91,10 @@ class Adviser {
       change.before = now_[q].after;
       change.after = sigmas[q];
       change.was_determined = now_[q].is_determined;
-      change.is_determined = change.was_determined || IsKnownSigma(change.after);
+      const bool is_place = change.of.kind == AdviceKind::kPosition;
+      change.is_determined =
+          change.was_determined ||
+          (IsKnownSigma(change.after) && (!is_place || placed_.HasStands(change.of.owner, PhotoOf(step))));
       const double reduction = change.before > 0 ? 1 - change.after / change.before : 0;
       if (reduction > best) step.helped = change;
       best = std::max(best, reduction);
@@ -88,16 +104,44 @@ class Adviser {
     return step;
   }
 
-  // Returns nothing where no candidate helps.
+  // Returns the photo of a step; null: it is a reading.
+  const PhotoCandidate* PhotoOf(const AdviceStep& step) const {
+    return step.is_photo ? &given_.photos[step.candidate] : nullptr;
+  }
+
+  // Returns whether a luminaire without a place has its light photographed from a first or second stand.
+  bool PlacesMore(const AdviceStep& step) const {
+    const PhotoCandidate* const photo = PhotoOf(step);
+    return photo != nullptr && placed_.StandsGained(*photo) > 0 && step.gain > 0;
+  }
+
+  // What a step is ranked by, the greatest first.
+  std::tuple<int, int, double> RankOf(const AdviceStep& step) const {
+    const PhotoCandidate* const photo = PhotoOf(step);
+    return {photo == nullptr ? 0 : placed_.StandsGained(*photo), NewlyDetermined(step), step.gain};
+  }
+
+  // Returns nothing where no candidate helps. Photos that do not name luminaires are tried last.
   std::optional<AdviceStep> BestStep() const {
-    const size_t photos = given_.photos.size(), all = photos + given_.readings.size();
-    std::vector<AdviceStep> steps(all);
-    tbb::parallel_for(size_t{0}, all,
-                      [&](size_t i) { steps[i] = StepOf(i < photos, i < photos ? i : i - photos); });
+    std::vector<AdviceStep> named, unnamed;
+    for (size_t i = 0; i < given_.photos.size() + given_.readings.size(); ++i) {
+      AdviceStep step;
+      step.is_photo = i < given_.photos.size();
+      step.candidate = step.is_photo ? i : i - given_.photos.size();
+      const bool is_unnamed = step.is_photo && placed_.IsUnnamedIn(given_.photos[i].state);
+      (is_unnamed ? unnamed : named).push_back(step);
+    }
+    const std::optional<AdviceStep> best = BestOf(std::move(named));
+    return best ? best : BestOf(std::move(unnamed));
+  }
+
+  std::optional<AdviceStep> BestOf(std::vector<AdviceStep> steps) const {
+    tbb::parallel_for(size_t{0}, steps.size(),
+                      [&](size_t i) { steps[i] = StepOf(steps[i].is_photo, steps[i].candidate); });
     const AdviceStep* best = nullptr;
     for (const AdviceStep& step : steps) {
       const bool helps = step.helped.after < (1 - options_.least_gain) * step.helped.before;
-      if (helps && (best == nullptr || step.gain > best->gain)) best = &step;
+      if ((helps || PlacesMore(step)) && (best == nullptr || RankOf(step) > RankOf(*best))) best = &step;
     }
     return best == nullptr ? std::nullopt : std::optional(*best);
   }
@@ -105,6 +149,8 @@ class Adviser {
   void Accept(const AdviceStep& step) {
     root_ = CovarianceRoot(CovarianceWith(root_, InformationOf(step)));
     if (step.is_photo) information_.TakePhoto(given_.photos[step.candidate]);
+    if (step.is_photo) placed_.Take(given_.photos[step.candidate]);
+    placed_.Update(root_);
     if (!step.is_photo) information_.TakeReading(step.candidate);
     now_ = step.changes;
   }
@@ -115,6 +161,7 @@ class Adviser {
   CandidateInformation information_;
   AskedQuantities asked_;
   Eigen::MatrixXd root_;  // of the covariance as of now
+  PlacedLuminaires placed_;
   std::vector<SigmaChange> now_;
 };
 

@@ -8,8 +8,12 @@
 // by more than `least_gain`: what there is, is enough.
 //
 // A parameter that the fit did not determine counts as unknown by itself, with a sigma of a metre, of a factor e, or
-// of 0.3 (reflectance). So a candidate that determines it comes first. Without an absolute scale, fluxes in lm are
-// unknown by one common factor, which a reading tells.
+// of 0.3 (reflectance). So candidates that determine it come first: photos of luminaires of unknown place from a
+// first or second stand (internal/placed_luminaires.h), then what determines most, then what gains most. Without an
+// absolute scale, fluxes in lm are unknown by one common factor, which a reading tells.
+//
+// A photo of two luminaires whose places are unknown does not say which is which, unless they are on alike in every
+// state. It is advised only where no other candidate helps.
 //
 // Photos have errors that their rows share, outlines of luminaires and exact poses (information.h,
 // internal/photo_view.h), and tell as much less than that as the photos of the fit did. Noise of dark pixels, texture
@@ -43,6 +47,7 @@ struct AdviceGiven {
   std::vector<ReadingCandidate> readings;   // candidates
   std::vector<ReadingCandidate> predicted;  // readings whose predictions are a quantity
   double meter_common_sigma = 0;            // relative, of the meter's calibration; 0: its class is not known
+  double assumed_inflation = 1;  // of the variance by photos, where none were taken (information.h)
 };
 
 enum class AdviceKind { kFlux, kPosition, kReading };

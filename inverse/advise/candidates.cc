@@ -11,13 +11,13 @@ namespace luxfit {
 namespace {
 
 // Returns points over the room at the height of the eye, in the open.
-std::vector<Eigen::Vector3d> GridAtEyeHeight(const Room& room) {
+std::vector<Eigen::Vector3d> GridAtEyeHeight(const Room& room, double spacing_m) {
   std::vector<Eigen::Vector3d> grid;
   if (room.scene.facets.empty()) return grid;
   const Eigen::AlignedBox3d box = room.scene.Bounds();
   const Eigen::Vector3d size = box.sizes();
-  const int nx = static_cast<int>(std::ceil(size.x() / kStandSpacingM)),
-            ny = static_cast<int>(std::ceil(size.y() / kStandSpacingM));
+  const int nx = static_cast<int>(std::ceil(size.x() / spacing_m)),
+            ny = static_cast<int>(std::ceil(size.y() / spacing_m));
   for (int j = 0; j < ny; ++j) {
     for (int i = 0; i < nx; ++i) {
       const Eigen::Vector3d p(box.min().x() + (i + 0.5) * size.x() / nx,
@@ -68,10 +68,10 @@ AdviceView ViewFrom(const std::string& id, const Eigen::Vector3d& eye, const Eig
 }
 
 std::vector<AdviceView> ViewsToTake(const Room& room, const Camera& camera,
-                                    const std::vector<SurveyedTag>& tags) {
+                                    const std::vector<SurveyedTag>& tags, double spacing_m) {
   constexpr double kTiltsRad[] = {0, 0.35};
   std::vector<AdviceView> views;
-  for (const Eigen::Vector3d& eye : GridAtEyeHeight(room)) {
+  for (const Eigen::Vector3d& eye : GridAtEyeHeight(room, spacing_m)) {
     if (!HasFloorBelow(room, eye)) continue;
     for (int i = 0; i < kStandDirections; ++i) {
       const double heading = 2 * M_PI * i / kStandDirections;
@@ -88,9 +88,9 @@ std::vector<AdviceView> ViewsToTake(const Room& room, const Camera& camera,
   return views;
 }
 
-std::vector<Sensor> PlacesToRead(const Room& room) {
+std::vector<Sensor> PlacesToRead(const Room& room, double spacing_m) {
   std::vector<Sensor> places;
-  const std::vector<Eigen::Vector3d> grid = GridAtEyeHeight(room);
+  const std::vector<Eigen::Vector3d> grid = GridAtEyeHeight(room, spacing_m);
   for (const Eigen::Vector3d& eye : grid) {
     const Sensor below = SensorOn(room, eye, -Eigen::Vector3d::UnitZ());
     if (below.normal.z() > 0.9) AddNew(below, places);

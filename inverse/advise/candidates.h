@@ -1,6 +1,6 @@
 // Lists where photos and readings of a room could be taken.
 //
-// Photos: places on a grid of kStandSpacingM at kEyeHeightM over the floor, in the open, with nothing but floor below;
+// Photos: places on a grid of `spacing_m` at kEyeHeightM over the floor, in the open, with nothing but floor below;
 // kStandDirections headings, level and tilted up, in every state. Where tags place the views, a candidate shows
 // kFewestTags of at least kLeastTagSidePx.
 // Readings: on the same grid, on what lies below (floor, furniture), and on walls at kWallHeightM, in every state.
@@ -47,10 +47,10 @@ AdviceView ViewFrom(const std::string& id, const Eigen::Vector3d& eye, const Eig
 
 // `tags`: empty where the views are placed by other means.
 std::vector<AdviceView> ViewsToTake(const Room& room, const Camera& camera,
-                                    const std::vector<SurveyedTag>& tags);
+                                    const std::vector<SurveyedTag>& tags, double spacing_m = kStandSpacingM);
 
 // Returns one sensor for each place.
-std::vector<Sensor> PlacesToRead(const Room& room);
+std::vector<Sensor> PlacesToRead(const Room& room, double spacing_m = kStandSpacingM);
 
 // Returns the material that the middle of the view shows; empty where it shows nothing.
 std::string MaterialInView(const Room& room, const AdviceView& view);

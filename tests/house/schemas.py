@@ -88,6 +88,7 @@ def run_office():
     luxfit("spot", out, "v00_A:240,180", "v01_A:100,100")
     luxfit("glare", out, "v00_A", "--threshold", "5x", status=1)  # luminaires in view saturate
     luxfit("advise", out, save="advise")
+    luxfit("advise", office / "session.toml", "--top", "1", "-o", OUT / "first")
     luxfit("dim", out, "--person", "1.0,1.2,1.2,-1,0,0")
     design = "".join(f"""[[luminaire]]
 id = "{name}"

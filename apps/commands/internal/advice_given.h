@@ -1,28 +1,20 @@
 // Makes what advice on a run starts from: its fit, the photos it had, and what could be taken next.
 //
 // The states are those of the session. Readings may also be taken with each luminaire alone, in states that follow
-// them. Candidates are those of two tables, where they are given, instead of a grid over the room:
+// them.
 //
-//   id,x_m,y_m,z_m,dx,dy,dz[,state]                 places of cameras; without state: in every one
-//   id,x_m,y_m,z_m,nx,ny,nz,state[,illuminance_lx,sensor]    places of the meter, as a session has them
-//
-// Throws std::runtime_error naming file and line for places outside the room and unknown states, and where
-// OUT/stages/fit.json lacks the covariance.
+// Throws std::runtime_error where OUT/stages/fit.json lacks the covariance, and as AddCandidates does.
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_ADVICE_GIVEN_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_ADVICE_GIVEN_H_
 
 #include <string>
 #include <vector>
 
+#include "apps/commands/internal/advice_candidates.h"
 #include "apps/export/fitted_room.h"
-#include "inverse/advise/advise.h"
+#include "inverse/advise/room_guess.h"
 
 namespace luxfit {
-
-struct AdviceCandidates {
-  bool photos = true, readings = true;     // false: none of them
-  std::string photo_table, reading_table;  // paths; empty: a grid
-};
 
 // One state of AdviceGiven::dimming.
 struct AdviceState {
@@ -33,6 +25,7 @@ struct AdviceState {
 struct SessionAdvice {
   AdviceGiven given;
   std::vector<AdviceState> states;
+  std::vector<Assumption> assumed;  // of a session without a run
 };
 SessionAdvice SessionAdviceOf(const FittedRoom& fitted, const AdviceCandidates& candidates);
 

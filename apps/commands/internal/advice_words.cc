@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "apps/text/formats/json_vectors.h"
 
@@ -39,6 +41,8 @@ std::string OfWhat(const AdviceQuantity& quantity) {
 
 std::string ChangeText(const SigmaChange& change) {
   const KindWords words = WordsOf(change.of.kind);
+  if (change.of.kind == AdviceKind::kPosition && !change.is_determined)
+    return OfWhat(change.of) + " (first of two stands)";
   const auto sigma = [&](double value, bool is_determined) {
     return is_determined ? fmt::format("{:.2g}", words.per_unit * value) : "not determined";
   };
@@ -141,6 +145,8 @@ std::string NowText(const AdvicePlan& plan) {
 
 void AddAdvice(const Room& room, const SessionAdvice& advice, const AdvicePlan& plan, double least_gain,
                json& artifact) {
+  for (const Assumption& one : advice.assumed)
+    artifact["assumed"].push_back({{"what", one.what}, {"of", one.of}, {"value", one.value}});
   artifact["enough"] = plan.is_enough;
   artifact["least_gain_percent"] = 100 * least_gain;
   artifact["worst_now"] = NowText(plan);
@@ -152,7 +158,14 @@ void AddAdvice(const Room& room, const SessionAdvice& advice, const AdvicePlan& 
 }
 
 std::string AdviceText(const json& artifact) {
-  std::string text = "worst now: " + artifact["worst_now"].get<std::string>() + "\n";
+  std::string text;
+  for (const json& one : artifact.value("assumed", json::array()))
+    text += fmt::format(
+        "assumed: {}{}: {}\n", one["what"].get<std::string>(),
+        one["of"].empty() ? ""
+                          : fmt::format(" of {}", fmt::join(one["of"].get<std::vector<std::string>>(), ", ")),
+        one["value"].get<std::string>());
+  text += "worst now: " + artifact["worst_now"].get<std::string>() + "\n";
   for (const json& step : artifact["advice"])
     text += fmt::format("{}  {}\n", step["rank"].get<int>(), step["words"].get<std::string>());
   if (artifact["enough"].get<bool>())

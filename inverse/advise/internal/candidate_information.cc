@@ -65,7 +65,7 @@ CandidateInformation::CandidateInformation(const Room& room, const AdviceGiven& 
     all += OfPhoto(photo);
     TakePhoto(photo);
   }
-  inflation_ = VarianceInflation(known.covariance, all);
+  inflation_ = given.taken.empty() ? given.assumed_inflation : VarianceInflation(known.covariance, all);
 }
 
 std::vector<CandidateInformation::OutlinePart> CandidateInformation::OutlinesIn(
