@@ -9,7 +9,7 @@
 // reflectances, shapes and sizes are no parameters. The scale of the camera is one, unless it is known.
 //
 // Units: m, lm, world frame. Throws std::invalid_argument for a room without facets, for no luminaires, and for a list
-// of reflectances that is not by material. Source: own; reflectances as in CIE 117-1995, sec. 3 (standard rooms of UGR tables).
+// of reflectances that is not by material. Source: own.
 #ifndef LUXFIT_INVERSE_ADVISE_ROOM_GUESS_H_
 #define LUXFIT_INVERSE_ADVISE_ROOM_GUESS_H_
 
