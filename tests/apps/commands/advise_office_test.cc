@@ -123,11 +123,11 @@ TEST_F(AdviseOffice, TheFirstPhotosAsAdvisedFindEveryLuminaire) {
   }
   WritePlaces(unregistered);
   const support::ProgramRun run = support::RunProgram(
-      "advise '" + folder_.Path("office/session.toml") + "' --only photos --top 8 --photos '" +
-      folder_.Path("places.csv") + "' -o '" + folder_.Path("first") + "'");
+      "advise '" + office_.Session() + "' --only photos --top 8 --photos '" +
+      office_.Path("places.csv") + "' -o '" + office_.Path("first") + "'");
   ASSERT_EQ(run.status, 0) << run.output;
   std::set<Photo> photos;
-  const json first = json::parse(folder_.Read("first/advise.json"));
+  const json first = json::parse(office_.Read("first/advise.json"));
   for (const json& step : first["advice"])
     photos.emplace(step["id"].get<std::string>(), step["state"].get<std::string>());
   ASSERT_EQ(photos.size(), 8u);
