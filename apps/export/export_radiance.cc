@@ -74,6 +74,7 @@ std::string PredictionCsv(const FittedRoom& fitted, const ReadingPlaces& places)
   std::string text = CsvLine(fields);
   const PlaceLight light = fitted.light->LightAt(places.sensors);
   std::vector<Eigen::VectorXd> lux;  // by state
+  lux.reserve(states.size());
   for (const std::string& state : states) lux.push_back(light.Under(DimmingOf(fitted, state)));
   for (size_t i = 0; i < places.sensors.size(); ++i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i);

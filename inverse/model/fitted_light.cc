@@ -74,7 +74,7 @@ Eigen::MatrixXd PlaceLight::While(const Eigen::VectorXd& dimming) const {
 }
 
 Eigen::VectorXd PlaceLight::Under(const Eigen::VectorXd& dimming) const {
-  const Eigen::VectorXd light_lx = total_lx * dimming;
+  Eigen::VectorXd light_lx = total_lx * dimming;
   if (body_response.size() == 0) return light_lx;
   const Eigen::VectorXd is_on = (dimming.array() > 0).cast<double>();
   return light_lx - body_response * is_on.cwiseProduct(body_incident * dimming);

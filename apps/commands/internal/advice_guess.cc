@@ -55,7 +55,7 @@ Camera CameraOf(const Session& session, std::vector<Assumption>& assumed) {
   for (const SessionCamera& camera : session.cameras) {
     if (!camera.intrinsics.empty()) return ReadCamera(camera.intrinsics, camera.id);
   }
-  const Camera camera = GuessedCamera();
+  Camera camera = GuessedCamera();
   assumed.push_back({"camera",
                      {},
                      fmt::format("{:g} degrees wide (a phone's main lens), {} x {} px", kGuessedFieldDeg,

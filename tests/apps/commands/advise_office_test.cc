@@ -122,9 +122,9 @@ TEST_F(AdviseOffice, TheFirstPhotosAsAdvisedFindEveryLuminaire) {
     for (const char* state : {"A", "B", "C", "D", "all", "evening"}) unregistered.insert({view, state});
   }
   WritePlaces(unregistered);
-  const support::ProgramRun run = support::RunProgram(
-      "advise '" + office_.Session() + "' --only photos --top 8 --photos '" +
-      office_.Path("places.csv") + "' -o '" + office_.Path("first") + "'");
+  const support::ProgramRun run =
+      support::RunProgram("advise '" + office_.Session() + "' --only photos --top 8 --photos '" +
+                          office_.Path("places.csv") + "' -o '" + office_.Path("first") + "'");
   ASSERT_EQ(run.status, 0) << run.output;
   std::set<Photo> photos;
   const json first = json::parse(office_.Read("first/advise.json"));
