@@ -338,9 +338,7 @@ class RoomFitter {
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
     const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
-    // Each model was fitted with the others and the indirect light held. Where that light was wrong, the start is
-    // far: rows that disagree with it would lose their weight for good.
-    LuminaireFit near = FitLuminaires(room_, part, sized, Priors(), OfPart());
+    LuminaireFit near = FitFromModels(part, sized);
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
@@ -363,6 +361,17 @@ class RoomFitter {
     result_.data.observations = std::move(enough.observations);
     taken_ = std::move(enough.taken);
     return std::move(enough.fit);
+  }
+
+  // Fits from the chosen models, each of which was fitted with the others and the indirect light held. Where that light
+  // was wrong, the start is as far as a rough one: rows that disagree with it would lose their weight for good.
+  LuminaireFit FitFromModels(const LightData& part, const LightState& chosen) {
+    FitLuminairesOptions options = OfPart();
+    options.start_is_near = true;
+    LuminaireFit fit = FitLuminaires(room_, part, chosen, Priors(), options);
+    if (fit.relative_sigma <= options.initial_relative_sigma) return fit;
+    options.start_is_near = false;
+    return FitLuminaires(room_, part, chosen, Priors(), options);
   }
 
   // Merges types that the fit does not tell apart.

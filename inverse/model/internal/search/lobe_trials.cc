@@ -29,8 +29,9 @@ std::vector<Tried> Sorted(std::vector<Tried> tried) {
 std::vector<Tried> LobeTrials::BestOfBins(LobeSet set, const Eigen::MatrixXd& others, const LitPlaces& places,
                                           const AllowedPlaces& allowed) const {
   const GroupEquations::Base base = equations_.Solve(others);
-  if (set == LobeSet::kSimple) {
-    BinnedLobes simple{SimpleLobes(), std::vector<size_t>(SimpleLobes().size())};
+  if (set != LobeSet::kAimed) {
+    const std::vector<Lobe>& lobes = set == LobeSet::kSimple ? SimpleLobes() : LobesOfKnownPlaces();
+    BinnedLobes simple{lobes, std::vector<size_t>(lobes.size())};
     std::iota(simple.bin.begin(), simple.bin.end(), size_t{0});
     return BestOf([&](const LitPlace&) { return simple; }, simple.bin.size(), base, places, allowed);
   }

@@ -1,7 +1,7 @@
 // Tries lobes at places: how far a group's squares fall with one more source there.
 //
-// Two sets of lobes are tried (inverse/model/internal/search/lobes.h):
-// - simple ones, the same at every place;
+// Sets of lobes that are tried (inverse/model/internal/search/lobes.h):
+// - simple ones, the same at every place, or those of known places;
 // - aimed ones, towards the brightest places whose light is unexplained, or of the aims over the sphere whose
 //   half-peak cone contains such a place. All other aims are contradicted: the brightest place lies in a beam.
 //
@@ -21,7 +21,7 @@
 
 namespace luxfit {
 
-enum class LobeSet { kSimple, kAimed };
+enum class LobeSet { kSimple, kOfKnownPlaces, kAimed };
 
 struct Tried {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();

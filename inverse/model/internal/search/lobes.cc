@@ -39,11 +39,18 @@ std::vector<Eigen::Vector3d> DividedIcosahedron() {
 const std::vector<Lobe>& SimpleLobes() {
   using D = Distribution;
   static const std::vector<Lobe> lobes = {
-      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}},
-      {D::kCosinePower, 3, {0, 0, -1}}, {D::kCosinePower, 8, {0, 0, -1}},
-      {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
-      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},
-      {D::kCosinePower, 1, {0, -1, 0}}, {D::kCosinePower, 1, {0, 0, -1}, true}};
+      {D::kIsotropic, 1, {0, 0, -1}},   {D::kCosinePower, 1, {0, 0, -1}}, {D::kCosinePower, 3, {0, 0, -1}},
+      {D::kCosinePower, 8, {0, 0, -1}}, {D::kCosinePower, 1, {0, 0, 1}},  {D::kCosinePower, 1, {1, 0, 0}},
+      {D::kCosinePower, 1, {-1, 0, 0}}, {D::kCosinePower, 1, {0, 1, 0}},  {D::kCosinePower, 1, {0, -1, 0}}};
+  return lobes;
+}
+
+const std::vector<Lobe>& LobesOfKnownPlaces() {
+  static const std::vector<Lobe> lobes = [] {
+    std::vector<Lobe> all = SimpleLobes();
+    all.push_back({Distribution::kCosinePower, 1, {0, 0, -1}, true});
+    return all;
+  }();
   return lobes;
 }
 

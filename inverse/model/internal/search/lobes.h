@@ -1,9 +1,10 @@
 // Lists the lobes that the search for luminaires tries: widths and aims, with no luminaire's name.
 //
-// Simple lobes are isotropic, aimed along an axis of the room, or shine up and down alike, as pendants do: a lobe to one
-// side, or to all, explains their light best at another height. Aimed lobes are cosine powers of three widths, whose
-// aims cover the sphere: the 42 vertices of an icosahedron with divided edges, 32 to 36 degrees apart. The search
-// refines an aimed lobe by its neighbours: six aims around it and both next widths.
+// Simple lobes are isotropic, or aimed along an axis of the room. Where a place is known, or seen in photos, a lobe that
+// shines up and down alike is tried, too, as pendants do: a lobe to one side, or to all, explains their light best at
+// another height. Aimed lobes are cosine powers of three widths, whose aims cover the sphere: the 42 vertices of an
+// icosahedron with divided edges, 32 to 36 degrees apart. The search refines an aimed lobe by its neighbours: six aims
+// around it and both next widths.
 //
 //   I = (m + 1) cos^m(gamma) / (2 pi) cd per lm        half of the peak at cos(gamma) = 2^(-1 / m)
 //   I = |cos(gamma)| / (2 pi)                          up and down
@@ -28,6 +29,8 @@ struct Lobe {
 };
 
 const std::vector<Lobe>& SimpleLobes();
+// Returns the simple lobes and the one that shines up and down: at a place in mid-air it may imitate two luminaires.
+const std::vector<Lobe>& LobesOfKnownPlaces();
 
 // Unit vectors.
 const std::vector<Eigen::Vector3d>& AimsOverSphere();

@@ -87,7 +87,7 @@ class GroupSearch {
     tried.lobe = source.is_held ? SimpleLobes().front() : source.lobe;
     if (source.is_held) {
       const std::vector<Tried> lobes =
-          Sorted(MostlyDown(trials_.BestOfBins(lobes_, Others(sources_.size()), here)));
+          Sorted(MostlyDown(trials_.BestOfBins(AtKnownPlace(), Others(sources_.size()), here)));
       if (!lobes.empty()) tried.lobe = TurnedInPlace(lobes.front(), Others(sources_.size())).lobe;
     }
     tried.column = LobeColumns(equations_.Weighted(here.light[0]), {tried.lobe}).cast<double>();
@@ -105,7 +105,7 @@ class GroupSearch {
     const auto is_free = [&](const Eigen::Vector3d& p) {
       return std::none_of(sources_.begin(), sources_.end(), [&](const Tried& t) { return t.position == p; });
     };
-    for (Tried& at_seen : MostlyDown(trials_.BestOfBins(lobes_, rest, seen, is_free)))
+    for (Tried& at_seen : MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, seen, is_free)))
       lobes.push_back(TurnedInPlace(at_seen, rest));
     const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
     if (best == lobes.end() || !(best->cost < before)) return false;
@@ -129,8 +129,8 @@ class GroupSearch {
     for (size_t j = 0; j < sources_.size() && sources_.size() > 1; ++j) {
       if (stays(j)) continue;
       const Eigen::MatrixXd rest = Others(j);
-      const std::vector<Tried> lobes =
-          Sorted(MostlyDown(trials_.BestOfBins(lobes_, rest, Lit(room_, places_, {sources_[j].position}))));
+      const std::vector<Tried> lobes = Sorted(
+          MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, Lit(room_, places_, {sources_[j].position}))));
       if (!lobes.empty()) sources_[j] = TurnedInPlace(lobes.front(), rest);
     }
   }
@@ -173,6 +173,8 @@ class GroupSearch {
   bool stays(size_t source) const { return is_held(source) || is_seen(source); }
 
  private:
+  LobeSet AtKnownPlace() const { return lobes_ == LobeSet::kSimple ? LobeSet::kOfKnownPlaces : lobes_; }
+
   // Returns the columns of all sources but one.
   Eigen::MatrixXd Others(size_t without) const {
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(equations_.rows().size()), 0);
