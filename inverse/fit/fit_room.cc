@@ -337,8 +337,7 @@ class RoomFitter {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
     LightData part = result_.data;
     part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
-    const LightState sized = WithSeenSizes(open_, part.outlines, start, result_.findings);
-    LuminaireFit near = FitFromModels(part, sized);
+    LuminaireFit near = FitFromModels(part, WithSeenSizes(open_, part.outlines, start, result_.findings));
     if (near.status == FitStatus::kNoData) return near;
     near = WithSeenRectangles(part, std::move(near));
     near = WithoutUnexplained(part, std::move(near));
