@@ -115,7 +115,7 @@ class Adviser {
     return photo != nullptr && placed_.StandsGained(*photo) > 0 && step.gain > 0;
   }
 
-  // What a step is ranked by, the greatest first.
+  // Ranks a step, the greatest first.
   std::tuple<int, int, double> RankOf(const AdviceStep& step) const {
     const PhotoCandidate* const photo = PhotoOf(step);
     return {photo == nullptr ? 0 : placed_.StandsGained(*photo), NewlyDetermined(step), step.gain};

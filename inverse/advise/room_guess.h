@@ -4,8 +4,8 @@
 // as the floor allows. As far as nothing else is known, each is a Lambertian panel that faces down. A surface that faces
 // up reflects 0.2, one that faces down 0.7, any other 0.5 (a room's usual 70/50/20); a material has the mean of its area.
 //
-// What is guessed, and a place that is known without a sigma, is not determined (advise.h): Advise takes it as unknown by
-// a metre, a factor e, or 0.3 of reflectance. The covariance holds the sigmas that are known. Values of sigma 0 and known
+// Guessed values, and places that are known without a sigma, are not determined (advise.h): Advise takes them as unknown
+// by a metre, a factor e, or 0.3 of reflectance. The covariance holds the sigmas that are known. Values of sigma 0 and known
 // reflectances, shapes and sizes are no parameters. The scale of the camera is one, unless it is known.
 //
 // Units: m, lm, world frame. Throws std::invalid_argument for a room without facets, for no luminaires, and for a list

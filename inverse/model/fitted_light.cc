@@ -192,7 +192,7 @@ PlaceLight FittedLight::WithFactor(const std::vector<Sensor>& places,
   model.TakeOver({scene_.luminaires, kLuminairePoints, {}, visibility_.elements, nullptr});
   model.RefreezeVisibility(state, kLuminairePoints);
   Prediction predicted = model.Predict(state, known.parameters, true);
-  // What colours and bodies change is a factor of each prediction, as in the fit.
+  // Colours and bodies change each prediction by a factor, as in the fit.
   for (Eigen::Index row = 0; row < predicted.value.size(); ++row) {
     if (predicted.value[row] > 0)
       predicted.jacobian.row(row) *= light.total_lx(row / lamps, row % lamps) / predicted.value[row];
