@@ -52,8 +52,12 @@ void AddRunOptions(const Added<Options>& added) {
       ->check(CLI::PositiveNumber);
 }
 
-void AddLuminairesOption(const Added<RunCommandOptions>& added) {
+void AddFitOptions(const Added<RunCommandOptions>& added) {
   AddRunOptions(added);
+  added.command->add_flag(
+      "--apply", added.options->applies,
+      "where the data contradict the session and one explanation stands alone (states_as_if, photos_as_if, "
+      "readings_as_if, mesh_as_if), take it as right, fit again, and say so; the file stays as it is");
   AddEarlierResult(*added.command, "--luminaires", added.options->earlier_luminaires,
                    "earlier fit (folder or result.json): its luminaires count as given, such as those read "
                    "with covered walls");
@@ -63,7 +67,7 @@ void AddRun(CLI::App& app, Invocation& invocation) {
   const auto run = AddSessionCommand(
       app, invocation, "run",
       "everything: register the photos, observe, fit, check against the luxmeter, report", RunCommand);
-  AddLuminairesOption(run);
+  AddFitOptions(run);
   AddExample(*run.command, "luxfit run office/session.toml -o out",
              "session office: done\n"
              "8 views registered, reprojection RMS 0.031 px\n"
@@ -75,7 +79,7 @@ void AddRun(CLI::App& app, Invocation& invocation) {
              "checked 47 readings: mean error 1.20 lx = 0.99 % of the mean reading, largest 3.13 %");
   const auto fit = AddSessionCommand(
       app, invocation, "fit", "luminaires and reflectances by inverting the radiosity model", FitCommand);
-  AddLuminairesOption(fit);
+  AddFitOptions(fit);
   AddExample(*fit.command, "luxfit fit office/session.toml -o out",
              "session office: done\n"
              "8 views registered, reprojection RMS 0.031 px\n"

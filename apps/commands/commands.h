@@ -30,6 +30,7 @@ struct RunCommandOptions : SessionCommandOptions {
   std::string earlier_luminaires;  // path of a result.json whose luminaires count as given; empty: none
   bool prints = true;              // print the result on standard output
   double budget_s = kFitBudgetS;   // of the fit, which then ends with the best state so far
+  bool applies = false;            // correct the session by explanations that stand alone
 };
 // RunCommand runs all stages and writes OUT/report.html; FitCommand ends with OUT/result.json.
 int RunCommand(const RunCommandOptions& options);

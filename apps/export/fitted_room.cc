@@ -172,7 +172,7 @@ FittedRoom ReadFittedRoom(const std::string& out, const std::string& session_pat
 FittedPhotos ReadFittedPhotos(const std::string& out, const std::string& session_path) {
   const std::string folder = AbsoluteFolder(out), path = folder + "/result.json";
   return WithResultOf(folder, [&](const json& result) {
-    Session session = ReadSession(SessionPathOf(result, session_path, path));
+    Session session = WithCorrectionsOf(ReadSession(SessionPathOf(result, session_path, path)), result);
     ExpectSameRoom(result, session, path);
     return FittedPhotos{folder, std::move(session), RegisteredIn(result, folder),
                         result.value("camera_scale", 0.0)};

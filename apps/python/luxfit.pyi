@@ -476,10 +476,11 @@ def simulate(session: Session, *, error_percent: float = 1.0, threads: int = 0) 
 def read_result(out: _Path) -> Result:
     """Reads the result of an earlier run: its folder, or result.json in it. Raises InputError for anything else."""
 
-def fit(session: _Path, out: _Path, *, threads: int = 0, fresh: bool = False, luminaires: Optional[_Path] = None, budget_s: float = 120.0) -> Result:
+def fit(session: _Path, out: _Path, *, threads: int = 0, fresh: bool = False, luminaires: Optional[_Path] = None, budget_s: float = 120.0, apply: bool = False) -> Result:
     """Runs what `luxfit run SESSION -o OUT` runs and returns the Result; progress goes to standard error.
 
     luminaires: result.json of an earlier fit whose luminaires count as given. fresh: takes over no stage of an earlier run. threads: 0 for all.
+    apply: take explanations of mistakes in the session that stand alone, as `luxfit run --apply` does.
     budget_s: after it the fit ends with the best state so far (key "stopped" of the result), as it does at Ctrl-C.
     """
 

@@ -44,7 +44,7 @@ Result ReadResultOf(const std::filesystem::path& given) {
 }
 
 Result Fit(const std::filesystem::path& session, const std::filesystem::path& out, int threads, bool fresh,
-           const std::optional<std::filesystem::path>& luminaires, double budget_s) {
+           const std::optional<std::filesystem::path>& luminaires, double budget_s, bool apply) {
   if (!(budget_s > 0))
     throw py::value_error("fit: budget_s: expected seconds > 0, got " + std::to_string(budget_s));
   RunCommandOptions options;
@@ -54,6 +54,7 @@ Result Fit(const std::filesystem::path& session, const std::filesystem::path& ou
   options.fresh = fresh;
   options.prints = false;
   options.budget_s = budget_s;
+  options.applies = apply;
   options.command_line = "luxfit.fit(\"" + options.session + "\", \"" + options.out + "\")";
   const py::gil_scoped_release release;
   const ThreadLimit limit(threads);
@@ -191,13 +192,14 @@ void BindResult(py::module_& module) {
       "The result of an earlier run: its folder, or result.json in it. Raises InputError for anything else.");
   module.def("fit", &Fit, py::arg("session"), py::arg("out"), py::kw_only(), py::arg("threads") = 0,
              py::arg("fresh") = false, py::arg("luminaires") = py::none(), py::arg("budget_s") = kFitBudgetS,
+             py::arg("apply") = false,
              "As `luxfit run SESSION -o OUT`: registers the photos, observes, fits, checks; writes "
              "OUT/result.json and "
              "OUT/stages and returns the Result. session, out, luminaires: paths; luminaires: result.json of "
              "an earlier "
              "fit whose luminaires count as given. Stages of an earlier run into OUT that nothing has "
              "changed are taken "
-             "over, unless fresh. Progress goes to standard error.");
+             "over, unless fresh. apply: as --apply. Progress goes to standard error.");
   module.attr("run") = module.attr("fit");
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/session/session_corrections.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
@@ -110,6 +111,12 @@ json ReadResult(const std::string& path) {
   return result;
 }
 
+Session WithCorrectionsOf(Session session, const json& result) {
+  const auto corrections = result.find("corrections");
+  return corrections == result.end() ? session
+                                     : Corrected(std::move(session), CorrectionsFromJson(*corrections));
+}
+
 Session WithLuminairesOf(Session session, const std::string& path) {
   const json result = ReadResult(path);
   try {
@@ -124,6 +131,7 @@ Session WithLuminairesOf(Session session, const std::string& path) {
 Session WithResult(Session session, const std::string& path, FluxUnit unit) {
   const json result = ReadResult(path);
   try {
+    session = WithCorrectionsOf(std::move(session), result);
     ReplaceLuminaires(session, result, unit, false, path);
     for (const json& material : result.at("materials")) {
       if (!session.scene) break;

@@ -14,10 +14,13 @@
 
 namespace luxfit {
 
+// Corrects the session as the run that wrote the result did (`--apply`).
+Session WithCorrectionsOf(Session session, const nlohmann::json& result);
+
 // Replaces the luminaires alone, which no fit then changes. Reflectances stay the session's.
 Session WithLuminairesOf(Session session, const std::string& path);
 
-// Fluxes of a fit without an absolute scale are relative: kLumen refuses them, kAny takes them as they are. A flux that
+// Does the above, too. Fluxes of a fit without an absolute scale are relative: kLumen refuses them, kAny takes them as they are. A flux that
 // is not determined has no value in the result: kAsFitted takes where the fit ended, from stages/fit.json beside it.
 enum class FluxUnit { kLumen, kAny, kAsFitted };
 Session WithResult(Session session, const std::string& path, FluxUnit unit = FluxUnit::kLumen);

@@ -22,6 +22,7 @@
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 #include "forward/direct/sensor.h"
+#include "forward/room/frame_mistakes.h"
 #include "forward/room/outline.h"
 #include "forward/room/pieces.h"
 #include "forward/room/plane_moves.h"
@@ -36,9 +37,10 @@ struct SessionScene {
   int line = 0;                                             // line of [scene.albedo], else of [scene]
   std::optional<RoomOutline> outline;                       // from size or outline; m
   bool finds_furniture = true;                              // furniture = "find"
-  std::vector<RoomBox> furniture;  // found in photos (apps/stages/observe/found_furniture.h), m
-  std::vector<PlaneMove> walls;    // of the mesh, which photos show elsewhere
-  std::vector<PieceMove> moves;    // of the mesh's furniture, which photos show elsewhere or not at all
+  std::optional<MeshMove> mesh_move;  // where the mesh is instead, as a run's corrections have it
+  std::vector<RoomBox> furniture;     // found in photos (apps/stages/observe/found_furniture.h), m
+  std::vector<PlaneMove> walls;       // of the mesh, which photos show elsewhere
+  std::vector<PieceMove> moves;       // of the mesh's furniture, which photos show elsewhere or not at all
 };
 
 struct SessionTags {

@@ -163,13 +163,19 @@ PreparedSession PrepareSession(const Session& given, const SessionInputs& inputs
   RegisteredSession registered = RegisterKept(session, linearized.photos, inputs, context);
   ExpectSceneFrame(session, registered);
   LeaveOutPhotos(registered.misplaced, linearized.photos);
-  const FurnitureChange change = FurnitureKept(session, linearized.photos, registered, room, inputs, context);
+  KeptFurniture found = FurnitureKept(session, linearized.photos, registered, room, inputs, context);
+  const FurnitureChange& change = found.change;
   ChangeFurniture(change, session, room, context);
   if (!change.walls.empty()) CheckReadingsAgain(session, room, linearized.readings, context);
   Evidence observed =
       ObserveKept(session, linearized.photos, registered, room, WithFurniture(inputs, session), context);
   context.photos.reset();
-  return {session, std::move(linearized), std::move(room), std::move(registered), std::move(observed)};
+  return {session,
+          std::move(linearized),
+          std::move(room),
+          std::move(registered),
+          std::move(found.mesh_as_if),
+          std::move(observed)};
 }
 
 PreparedSession PrepareSession(const Session& session, RunContext& context) {

@@ -17,16 +17,18 @@
 
 #include "apps/stages/stage_inputs.h"
 #include "apps/stages/stages.h"
+#include "inverse/observe/mesh_as_if.h"
 #include "inverse/study/stability_score.h"
 
 namespace luxfit {
 
 struct PreparedSession {
-  Session session;  // as it was read
+  Session session;  // as it was read, with the furniture that was found
   LinearizedSession linearized;
   Room room;
   RegisteredSession registered;
-  Evidence observed;  // from every view, not thinned
+  std::vector<MeshExplanation> mesh_as_if;  // how the mesh lies otherwise than the room
+  Evidence observed;                        // from every view, not thinned
 };
 // `inputs` are those of the session as it was read (InputsOfStages).
 PreparedSession PrepareSession(const Session& session, const SessionInputs& inputs, RunContext& context);

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "forward/room/pieces.h"
+
 namespace luxfit {
 namespace {
 
@@ -61,6 +63,24 @@ Scene WithMeshMapped(Scene scene, const Eigen::Affine3d& map) {
   std::vector<int> all(scene.facets.size());
   std::iota(all.begin(), all.end(), 0);
   return WithFacetsMapped(std::move(scene), all, map);
+}
+
+std::vector<int> FurnitureOf(const Scene& mesh) {
+  std::vector<int> furniture;
+  if (!mesh.surface.empty()) return furniture;
+  for (const std::vector<int>& piece : LoosePieces(mesh))
+    furniture.insert(furniture.end(), piece.begin(), piece.end());
+  double all_m2 = 0, furniture_m2 = 0;
+  for (const Facet& facet : mesh.facets) all_m2 += facet.AreaM2();
+  for (const int f : furniture) furniture_m2 += mesh.facets[static_cast<size_t>(f)].AreaM2();
+  if (2 * furniture_m2 > all_m2) furniture.clear();
+  return furniture;
+}
+
+Scene WithMeshMoved(Scene mesh, const MeshMove& move) {
+  if (!move.is_furniture_alone) return WithMeshMapped(std::move(mesh), move.right_from_given);
+  const std::vector<int> furniture = FurnitureOf(mesh);
+  return WithFacetsMapped(std::move(mesh), furniture, move.right_from_given);
 }
 
 }  // namespace luxfit

@@ -27,6 +27,15 @@ std::vector<FrameMistake> FrameMistakesOf(const Scene& scene);
 Scene WithFacetsMapped(Scene scene, const std::vector<int>& facets, const Eigen::Affine3d& map);
 Scene WithMeshMapped(Scene scene, const Eigen::Affine3d& map);
 
+// Says where a mesh, or its furniture, is instead.
+struct MeshMove {
+  Eigen::Affine3d right_from_given = Eigen::Affine3d::Identity();
+  bool is_furniture_alone = false;
+};
+// Returns the facets of furniture; none where it cannot be told from the room, as in a scan.
+std::vector<int> FurnitureOf(const Scene& mesh);
+Scene WithMeshMoved(Scene mesh, const MeshMove& move);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_FORWARD_ROOM_FRAME_MISTAKES_H_

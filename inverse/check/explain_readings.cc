@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -215,8 +216,15 @@ int PlacesOutside(const ReadingTable& table, const Eigen::VectorXd& lit) {
   return static_cast<int>(outside.size());
 }
 
-// Says by which factor the readings that set the scale, or all of them, are off.
-std::string ScaleWords(const ReadingTable& table, const Eigen::VectorXd& lit) {
+// Says by which factor readings are off: those that set the scale, or all where something else sets it.
+struct WrongScale {
+  std::string words;
+  double given_over_right = 1;  // as the cause has it where it is known, else as the readings have it
+  bool is_of_all = false;
+  bool may_be_the_others = false;  // those that do not set the scale, the other way
+};
+
+WrongScale WrongScaleOf(const ReadingTable& table, const Eigen::VectorXd& lit) {
   const double asked = ScaleFactor(table, lit, true, -1);
   std::string first, whose;
   size_t scaling = 0;
@@ -225,33 +233,63 @@ std::string ScaleWords(const ReadingTable& table, const Eigen::VectorXd& lit) {
     const ReadingAsGiven& r = table.readings[i];
     if (scaling++ == 0) first = r.id + "@" + table.light.states[static_cast<size_t>(r.state)];
   }
+  WrongScale wrong;
+  wrong.is_of_all = scaling == 0;
+  wrong.may_be_the_others = scaling > 0 && 2 * scaling >= table.readings.size();
   // The light is as bright as the readings that set the scale are.
   const double given_over_right = scaling > 0 ? ScaleFactor(table, lit, false, -1) / asked : asked;
-  if (scaling == 0) {
+  if (wrong.is_of_all) {
     whose = fmt::format("all {} readings were", table.readings.size());
   } else {
     whose = scaling == 1 ? fmt::format("the reading that sets the scale, {}, was", first)
                          : fmt::format("the {} readings that set the scale were", scaling);
   }
   const bool is_high = given_over_right > 1;
-  const std::string words = FactorWords(given_over_right);
+  wrong.given_over_right = given_over_right;
+  const std::optional<KnownFactor> known = FindKnownFactor(given_over_right);
+  if (known) wrong.given_over_right = known->factor;
   const std::string size =
       fmt::format("{:.3g} times too {}{}", is_high ? given_over_right : 1 / given_over_right,
-                  is_high ? "high" : "low", words.empty() ? "" : ", " + words);
-  if (2 * scaling < table.readings.size()) return whose + " " + size;
-  return fmt::format("{} {}, or the other {} the other way", whose, size, table.readings.size() - scaling);
+                  is_high ? "high" : "low", known ? ", " + known->words : "");
+  wrong.words = whose + " " + size;
+  if (wrong.may_be_the_others)
+    wrong.words += fmt::format(", or the other {} the other way", table.readings.size() - scaling);
+  return wrong;
+}
+
+ReadingAsGiven ReadBy(const Rereading& way, ReadingAsGiven reading) {
+  const auto [a, b] = way.exchanged_states;
+  if (way.place) reading.sensor = way.place(reading.sensor);
+  if (reading.state == a || reading.state == b) reading.state = reading.state == a ? b : a;
+  return reading;
+}
+
+ReadingAsGiven ScaledBy(const WrongScale& wrong, ReadingAsGiven reading) {
+  if (wrong.is_of_all || reading.sets_scale) reading.measured_lx /= wrong.given_over_right;
+  return reading;
 }
 
 ReadingExplanation Explained(const ReadingTable& table, const Candidate& candidate,
                              const Eigen::VectorXd& as_given) {
   const Misreading& misreading = *candidate.misreading;
-  return {misreading.has_own_scale ? ScaleWords(table, candidate.lit) : misreading.ways[candidate.way].as_if,
-          misreading.remedy,
-          RmsPercent(table, as_given, false),
-          RmsPercent(table, candidate.lit, misreading.has_own_scale),
-          table.groups,
-          PlacesOutside(table, as_given),
-          PlacesOutside(table, candidate.lit)};
+  ReadingExplanation explanation;
+  if (misreading.has_own_scale) {
+    const WrongScale wrong = WrongScaleOf(table, candidate.lit);
+    explanation.as_if = wrong.words;
+    if (!wrong.may_be_the_others)
+      explanation.so_read = [wrong](ReadingAsGiven r) { return ScaledBy(wrong, std::move(r)); };
+  } else {
+    const Rereading& way = misreading.ways[candidate.way];
+    explanation.as_if = way.as_if;
+    explanation.so_read = [way](ReadingAsGiven r) { return ReadBy(way, std::move(r)); };
+  }
+  explanation.remedy = misreading.remedy;
+  explanation.rms_percent_as_given = RmsPercent(table, as_given, false);
+  explanation.rms_percent = RmsPercent(table, candidate.lit, misreading.has_own_scale);
+  explanation.places = table.groups;
+  explanation.places_outside_as_given = PlacesOutside(table, as_given);
+  explanation.places_outside = PlacesOutside(table, candidate.lit);
+  return explanation;
 }
 
 }  // namespace

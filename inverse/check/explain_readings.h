@@ -66,6 +66,8 @@ struct ReadingExplanation {
   // nothing is predicted.
   double rms_percent_as_given = 0, rms_percent = 0;
   int places = 0, places_outside_as_given = 0, places_outside = 0;
+  // Returns a reading as it would be, measured or not. Empty where nothing tells which of the readings are wrong.
+  std::function<ReadingAsGiven(ReadingAsGiven)> so_read;
 };
 
 // Returns the explanations that hold, the best first; none where the readings agree as they are given, or nothing explains

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -100,9 +101,9 @@ void Explain(Disagreement& d) {
         "again, and see what hides it";
     return;
   }
-  const std::string factor = is_place ? "" : FactorWords(1 + d.relative);
-  if (!factor.empty()) {
-    d.remedy = "it is off " + factor + ": read it again";
+  const std::optional<KnownFactor> factor = FindKnownFactor(1 + d.relative);
+  if (factor && !is_place) {
+    d.remedy = "it is off " + factor->words + ": read it again";
   } else if (is_place) {
     d.remedy =
         "its place or the way the meter faced is not what the table says, or something stands near "

@@ -9,7 +9,6 @@
 
 #include "calib/register/mesh_alignment.h"
 #include "forward/room/frame_mistakes.h"
-#include "forward/room/pieces.h"
 #include "forward/room/visibility.h"
 #include "inverse/furniture/internal/sampled_agreement.h"
 #include "inverse/observe/scene_surface.h"
@@ -41,19 +40,6 @@ int TagsOn(const Scene& mesh, const std::vector<SurveyedTag>& survey) {
 }
 
 bool IsMost(int tags, size_t of) { return 10 * tags >= 9 * static_cast<int>(of); }
-
-// Returns the facets of furniture; none where it cannot be told from the room, as in a scan.
-std::vector<int> FurnitureOf(const Scene& mesh) {
-  std::vector<int> furniture;
-  if (!mesh.surface.empty()) return furniture;
-  for (const std::vector<int>& piece : LoosePieces(mesh))
-    furniture.insert(furniture.end(), piece.begin(), piece.end());
-  double all_m2 = 0, furniture_m2 = 0;
-  for (const Facet& facet : mesh.facets) all_m2 += facet.AreaM2();
-  for (const int f : furniture) furniture_m2 += mesh.facets[static_cast<size_t>(f)].AreaM2();
-  if (2 * furniture_m2 > all_m2) furniture.clear();
-  return furniture;
-}
 
 // Says what a map of FrameMistakesOf makes of the coordinates that it changes: "6 - x for x".
 std::string CoordinatesText(const Eigen::Affine3d& map) {

@@ -134,7 +134,7 @@ std::string InWords(const std::vector<StateExplanation>& explanations) {
   for (size_t i = 0; i < explanations.size(); ++i)
     text += (i > 0 ? ", or as if " : "") + explanations[i].as_if;
   if (explanations.size() > 1) text += ", which explain them equally";
-  if (explanations.front().difference <= 0)
+  if (!explanations.front().IsOfTable())
     return text + fmt::format(
                       ": they differ by {:.0f} % from what states add up to, and no value of the table "
                       "explains that",

@@ -44,6 +44,8 @@ struct StateExplanation {
   // By how much the photos differ from what adds up, relative, rms: by the table as given, and so read. States by
   // themselves differ from nothing: 0.
   double difference_as_given = 0, difference = 0;
+
+  bool IsOfTable() const { return difference > 0; }  // another table; false: states by themselves
 };
 
 // Returns the explanations that hold, the best first. Throws std::invalid_argument for names and dimming of different

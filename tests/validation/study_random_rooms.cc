@@ -1,10 +1,11 @@
 // Rooms drawn at random, photographed and read by the light tracer: how often is the fit right, warned of, or wrong and sure?
 //
-//   study_random_rooms -o FOLDER [--quick] [--first SEED] [--count N] [--luminaires MOST] [--degrade NAME,...|all]
+//   study_random_rooms -o FOLDER [--quick] [--first SEED] [--count N] [--luminaires MOST] [--degrade NAME,...|all] [--apply]
 //
 // Each seed is one room (tests/support/inverse/random_room.h), which shares no patch and no form factor with the model that is fitted.
 // --degrade: a room that is right as it is is fitted again with each level of each degradation named
 // (tests/validation/random_rooms/room_degradations.h). --luminaires: rooms that have more are left out.
+// --apply: explanations that stand alone are taken as right, as `luxfit run --apply` does.
 // Prints rooms.csv, a line a fit, and writes it to FOLDER, with luminaires.csv, a line a luminaire, warnings.csv, a line a warning, and
 // with --degrade degradations.csv, a line a level.
 // Success and wrong and sure are those of inverse/study/stability_score.h: every luminaire within 50 mm and 10 %; one is not, nor within its own interval, and no
@@ -42,6 +43,7 @@ namespace {
 struct Sweep {
   int first = 1, count = 20, most_luminaires = 100;
   std::vector<RoomDegradation> degradations;
+  bool applies = false;  // as `luxfit run --apply`
 };
 
 std::vector<RoomDegradation> DegradationsNamed(const std::string& names) {
@@ -55,6 +57,7 @@ std::vector<RoomDegradation> DegradationsNamed(const std::string& names) {
 Sweep ReadSweep(int argc, char** argv, bool is_quick) {
   Sweep sweep;
   if (is_quick) sweep.count = 2, sweep.degradations = DegradationsNamed("photos_exchanged,reading");
+  for (int i = 1; i < argc; ++i) sweep.applies = sweep.applies || std::strcmp(argv[i], "--apply") == 0;
   for (int i = 1; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--first") == 0) sweep.first = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--count") == 0) sweep.count = std::atoi(argv[i + 1]);
@@ -113,9 +116,9 @@ using KnownCodes = std::set<std::string>;
 
 // `drawn`: the room as it is said to be. `model`: of its mesh.
 Outcome FitGiven(const support::RandomRoom& drawn, const Room& model, const RoomObservations& given,
-                 const KnownCodes& known) {
+                 bool applies, const KnownCodes& known) {
   const auto start = std::chrono::steady_clock::now();
-  const RoomFit fit = RunTraced(model, given);
+  const RoomFit fit = RunTraced(model, given, applies);
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.is_undetermined = fit.findings.IsUndetermined();
@@ -235,7 +238,7 @@ class RoomSweep {
     if (static_cast<int>(drawn.room.luminaires.size()) > sweep.most_luminaires) return;
     const Room model = ModelOf(drawn.mesh);
     const RoomObservations given = Photograph(drawn, model, drawn.room.dimming, rng);
-    const Outcome as_is = FitGiven(drawn, model, given, {});
+    const Outcome as_is = FitGiven(drawn, model, given, sweep.applies, {});
     Add("none,", seed, drawn, as_is, {});
     if (!as_is.score.is_success) return;
     KnownCodes known;
@@ -253,7 +256,7 @@ class RoomSweep {
         const Room worse_model = ModelOf(room.mesh);
         if (degradation.of_room != nullptr) data = Photograph(room, worse_model, drawn.room.dimming, rng);
         const std::string key = fmt::format("{},{:g}", degradation.name, level);
-        const Outcome outcome = FitGiven(drawn, worse_model, data, known);
+        const Outcome outcome = FitGiven(drawn, worse_model, data, sweep.applies, known);
         Add(key, seed, drawn, outcome, *cause);
         tally_.Add(key, outcome, *cause);
       }

@@ -15,6 +15,7 @@
 #include "apps/report/report.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/albedo/stage_albedo.h"
+#include "apps/stages/applied_explanations.h"
 #include "apps/stages/fit_stop.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"
@@ -53,20 +54,63 @@ struct RoomResult {
   Room room;
 };
 
-RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, RoomRun what, double budget_s,
-                          RunContext& context) {
-  const StageTimer total(context, "total", "");
-  PreparedSession prepared = PrepareSession(read, inputs, context);
+struct FittedSession {
+  PreparedSession prepared;
+  Session session;  // with as many luminaires as were counted
+  RoomFit fit;
+};
+
+FittedSession FitOf(PreparedSession prepared, RunContext& context) {
   const Evidence& observed = prepared.observed;
   const LinearizedSession& linearized = prepared.linearized;
-  context.stop = std::make_shared<FitStop>(budget_s);
-  const Session session =
-      WithCountedLuminaires(std::move(prepared.session), linearized, prepared.room, observed, context);
-  const RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
-  context.stop.reset();
+  Session session = WithCountedLuminaires(prepared.session, linearized, prepared.room, observed, context);
+  RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
+  return {std::move(prepared), std::move(session), std::move(fit)};
+}
+
+// Fits the session, and once more with each explanation that is taken. Findings of a fit that is done again do not count.
+FittedSession FitExplained(const Session& read, const SessionInputs& inputs, const RunCommandOptions& options,
+                           AppliedExplanations& applied, RunContext& context) {
+  while (true) {
+    RunContext own = context;
+    own.Add(applied.findings);
+    const auto keep_times = [&] {
+      std::fprintf(stderr, "apply     %s\n", applied.findings.warnings.back().message.c_str());
+      context.timing_s = own.timing_s;
+      context.stop = own.stop;
+    };
+    PreparedSession prepared = PrepareSession(Corrected(read, applied.corrections),
+                                              WithCorrections(inputs, applied.corrections), own);
+    if (options.applies && TakeFromPhotos(prepared, applied)) {
+      keep_times();
+      continue;
+    }
+    if (!own.stop) own.stop = std::make_shared<FitStop>(options.budget_s);
+    FittedSession fitted = FitOf(std::move(prepared), own);
+    if (options.applies && TakeFromReadings(fitted.prepared, fitted.session, fitted.fit, applied)) {
+      keep_times();
+      continue;
+    }
+    own.stop.reset();
+    context = std::move(own);
+    return fitted;
+  }
+}
+
+RoomResult FitAndDescribe(const Session& read, const SessionInputs& inputs, RoomRun what,
+                          const RunCommandOptions& options, RunContext& context) {
+  const StageTimer total(context, "total", "");
+  AppliedExplanations applied;
+  FittedSession fitted = FitExplained(read, inputs, options, applied, context);
+  PreparedSession& prepared = fitted.prepared;
+  const Evidence& observed = prepared.observed;
+  const LinearizedSession& linearized = prepared.linearized;
+  const Session& session = fitted.session;
+  const RoomFit& fit = fitted.fit;
   const std::vector<LuminaireFiles> files = WriteLuminaireFiles(session, fit, context);
   json result = ResultJson(session, linearized.readings, prepared.room, prepared.registered, observed, fit,
                            files, context);
+  if (!applied.corrections.IsEmpty()) result["corrections"] = CorrectionsJson(applied.corrections);
   if (what == RoomRun::kFitAndAlbedo) {
     const json albedo = AlbedoOfRoom(session, prepared.room, fit, result, context);
     result = WithAlbedo(std::move(result), albedo, context);
@@ -129,6 +173,7 @@ RunContext MakeContext(const SessionCommandOptions& options, const Session& sess
 int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   SessionInputs inputs = InputsOfStages(session, options.earlier_luminaires);
   inputs.result["what is asked for"] = what == RoomRun::kFitAndAlbedo ? "albedo" : "fit";
+  if (options.applies) inputs.result["--apply"] = "yes";
   RunContext context = MakeContext(options, session);
   const std::string path = context.out + "/result.json";
   const RunPlan plan = PlanOf(inputs, WithOutputs(inputs.result, context.out), context.out);
@@ -158,7 +203,7 @@ int RunRoom(Session session, const RunCommandOptions& options, RoomRun what) {
   if (options.fresh) std::filesystem::remove_all(context.out + "/stages");
   if (!options.earlier_luminaires.empty())
     session = WithLuminairesOf(std::move(session), options.earlier_luminaires);
-  RoomResult made = FitAndDescribe(session, inputs, what, options.budget_s, context);
+  RoomResult made = FitAndDescribe(session, inputs, what, options, context);
   made.result["timing_s"] = context.timing_s;
   made.result["reused_stages"] = context.reused_stages;
   if (!made.plan_svg.empty()) WriteText(context.out + "/plan.svg", made.plan_svg);

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "apps/session/session_scene.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
+#include "apps/text/formats/json_vectors.h"
 
 namespace luxfit {
 namespace {
@@ -118,6 +120,39 @@ Eigen::Vector3d PointFromJson(const json& p) {
   return {p.at(0).get<double>(), p.at(1).get<double>(), p.at(2).get<double>()};
 }
 
+json MeshAsIfJson(const std::vector<MeshExplanation>& explanations) {
+  json list = json::array();
+  for (const MeshExplanation& e : explanations)
+    list.push_back({{"as_if", e.as_if},
+                    {"remedy", e.remedy},
+                    {"right_from_given", MatrixJson(e.right_from_given.matrix())},
+                    {"is_furniture_alone", e.is_furniture_alone},
+                    {"agreement_as_given", e.agreement_as_given},
+                    {"agreement", e.agreement},
+                    {"tags_on_mesh_as_given", e.tags_on_mesh_as_given},
+                    {"tags_on_mesh", e.tags_on_mesh},
+                    {"tags", e.tags}});
+  return list;
+}
+
+std::vector<MeshExplanation> MeshAsIfFromJson(const json& list) {
+  std::vector<MeshExplanation> explanations;
+  for (const json& entry : list) {
+    MeshExplanation e;
+    e.as_if = entry.at("as_if");
+    e.remedy = entry.at("remedy");
+    e.right_from_given.matrix() = MatrixFromJson(entry.at("right_from_given"));
+    e.is_furniture_alone = entry.at("is_furniture_alone");
+    e.agreement_as_given = entry.at("agreement_as_given");
+    e.agreement = entry.at("agreement");
+    e.tags_on_mesh_as_given = entry.at("tags_on_mesh_as_given");
+    e.tags_on_mesh = entry.at("tags_on_mesh");
+    e.tags = entry.at("tags");
+    explanations.push_back(std::move(e));
+  }
+  return explanations;
+}
+
 }  // namespace
 
 json BoxesJson(const std::vector<RoomBox>& boxes) {
@@ -185,14 +220,15 @@ void RecordFurniture(const RevisedRoom& revised, Findings& findings) {
   RecordBoxes(revised.furniture.found, findings);
 }
 
-FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
-                              const RegisteredSession& registered, const Room& room,
-                              const SessionInputs& inputs, RunContext& context) {
+KeptFurniture FurnitureKept(const Session& session, const LinearizedPhotos& photos,
+                            const RegisteredSession& registered, const Room& room,
+                            const SessionInputs& inputs, RunContext& context) {
   if (!session.scene || !session.scene->finds_furniture || registered.registration.views.size() < 3)
     return {};
   if (const auto kept = KeptProduct("furniture", inputs.furniture, context))
-    return {BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves")),
-            WallsFromJson(kept->at("walls"))};
+    return {{BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves")),
+             WallsFromJson(kept->at("walls"))},
+            MeshAsIfFromJson(kept->at("mesh_as_if"))};
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
   RoomPhotos given = RoomPhotosOf(session, photos);
@@ -207,12 +243,13 @@ FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& ph
   FurnitureChange change = ChangeOf(revised);
   const json product = {{"boxes", BoxesJson(change.boxes)},
                         {"moves", MovesJson(change.moves)},
-                        {"walls", WallsJson(change.walls)}};
+                        {"walls", WallsJson(change.walls)},
+                        {"mesh_as_if", MeshAsIfJson(revised.mesh_as_if)}};
   json artifact = ProvenanceJson("luxfit-furniture-1", context.provenance);
   artifact.update(product);
   WriteJson(context.out + "/stages/furniture.json", artifact);  // without it, the kept product does not count
   KeepProduct("furniture", inputs.furniture, context, mark, product);
-  return change;
+  return {std::move(change), revised.mesh_as_if};
 }
 
 }  // namespace luxfit

@@ -20,10 +20,14 @@ namespace luxfit {
 // Words what was found.
 void RecordFurniture(const RevisedRoom& revised, Findings& findings);
 
+struct KeptFurniture {
+  FurnitureChange change;
+  std::vector<MeshExplanation> mesh_as_if;  // where there are some, nothing was looked for
+};
 // Returns what differs, and keeps it for the next run as the product "furniture".
-FurnitureChange FurnitureKept(const Session& session, const LinearizedPhotos& photos,
-                              const RegisteredSession& registered, const Room& room,
-                              const SessionInputs& inputs, RunContext& context);
+KeptFurniture FurnitureKept(const Session& session, const LinearizedPhotos& photos,
+                            const RegisteredSession& registered, const Room& room,
+                            const SessionInputs& inputs, RunContext& context);
 
 // Write boxes, moves and walls as parts of an artifact, and read them back.
 nlohmann::json BoxesJson(const std::vector<RoomBox>& boxes);

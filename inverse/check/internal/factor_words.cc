@@ -6,7 +6,7 @@
 
 namespace luxfit {
 
-std::string FactorWords(double factor) {
+std::optional<KnownFactor> FindKnownFactor(double factor) {
   constexpr double kLuxPerFootCandle = 10.7639, kTolerance = 0.03;
   constexpr std::string_view kPoint = "as by a decimal point, or another range of the meter";
   constexpr std::pair<double, std::string_view> kKnown[] = {
@@ -19,8 +19,8 @@ std::string FactorWords(double factor) {
       {0.01, kPoint},
   };
   for (const auto& [known, words] : kKnown)
-    if (std::abs(std::log(factor / known)) < kTolerance) return std::string(words);
-  return "";
+    if (std::abs(std::log(factor / known)) < kTolerance) return KnownFactor{known, std::string(words)};
+  return std::nullopt;
 }
 
 }  // namespace luxfit

@@ -75,7 +75,7 @@ std::vector<ReadingAsGiven> Changed(std::vector<ReadingAsGiven> readings,
   return readings;
 }
 
-// Returns the light with its scale matched to the readings that set it, as a fit leaves it.
+// Returns the light with its scale matched to the first reading that sets it, as a fit leaves it.
 ExplainingLight Matched(const std::vector<ReadingAsGiven>& readings) {
   ExplainingLight light = PointLight();
   for (const ReadingAsGiven& r : readings) {
@@ -85,6 +85,7 @@ ExplainingLight Matched(const std::vector<ReadingAsGiven>& readings) {
                        in_states = light.in_states](const std::vector<Sensor>& places) -> Eigen::MatrixXd {
       return factor * in_states(places);
     };
+    break;
   }
   return light;
 }
@@ -183,6 +184,42 @@ TEST(ExplainReadings, TheReadingThatSetsTheScale) {
              "the reading that sets the scale, P3@evening, was 10.8 times too low, as in foot-candles");
   ExpectOnly(times(2), "the reading that sets the scale, P3@evening, was 2 times too high");
   ExpectOnly(times(10), "times too high, as by a decimal point, or another range of the meter");
+}
+
+TEST(ExplainReadings, SoReadTheTableIsRight) {
+  const std::function<void(ReadingAsGiven&)> mistakes[] = {
+      [](ReadingAsGiven& r) { std::swap(r.sensor.position.x(), r.sensor.position.y()); },
+      [](ReadingAsGiven& r) { r.sensor.position.x() = 6 - r.sensor.position.x(); },
+      [](ReadingAsGiven& r) { r.sensor.normal *= -1; },
+      [](ReadingAsGiven& r) { r.sensor.position *= 100; },
+      [](ReadingAsGiven& r) { r.state = r.state == 2 ? 2 : 1 - r.state; },
+      [](ReadingAsGiven& r) { Multiply(r, r.sets_scale ? 1 / 10.7639 : 1); },
+  };
+  const std::vector<ReadingAsGiven> right = Right();
+  for (const auto& mistake : mistakes) {
+    const std::vector<ReadingAsGiven> given = Changed(right, mistake);
+    const auto found = Explain(given);
+    ASSERT_EQ(found.size(), 1u);
+    ASSERT_TRUE(found[0].so_read) << found[0].as_if;
+    for (size_t i = 0; i < right.size(); ++i) {
+      const ReadingAsGiven read = found[0].so_read(given[i]);
+      EXPECT_TRUE(read.sensor.position.isApprox(right[i].sensor.position, 1e-12)) << found[0].as_if;
+      EXPECT_EQ(read.sensor.normal, right[i].sensor.normal) << found[0].as_if;
+      EXPECT_EQ(read.state, right[i].state) << found[0].as_if;
+      EXPECT_NEAR(read.measured_lx, right[i].measured_lx, 1e-9 * right[i].measured_lx) << found[0].as_if;
+    }
+  }
+}
+
+// Two thirds of the readings set the scale: they may be wrong, or the others.
+TEST(ExplainReadings, WhereNothingTellsWhichReadingsAreWrongNoneIsCorrected) {
+  std::vector<ReadingAsGiven> readings =
+      Changed(Right(), [](ReadingAsGiven& r) { r.sets_scale = r.state != 1; });
+  for (ReadingAsGiven& r : readings) Multiply(r, r.sets_scale ? 1 / 10.7639 : 1);
+  const auto found = ExplainReadings(Matched(readings), readings);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].as_if, HasSubstr("or the other 7 the other way"));
+  EXPECT_FALSE(found[0].so_read);
 }
 
 // The state of the reading that sets the scale is not what it is said to be.

@@ -96,26 +96,48 @@ void WarnOfConflicts(const RoomObservations& given, RoomFit& fit) {
                                      ""});
 }
 
-void CheckReadings(const Room& model, const RoomObservations& given, RoomFit& fit) {
+ReadingAsGiven AsGiven(const RoomObservations& given, size_t i, double sigma_lx) {
+  const MeterReading& reading = given.meter.readings[i];
+  return {PlaceName(i), reading.sensor, reading.state, reading.illuminance_lx, sigma_lx, reading.used};
+}
+
+std::vector<ReadingExplanation> ExplanationsOf(const Room& model, const RoomObservations& given,
+                                               const RoomFit& fit) {
+  const std::vector<PredictedReading> predicted = PredictedReadings(fit);
+  std::vector<ReadingAsGiven> as_given;
+  for (size_t i = 0; i < predicted.size(); ++i)
+    if (predicted[i].is_known) as_given.push_back(AsGiven(given, i, fit.data.readings[i].sigma_lx));
+  const StateTable table = TableOf(given);
+  const std::optional<ExplainingLight> light = ExplainingLightOf(model, fit, table.states);
+  return light ? ExplainReadings(*light, as_given) : std::vector<ReadingExplanation>();
+}
+
+void CheckReadings(const RoomObservations& given, const std::vector<ReadingExplanation>& explanations,
+                   RoomFit& fit) {
   const std::vector<PredictedReading> predicted = PredictedReadings(fit);
   std::vector<NamedReading> checked;
-  std::vector<ReadingAsGiven> as_given;
   for (size_t i = 0; i < predicted.size(); ++i) {
     const MeterReading& reading = given.meter.readings[i];
-    if (!predicted[i].is_known) continue;
     const double sigma_lx = fit.data.readings[i].sigma_lx;
-    as_given.push_back(
-        {PlaceName(i), reading.sensor, reading.state, reading.illuminance_lx, sigma_lx, reading.used});
-    if (!reading.used)
+    if (predicted[i].is_known && !reading.used)
       checked.push_back(
           {PlaceName(i),
            StateName(static_cast<size_t>(reading.state)),
            {reading.illuminance_lx, predicted[i].illuminance_lx, sigma_lx, predicted[i].sigma_lx}});
   }
-  const StateTable table = TableOf(given);
-  if (const std::optional<ExplainingLight> light = ExplainingLightOf(model, fit, table.states))
-    WarnOfExplanations(ExplainReadings(*light, as_given), fit.findings);
+  WarnOfExplanations(explanations, fit.findings);
   WarnOfCheck(checked, fit.findings);
+}
+
+// Reads the table of readings as the explanation has it.
+void Apply(const ReadingExplanation& explanation, RoomObservations& given) {
+  for (size_t i = 0; i < given.meter.readings.size(); ++i) {
+    const ReadingAsGiven right = explanation.so_read(AsGiven(given, i, 0));
+    MeterReading& reading = given.meter.readings[i];
+    reading.sensor = right.sensor;
+    reading.state = right.state;
+    reading.illuminance_lx = right.measured_lx;
+  }
 }
 
 }  // namespace
@@ -126,7 +148,7 @@ std::string PhotoName(int view, int state) {
 }
 std::string PlaceName(size_t reading) { return "P" + std::to_string(reading); }
 
-RoomFit RunTraced(const Room& model, RoomObservations given) {
+RoomFit RunTraced(const Room& model, RoomObservations given, bool applies) {
   std::vector<Warning> of_exposures;
   ExplainedObservations explained = ExplainObservations(
       model.patches, std::move(given.observations), TableOf(given),
@@ -139,13 +161,28 @@ RoomFit RunTraced(const Room& model, RoomObservations given) {
   LeaveOutOutlines(explained.photos_as_if, given);
   Findings of_photos;
   WarnOfPhotos(explained.photos_as_if, of_photos);
-  WarnOfStates(explained.states_as_if, of_photos);
+  const std::vector<StateExplanation>& states = explained.states_as_if;
+  const bool is_of_table = states.size() == 1 && states.front().IsOfTable();
+  if (applies && is_of_table) {
+    given.dimming = states.front().dimming;
+    of_photos.warnings.push_back({"session_corrected", InWords(states), ""});
+  } else {
+    WarnOfStates(states, of_photos);
+  }
   of_photos.warnings.insert(of_photos.warnings.end(), of_exposures.begin(), of_exposures.end());
   RoomFit fit = FitRoom(model, given);
+  std::vector<ReadingExplanation> readings = ExplanationsOf(model, given, fit);
+  const bool is_sure = (states.empty() || is_of_table) && !fit.findings.IsUndetermined();
+  if (applies && is_sure && readings.size() == 1 && readings.front().so_read) {
+    of_photos.warnings.push_back({"session_corrected", InWords(readings), ""});
+    Apply(readings.front(), given);
+    fit = FitRoom(model, given);
+    readings = ExplanationsOf(model, given, fit);
+  }
   fit.findings.warnings.insert(fit.findings.warnings.begin(), of_photos.warnings.begin(),
                                of_photos.warnings.end());
   WarnOfConflicts(given, fit);
-  CheckReadings(model, given, fit);
+  CheckReadings(given, readings, fit);
   return fit;
 }
 

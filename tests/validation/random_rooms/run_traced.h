@@ -21,8 +21,9 @@ std::string StateName(size_t state);
 std::string PhotoName(int view, int state);
 std::string PlaceName(size_t reading);
 
-// Returns the fit with the warnings of all steps, in their order.
-RoomFit RunTraced(const Room& model, RoomObservations given);
+// Returns the fit with the warnings of all steps, in their order. `applies`: an explanation of the states or the readings that
+// stands alone is taken as right, as `luxfit run --apply` does (apps/stages/applied_explanations.h).
+RoomFit RunTraced(const Room& model, RoomObservations given, bool applies);
 
 }  // namespace luxfit
 
