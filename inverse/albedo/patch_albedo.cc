@@ -10,7 +10,7 @@
 
 #include "calib/luminance/median.h"
 #include "inverse/albedo/internal/albedo_ratios.h"
-#include "inverse/model/fit_uncertainty.h"
+#include "inverse/albedo/internal/reflectance_sigma.h"
 #include "inverse/select/internal/robust_weight.h"
 
 namespace luxfit {
@@ -257,19 +257,6 @@ void CountElements(const MaterialFit& fit, double model_error, MaterialAlbedo& m
     ++material.elements;
     if (off > 4 * mean.sigma && off > 0.1 * material.albedo) ++material.unlike_elements;
   }
-}
-
-// Returns relative sigmas of the fit's reflectances, by material; 0 where the fit held or did not determine
-// one.
-Eigen::VectorXd SigmaOfReflectances(const Room& room, const LuminaireFit& fit) {
-  const FitUncertainty uncertainty = UncertaintyOf(fit);
-  Eigen::VectorXd relative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(room.scene.materials.size()));
-  for (Eigen::Index m = 0; m < relative.size(); ++m) {
-    const double sigma =
-        uncertainty.Sigma({ParameterKind::kAlbedo, room.scene.materials[static_cast<size_t>(m)]});
-    if (sigma > 0) relative[m] = sigma / fit.state.albedo[m];
-  }
-  return relative;
 }
 
 }  // namespace
