@@ -9,6 +9,7 @@
 #include "apps/stages/explain_check.h"
 #include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/found_furniture.h"
+#include "apps/stages/paint_surfaces.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/stages.h"
 #include "apps/text/formats/json_vectors.h"
@@ -268,6 +269,8 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["views"] = ViewsJson(session, registered.registration);
   result["reprojection_rms_px"] = registered.registration.reprojection_rms_px;
   result["materials"] = MaterialsJson(session, room, fit);
+  const json surfaces = PaintSurfacesJson(room, fit, context);
+  if (!surfaces.empty()) result["surfaces"] = surfaces;
   if (session.scene && !session.scene->furniture.empty())
     result["furniture"] = BoxesJson(session.scene->furniture);
   if (session.scene && !session.scene->walls.empty()) result["walls_moved"] = WallsJson(session.scene->walls);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/stages/stages.h"
@@ -58,6 +60,30 @@ std::string MaterialTable(const json& result) {
                         is_known ? PlusMinus(m["albedo"], m["sigma"], "{:.4f}") : "-",
                         m["source"].get<std::string>(),
                         is_known && m.value("by_indirect_light", false) ? ", by indirect light" : "");
+  }
+  return text;
+}
+
+std::string FacingText(const json& normal) {
+  if (normal.is_null()) return "several ways";
+  const std::array<const char*, 3> axes = {"x", "y", "z"};
+  size_t main = 0;
+  for (size_t k = 1; k < 3; ++k) {
+    if (std::abs(normal[k].get<double>()) > std::abs(normal[main].get<double>())) main = k;
+  }
+  return std::string(normal[main].get<double>() < 0 ? "-" : "+") + axes.at(main);
+}
+
+std::string SurfaceTable(const json& surfaces) {
+  std::string text =
+      "\nsurface          albedo             area m2   centre m               height m       faces\n";
+  for (const json& s : surfaces) {
+    const json &c = s["center_m"], &height = s["height_m"];
+    text +=
+        fmt::format("{:<16} {:<18} {:7.2f}   {:6.2f} {:6.2f} {:6.2f}   {:5.2f} .. {:4.2f}  {}\n",
+                    s["name"].get<std::string>(), PlusMinus(s["albedo"], s["sigma"], "{:.4f}"),
+                    s["area_m2"].get<double>(), c[0].get<double>(), c[1].get<double>(), c[2].get<double>(),
+                    height[0].get<double>(), height[1].get<double>(), FacingText(s["normal"]));
   }
   return text;
 }
@@ -190,6 +216,9 @@ std::string ResultTables(const json& result) {
   }
   text += LuminaireTable(result);
   if (!result["materials"].empty()) text += MaterialTable(result);
+  constexpr size_t kMostSurfaces = 24;  // a screen; result.json and the report have them all
+  if (result.contains("surfaces") && result["surfaces"].size() <= kMostSurfaces)
+    text += SurfaceTable(result["surfaces"]);
   // Hundreds of readings would hide the rest; `luxfit check` lists them all.
   constexpr size_t kMaxReadings = 64;
   if (!result["luxmeter"].empty() && result["luxmeter"].size() <= kMaxReadings) text += LuxmeterTable(result);

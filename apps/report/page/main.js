@@ -8,6 +8,7 @@ import { glareTable } from './glare_table.js';
 import { Light } from './light.js';
 import { powerWords, roomLevels } from './levels.js';
 import { lightBar, lightWords } from './light_bar.js';
+import { paints } from './paints.js';
 import { photoViews } from './photo_views.js';
 import { dimensionedPlan } from './plan.js';
 import { polarCurve } from './polar_curve.js';
@@ -49,7 +50,7 @@ function build(data) {
     data.room && data.places.surfaces.length > 0 ? section('levels', 'Walls, ceiling, cylindrical illuminance', null, roomLevels(data, light), powerWords(data, light, planes)) : null,
     data.room ? section('glare', 'Glare', 'Unified glare rating (CIE 117) of observers, from the luminaires\u2019 luminous openings as found and the background as predicted.', glareTable(data, light)) : null,
     section('photos', 'Photos and predictions', null, photoViews(data, light)),
-    section('surfaces', 'Reflectances', null, reflectances(data)),
+    section('surfaces', 'Reflectances', null, paints(data), reflectances(data)),
     section('table', 'All readings', null, data.result.luxmeter.length > 0 ? details(`${data.result.luxmeter.length} readings`, readingTable(data)) : h('p', null, 'None.')),
     section('conditions', 'Measurement conditions', null, conditions(data)),
     section('choices', 'Choices and why', null, choices(data)),

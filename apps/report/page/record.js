@@ -16,7 +16,7 @@ export function reflectances(data) {
   ], data.result.materials);
 }
 
-function swatch(material) {
+export function swatch(material) {
   const rgb = Array.isArray(material.albedo_rgb) && material.albedo_rgb.every(isNumber) ? material.albedo_rgb : [1, 1, 1].map((x) => x * (material.albedo ?? material.albedo_in_model));
   const level = (x) => Math.round(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055));
   return `rgb(${rgb.map((x) => level(Math.min(1, Math.max(0, x)))).join(',')})`;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "forward/room/named_planes.h"
 #include "forward/room/visibility.h"
 #include "tests/support/forward/scan_of.h"
 #include "tests/support/scenes.h"
@@ -136,7 +137,21 @@ TEST(LayOnPlanes, MaterialsAreNamedByWhatPlanesAre) {
   for (const char* name : {"floor", "ceiling", "wall 1", "wall 4", "surface 1", "surface 2", "details 1"})
     EXPECT_EQ(names.count(name), 1U) << name;
   EXPECT_EQ(names.count("wall 5"), 0U);
+  EXPECT_TRUE(AreNamedPlanes(scene));
   EXPECT_EQ(LayOnPlanes(ScanOfRoom()).scene.materials, std::vector<std::string>{kDefaultMaterial});
+}
+
+TEST(NamedPlanes, AreNumberedInOrderOnASurface) {
+  Scene scene;
+  scene.materials = {"floor", "wall 1", "floor 2", "wall 2", "details 1", "found 1"};
+  EXPECT_FALSE(AreNamedPlanes(scene));  // a drawn mesh may call its materials so
+  scene.surface.resize(1);
+  EXPECT_TRUE(AreNamedPlanes(scene));
+  for (const char* other : {"wall", "wall 4", "floor", "carpet", "DefaultMaterial"}) {
+    Scene unlike = scene;
+    unlike.materials.emplace_back(other);
+    EXPECT_FALSE(AreNamedPlanes(unlike)) << other;
+  }
 }
 
 TEST(LayOnPlanes, MaterialsOfTheMeshBoundPlanes) {
@@ -149,6 +164,7 @@ TEST(LayOnPlanes, MaterialsOfTheMeshBoundPlanes) {
   }
   const Scene scene = LayOnPlanes(mesh).scene;
   EXPECT_EQ(scene.materials, mesh.materials);
+  EXPECT_FALSE(AreNamedPlanes(scene));
   double rug_m2 = 0, all_m2 = 0;
   for (const Facet& facet : scene.facets) {
     if (facet.Normal().z() < 0.5) continue;
