@@ -54,8 +54,7 @@ const json* Nearest(const json& luminaires, const json& position, double& distan
   for (const json& found : luminaires) {
     double squares = 0;
     for (size_t axis = 0; axis < 3; ++axis)
-      squares +=
-          std::pow(found["position_m"][axis].get<double>() - position[axis].get<double>(), 2);
+      squares += std::pow(found["position_m"][axis].get<double>() - position[axis].get<double>(), 2);
     if (nearest != nullptr && !(std::sqrt(squares) < distance_m)) continue;
     distance_m = std::sqrt(squares);
     nearest = &found;
@@ -73,8 +72,7 @@ void Score(const json& result, Outcome& outcome) {
     const bool has_flux = found != nullptr && (*found)["flux_lm"].is_number();
     const double ratio =
         has_flux ? (*found)["flux_lm"].get<double>() / lamp["flux_lm"].get<double>() : std::nan("");
-    outcome.worst_mm =
-        found != nullptr ? std::max(outcome.worst_mm, 1000 * distance_m) : std::nan("");
+    outcome.worst_mm = found != nullptr ? std::max(outcome.worst_mm, 1000 * distance_m) : std::nan("");
     outcome.worst_percent = std::isnan(ratio) || std::isnan(outcome.worst_percent)
                                 ? std::nan("")
                                 : std::max(outcome.worst_percent, 100 * std::abs(ratio - 1));
@@ -95,7 +93,7 @@ Outcome RunCase(const CatalogueCase& wrong, const std::set<std::string>& known) 
   Outcome outcome;
   outcome.status = run.status;
   if (run.status > 1) {
-    const size_t at = run.output.rfind("error");
+    const size_t at = run.output.rfind("luxfit: ");
     outcome.error = at == std::string::npos ? run.output : run.output.substr(at);
     outcome.rank = HasAny(outcome.error, wrong.causes) ? 1 : 0;
     outcome.is_sure = false;
@@ -119,10 +117,9 @@ bool IsMet(Required required, const Outcome& outcome) {
 }
 
 std::string VerdictOf(const Outcome& outcome) {
-  if (outcome.status > 1) return outcome.rank > 0 ? "refused, named" : "refused";
+  if (outcome.status > 1) return outcome.rank > 0 ? "refused (named)" : "refused";
   if (outcome.is_sure) return outcome.is_right ? "right" : "WRONG AND SURE";
-  const std::string said = outcome.rank > 0 ? "named" : "warned";
-  return (outcome.is_right ? "right, " : "off, ") + said;
+  return fmt::format("{} ({})", outcome.is_right ? "right" : "off", outcome.rank > 0 ? "named" : "warned");
 }
 
 std::string ToString(Required required) {
@@ -148,8 +145,8 @@ std::vector<CatalogueCase> CasesAsked(int argc, char** argv, bool is_quick) {
   for (int i = 1; i + 1 < argc; ++i)
     if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
   const auto is_left_out = [&](const CatalogueCase& c) {
-    const bool is_of_quick = c.name == "mesh in mm, said to be m" ||
-                             c.name == "two photos of a view exchanged";
+    const bool is_of_quick =
+        c.name == "mesh in mm, said to be m" || c.name == "two photos of a view exchanged";
     const bool is_asked = (c.group + " " + c.name).find(only) != std::string::npos;
     return !is_asked || (is_quick && !is_of_quick);
   };

@@ -52,6 +52,17 @@ void RecordTagsOnSurfaces(const TagsOnSurfaces& laid, Findings& findings) {
       {"tags on surfaces", tags(laid.used), {tags(0), "up to " + tags(laid.candidates)}, laid.reason});
 }
 
+// The scatter of views is what tells how far errors of poses and surfaces go beyond noise.
+void WarnOfOneView(const Registration& registration, Findings& findings) {
+  if (registration.views.size() != 1) return;
+  findings.warnings.push_back(
+      {"one_view",
+       fmt::format("view {} is the only one with a pose: no other view checks the pose, or what it shows of "
+                   "surfaces, so that positions and fluxes may be off by more than their sigmas",
+                   registration.views.front().view),
+       "add views from other places, three or more"});
+}
+
 }  // namespace
 
 void WarnOfNotes(const Registration& registration, Findings& findings) {
@@ -64,6 +75,7 @@ void RecordRegistration(const Registration& registration, const std::vector<Came
   if (has_survey) RecordSurveySigma(registration, findings);
   RecordTagsOnSurfaces(registration.tags_on_surfaces, findings);
   RecordFocalLengths(registration, cameras, camera_ids, findings);
+  WarnOfOneView(registration, findings);
 }
 
 void WarnOfOtherView(const std::string& name, const std::string& view, const std::string& state,

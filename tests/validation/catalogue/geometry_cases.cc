@@ -32,23 +32,38 @@ void Scale(const OfficeCopy& office, double factor) {
 
 std::vector<CatalogueCase> GeometryCases() {
   return {
-      {kGroup, "a wall missing", Required::kNamed, {"open_mesh"},
+      {kGroup,
+       "a wall missing",
+       Required::kNamed,
+       {"open_mesh"},
        [](const OfficeCopy& office) { LeaveOutGroups(office, "room_+x"); }},
-      {kGroup, "a wall 5 cm off", Required::kNamed, {"wall_moved"},
+      {kGroup,
+       "a wall 5 cm off",
+       Required::kNamed,
+       {"wall_moved"},
        [](const OfficeCopy& office) {
          MapMesh(office, [](Eigen::Vector3d p) {
            if (p.x() == 6) p.x() = 6.05;
            return p;
          });
        }},
-      {kGroup, "a desk missing", Required::kNamed, {"furniture_found", "unmodelled_surface"},
+      {kGroup,
+       "a desk missing",
+       Required::kNamed,
+       {"furniture_found", "unmodelled_surface"},
        [](const OfficeCopy& office) { LeaveOutGroups(office, "desk1"); }},
-      {kGroup, "all furniture missing", Required::kNamed, {"furniture_found", "unmodelled_surface"},
+      {kGroup,
+       "all furniture missing",
+       Required::kNamed,
+       {"furniture_found", "unmodelled_surface"},
        [](const OfficeCopy& office) {
          LeaveOutGroups(office, "desk");
          LeaveOutGroups(office, "cabinet");
        }},
-      {kGroup, "a desk that the room lacks", Required::kNamed, {"furniture_moved", "unmodelled_surface"},
+      {kGroup,
+       "a desk that the room lacks",
+       Required::kNamed,
+       {"furniture_moved", "unmodelled_surface"},
        [](const OfficeCopy& office) {
          office.Write("office/room.obj",
                       office.Read("office/room.obj") +
@@ -57,30 +72,59 @@ std::vector<CatalogueCase> GeometryCases() {
                           "f -4 -3 -2 -1\nf -8 -5 -6 -7\nf -8 -7 -3 -4\nf -7 -6 -2 -3\nf -6 -5 -1 -2\n"
                           "f -5 -8 -4 -1\n");
        }},
-      {kGroup, "mesh mirrored in x", Required::kNamed, {"mesh_as_if"},
+      {kGroup,
+       "mesh mirrored in x",
+       Required::kNamed,
+       {"mesh_as_if"},
        [](const OfficeCopy& office) {
          MapMesh(
-             office, [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return {6 - p.x(), p.y(), p.z()}; },
+             office,
+             [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+               return {6 - p.x(), p.y(), p.z()};
+             },
              true);
        }},
-      {kGroup, "mesh 0.1 m off", Required::kNamed, {"mesh_as_if"},
-       [](const OfficeCopy& office) { Shift(office, {0.1, 0, 0}); }},
-      {kGroup, "mesh 1 degree askew", Required::kNamed, {"mesh_as_if"},
+      {kGroup,
+       "mesh 0.1 m off",
+       Required::kNamed,
+       {"mesh_as_if"},
+       [](const OfficeCopy& office) {
+         Shift(office, {0.1, 0, 0});
+       }},
+      {kGroup,
+       "mesh 1 degree askew",
+       Required::kNamed,
+       {"mesh_as_if"},
        [](const OfficeCopy& office) { Turn(office, 1); }},
-      {kGroup, "mesh in mm, said to be m", Required::kRefused, {"mm"},
+      {kGroup,
+       "mesh in mm, said to be m",
+       Required::kRefused,
+       {"mm"},
        [](const OfficeCopy& office) { Scale(office, 1000); }},
-      {kGroup, "mesh in feet, said to be m", Required::kRefused, {"ft"},
+      {kGroup,
+       "mesh in feet, said to be m",
+       Required::kRefused,
+       {"ft"},
        [](const OfficeCopy& office) { Scale(office, 1 / 0.3048); }},
-      {kGroup, "mesh with y up", Required::kRefused, {"z up"},
+      {kGroup,
+       "mesh with y up",
+       Required::kRefused,
+       {"z up"},
        [](const OfficeCopy& office) {
-         MapMesh(office,
-                 [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return {p.x(), p.z(), -p.y()}; });
+         MapMesh(office, [](const Eigen::Vector3d& p) -> Eigen::Vector3d { return {p.x(), p.z(), -p.y()}; });
        }},
-      {kGroup, "all facets flipped", Required::kRefused, {"turn them round"},
+      {kGroup,
+       "all facets flipped",
+       Required::kRefused,
+       {"turn them round"},
        [](const OfficeCopy& office) {
-         MapMesh(office, [](const Eigen::Vector3d& p) { return p; }, true);
+         MapMesh(
+             office, [](const Eigen::Vector3d& p) { return p; }, true);
        }},
-      {kGroup, "vertices off by 5 mm", Required::kSolved, {},
+      {kGroup,
+       "vertices off by 5 mm",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
          std::mt19937 rng(1);
          std::normal_distribution<double> noise(0, 0.005);
@@ -88,7 +132,9 @@ std::vector<CatalogueCase> GeometryCases() {
            return p + Eigen::Vector3d(noise(rng), noise(rng), noise(rng));
          });
        }},
-      {kGroup, "one material for everything", Required::kNamed,
+      {kGroup,
+       "one material for everything",
+       Required::kNamed,
        {"surface_unlike_its_material", "model_misfit"},
        [](const OfficeCopy& office) {
          std::string mesh = office.Read("office/room.obj");

@@ -16,8 +16,9 @@ constexpr double kLuxPerFootCandle = 10.764;
 bool IsScale(const Fields& row) { return row[0] == "L3" && row[7] == "all"; }
 
 CatalogueCase Scaled(const std::string& name, double factor) {
-  return {kGroup, name, Required::kNamed, {"readings_as_if"},
-          [factor](const OfficeCopy& office) { MultiplyReadings(office, factor, IsScale); }};
+  return {kGroup, name, Required::kNamed, {"readings_as_if"}, [factor](const OfficeCopy& office) {
+            MultiplyReadings(office, factor, IsScale);
+          }};
 }
 
 CatalogueCase Edited(const std::string& name, Required required, std::vector<std::string> causes,
@@ -32,13 +33,19 @@ void AddTo(std::string& field, double value) { field = fmt::format("{}", std::st
 
 std::vector<CatalogueCase> LuxmeterCases() {
   return {
-      {kGroup, "one reading ten times too high", Required::kNamed, {"reading_disagrees"},
+      {kGroup,
+       "one reading ten times too high",
+       Required::kNamed,
+       {"reading_disagrees"},
        [](const OfficeCopy& office) {
          MultiplyReadings(office, 10, [](const Fields& row) { return row[0] == "L5" && row[7] == "B"; });
        }},
       Scaled("scale reading twice too high", 2),
       Scaled("scale reading in foot-candles", 1 / kLuxPerFootCandle),
-      {kGroup, "all readings in foot-candles, camera's scale known", Required::kNamed, {"readings_as_if"},
+      {kGroup,
+       "all readings in foot-candles, camera's scale known",
+       Required::kNamed,
+       {"readings_as_if"},
        [](const OfficeCopy& office) {
          MultiplyReadings(office, 1 / kLuxPerFootCandle, [](const Fields&) { return true; });
          office.GiveCameraScale();

@@ -45,32 +45,53 @@ void Darken(cv::Mat& counts) {
 
 std::vector<CatalogueCase> PhotometryCases() {
   return {
-      {kGroup, "one photo's exposure wrong by 2", Required::kNamed, {"exposure_metadata"},
+      {kGroup,
+       "one photo's exposure wrong by 2",
+       Required::kNamed,
+       {"exposure_metadata"},
        [](const OfficeCopy& office) { Scale(office, "v03", "B", 0.5); }},
-      {kGroup, "photos of one state 4 stops under", Required::kNamed,
+      {kGroup,
+       "photos of one state 4 stops under",
+       Required::kNamed,
        {"exposure_metadata", "state_exposures_undetermined"},
        [](const OfficeCopy& office) { Scale(office, "", "C", 1.0 / 16); }},
-      {kGroup, "one photo encoded in sRGB among linear ones", Required::kNamed,
+      {kGroup,
+       "one photo encoded in sRGB among linear ones",
+       Required::kNamed,
        {"response_not_linear", "exposure_metadata", "photos_as_if"},
        [](const OfficeCopy& office) {
-         EditPhotos(office, [](auto& view, auto& state) { return view == "v03" && state == "B"; },
-                    EncodeSrgb);
+         EditPhotos(
+             office, [](auto& view, auto& state) { return view == "v03" && state == "B"; }, EncodeSrgb);
        }},
-      {kGroup, "all photos encoded in sRGB", Required::kNamed, {"response_not_linear"},
+      {kGroup,
+       "all photos encoded in sRGB",
+       Required::kNamed,
+       {"response_not_linear"},
        [](const OfficeCopy& office) { EditPhotos(office, Every, EncodeSrgb); }},
-      {kGroup, "flicker of 3 %, photo by photo", Required::kSolved, {},
+      {kGroup,
+       "flicker of 3 %, photo by photo",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
          int i = 0;
          EditPhotos(office, Every, [&](cv::Mat& counts) { counts *= 1 + 0.03 * std::sin(2.4 * ++i); });
        }},
-      {kGroup, "corners darker by 30 %", Required::kNamed, {"vignetting_found"},
+      {kGroup,
+       "corners darker by 30 %",
+       Required::kNamed,
+       {"vignetting_found"},
        [](const OfficeCopy& office) { EditPhotos(office, Every, Darken); }},
-      {kGroup, "a third of full scale cut off", Required::kSolved, {},
+      {kGroup,
+       "a third of full scale cut off",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
-         EditPhotos(office, Every,
-                    [](cv::Mat& counts) { cv::min(counts, kFullScale / 3, counts); });
+         EditPhotos(office, Every, [](cv::Mat& counts) { cv::min(counts, kFullScale / 3, counts); });
        }},
-      {kGroup, "noise of 30 % of each pixel", Required::kSolved, {},
+      {kGroup,
+       "noise of 30 % of each pixel",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
          cv::RNG rng(1);
          EditPhotos(office, Every, [&](cv::Mat& counts) {
@@ -79,30 +100,51 @@ std::vector<CatalogueCase> PhotometryCases() {
            counts = counts.mul(noise);
          });
        }},
-      {kGroup, "veiling glare of 2 %", Required::kSolved, {},
+      {kGroup,
+       "veiling glare of 2 %",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
          EditPhotos(office, Every, [](cv::Mat& counts) { counts += 0.02 * cv::mean(counts); });
        }},
-      {kGroup, "two photos of a view exchanged", Required::kNamed, {"photos_as_if"},
+      {kGroup,
+       "two photos of a view exchanged",
+       Required::kNamed,
+       {"photos_as_if"},
        [](const OfficeCopy& office) {
          ExchangeFiles(office, "office/photos/v03_A.png", "office/photos/v03_B.png");
        }},
-      {kGroup, "one photo exchanged between views", Required::kNamed, {"photo_of_other_view"},
+      {kGroup,
+       "one photo exchanged between views",
+       Required::kNamed,
+       {"photo_of_other_view"},
        [](const OfficeCopy& office) {
          ExchangeFiles(office, "office/photos/v03_A.png", "office/photos/v05_A.png");
        }},
-      {kGroup, "a dimming value wrong", Required::kNamed, {"states_as_if"},
+      {kGroup,
+       "a dimming value wrong",
+       Required::kNamed,
+       {"states_as_if"},
        [](const OfficeCopy& office) { office.Replace("office/session.toml", "A = 0.3", "A = 1.0"); }},
-      {kGroup, "a luminaire off though the table says on", Required::kNamed, {"states_as_if"},
+      {kGroup,
+       "a luminaire off though the table says on",
+       Required::kNamed,
+       {"states_as_if"},
        [](const OfficeCopy& office) {
          office.Replace("office/session.toml", "evening = { A = 0.3, C = 1.0",
                         "evening = { A = 0.3, B = 1.0, C = 1.0");
        }},
-      {kGroup, "a luminaire on that the table leaves out", Required::kNamed, {"states_as_if"},
+      {kGroup,
+       "a luminaire on that the table leaves out",
+       Required::kNamed,
+       {"states_as_if"},
        [](const OfficeCopy& office) {
          office.Replace("office/session.toml", "C = 1.0, D = 1.0 }\nevening", "C = 1.0 }\nevening");
        }},
-      {kGroup, "two states exchanged in the table", Required::kNamed, {"states_as_if"},
+      {kGroup,
+       "two states exchanged in the table",
+       Required::kNamed,
+       {"states_as_if"},
        [](const OfficeCopy& office) {
          office.Replace("office/session.toml", "A = { A = 1.0 }", "A = { B = 1.0 }");
          office.Replace("office/session.toml", "\nB = { B = 1.0 }", "\nB = { A = 1.0 }");

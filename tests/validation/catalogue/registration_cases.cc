@@ -40,39 +40,72 @@ void MirrorTags(const OfficeCopy& office) {
 
 std::vector<CatalogueCase> RegistrationCases() {
   return {
-      {kGroup, "one tag surveyed 5 cm off", Required::kNamed, {"tag_disagrees"},
-       [](const OfficeCopy& office) { MoveTag(office, 2, {0, 0.05, 0}); }},
-      {kGroup, "one tag surveyed 0.5 m off", Required::kNamed, {"tag_disagrees"},
-       [](const OfficeCopy& office) { MoveTag(office, 1, {0, 0.5, 0}); }},
-      {kGroup, "two tags surveyed 5 cm off", Required::kNamed, {"tag_disagrees", "survey_less_accurate"},
+      {kGroup,
+       "one tag surveyed 5 cm off",
+       Required::kNamed,
+       {"tag_disagrees"},
+       [](const OfficeCopy& office) {
+         MoveTag(office, 2, {0, 0.05, 0});
+       }},
+      {kGroup,
+       "one tag surveyed 0.5 m off",
+       Required::kNamed,
+       {"tag_disagrees"},
+       [](const OfficeCopy& office) {
+         MoveTag(office, 1, {0, 0.5, 0});
+       }},
+      {kGroup,
+       "two tags surveyed 5 cm off",
+       Required::kNamed,
+       {"tag_disagrees", "survey_less_accurate"},
        [](const OfficeCopy& office) {
          MoveTag(office, 2, {0, 0.05, 0});
          MoveTag(office, 7, {0.05, 0, 0});
        }},
-      {kGroup, "two tags with one id in the map", Required::kRefused, {"tags.json"},
+      {kGroup,
+       "two tags with one id in the map",
+       Required::kRefused,
+       {"tags.json"},
        [](const OfficeCopy& office) { EditTags(office, [](json& tags) { tags[1]["id"] = 0; }); }},
-      {kGroup, "two tags exchanged in the map", Required::kNamed, {"tag_disagrees"},
+      {kGroup,
+       "two tags exchanged in the map",
+       Required::kNamed,
+       {"tag_disagrees"},
        [](const OfficeCopy& office) {
          EditTags(office, [](json& tags) { std::swap(tags[0]["id"], tags[2]["id"]); });
        }},
-      {kGroup, "tags said to be twice as large", Required::kNamed, {"tag_sizes_wrong", "size_m"},
+      {kGroup,
+       "tags said to be twice as large",
+       Required::kNamed,
+       {"tag_sizes_wrong", "size_m"},
        [](const OfficeCopy& office) {
          EditTags(office, [](json& tags) {
            for (json& tag : tags) tag["size_m"] = 0.4;
          });
        }},
       {kGroup, "tag map mirrored", Required::kNamed, {"map_mirrored", "mirror"}, MirrorTags},
-      {kGroup, "x and y of the tag map exchanged", Required::kRefused, {"exchanged", "mirror"},
+      {kGroup,
+       "x and y of the tag map exchanged",
+       Required::kRefused,
+       {"exchanged", "mirror"},
        ExchangeAxesOfTags},
-      {kGroup, "three tags of twelve known", Required::kSolved, {},
+      {kGroup,
+       "three tags of twelve known",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) { KeepTags(office, [](int id) { return id % 4 == 0; }); }},
-      {kGroup, "photos blurred by 2 px", Required::kSolved, {},
+      {kGroup,
+       "photos blurred by 2 px",
+       Required::kSolved,
+       {},
        [](const OfficeCopy& office) {
          EditPhotos(office, Every,
                     [](cv::Mat& counts) { cv::GaussianBlur(counts, counts, cv::Size(), 2.0); });
        }},
       {kGroup, "focal length wrong by 10 %", Required::kNamed, {"focal_length_off"}, ScaleFocalLength},
-      {kGroup, "all photos of a view are of another view", Required::kNamed,
+      {kGroup,
+       "all photos of a view are of another view",
+       Required::kNamed,
        {"photo_of_other_view", "view_disagrees", "photos_as_if"},
        [](const OfficeCopy& office) {
          for (const char* state : {"A", "B", "C"})
