@@ -10,7 +10,7 @@
 // - the texture t of elements, which all states share and which the fit eliminates, with a variance for each
 //   material (inverse/model/internal/element_texture.h).
 // Errors of camera poses are eliminated likewise, from the rows of outlines.
-// Rows that a shadow edge crosses are left out: their dependence on position is not smooth.
+// Rows that a shadow edge or a point's horizon (internal/point_horizon.h) crosses are left out: they are not smooth.
 //
 // A fit with a covariance does two things more:
 // - Photos' rows share errors, so they know less than their number says. Where readings, outlines or priors

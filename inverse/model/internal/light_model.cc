@@ -8,6 +8,7 @@
 
 #include "forward/light/covered_surfaces.h"
 #include "inverse/model/internal/derivative_columns.h"
+#include "inverse/model/internal/point_horizon.h"
 
 namespace luxfit {
 namespace {
@@ -285,8 +286,13 @@ std::vector<bool> LightModel::InPenumbra(double min_dimming) const {
     if (!BlockOf(static_cast<int>(i)).IsSpoiltByPenumbra()) continue;
     const Eigen::VectorXd& dimming = data_.dimming[static_cast<size_t>(rows_[i].state)];
     for (Eigen::Index k = 0; k < dimming.size(); ++k) {
+      if (!(dimming[k] > min_dimming)) continue;
+      const auto receiver = static_cast<size_t>(rows_[i].receiver);
       const float share = visibility_.receivers(rows_[i].receiver, k);
-      if (dimming[k] > min_dimming && share > 0.001f && share < 0.999f) mixed[i] = true;
+      if ((share > 0.001f && share < 0.999f) ||
+          IsAtHorizonOf(frozen_[static_cast<size_t>(k)], receivers_.points[receiver],
+                        min_dimming / dimming[k]))
+        mixed[i] = true;
     }
   }
   return mixed;

@@ -75,7 +75,7 @@ class LightModel {
   // Says whether derivatives by luminaires' parameters contain reflected light (DerivativeRequest::reflected).
   void ReflectDerivatives(bool reflects) { reflects_derivatives_ = reflects; }
   // Marks rows that a shadow edge crosses, in the blocks that it spoils. There, a luminaire dimmed to more
-  // than `min_dimming` is seen in part.
+  // than `min_dimming` is seen in part, or one that is a point stands at the receiver's horizon (point_horizon.h).
   std::vector<bool> InPenumbra(double min_dimming = 0.02) const;
   Prediction Predict(const LightState& state, const std::vector<Parameter>& parameters,
                      bool with_jacobian) const;
