@@ -86,6 +86,12 @@ bool HasAny(const std::string& text, const std::vector<std::string>& causes) {
                      [&](const std::string& cause) { return text.find(cause) != std::string::npos; });
 }
 
+std::string Without(const std::string& folder, std::string text) {
+  for (size_t at = text.find(folder); at != std::string::npos; at = text.find(folder))
+    text.erase(at, folder.size());
+  return text;
+}
+
 Outcome RunCase(const CatalogueCase& wrong, const std::set<std::string>& known) {
   const support::OfficeCopy office;
   wrong.make(office);
@@ -94,7 +100,7 @@ Outcome RunCase(const CatalogueCase& wrong, const std::set<std::string>& known) 
   outcome.status = run.status;
   if (run.status > 1) {
     const size_t at = run.output.rfind("luxfit: ");
-    outcome.error = at == std::string::npos ? run.output : run.output.substr(at);
+    outcome.error = Without(office.Path(""), at == std::string::npos ? run.output : run.output.substr(at));
     outcome.rank = HasAny(outcome.error, wrong.causes) ? 1 : 0;
     outcome.is_sure = false;
     return outcome;

@@ -92,6 +92,26 @@ void AddHeights(const ExplainingLight& light, std::vector<Misreading>& misreadin
   misreadings.push_back(std::move(shifted));
 }
 
+// All readings with the head tilted alike: a meter that does not lie flat, or is held by its lower edge.
+void AddTilts(std::vector<Misreading>& misreadings) {
+  constexpr double kDegrees = M_PI / 180;
+  Misreading tilted{{}, "level the meter's head, or give nx, ny and nz as it faced"};
+  for (const int tilt_deg : {3, 5, 8, 12}) {
+    for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 45) {
+      const Eigen::Vector3d towards(std::cos(azimuth_deg * kDegrees), std::sin(azimuth_deg * kDegrees), 0);
+      const Eigen::AngleAxisd turn(tilt_deg * kDegrees, Eigen::Vector3d::UnitZ().cross(towards));
+      tilted.ways.push_back(
+          {fmt::format("the meter's head was tilted by about {} degrees towards ({:.0f}, {:.0f})", tilt_deg,
+                       std::round(towards.x()) + 0.0, std::round(towards.y()) + 0.0),
+           [turn](Sensor s) {
+             s.normal = turn * s.normal;
+             return s;
+           }});
+    }
+  }
+  misreadings.push_back(std::move(tilted));
+}
+
 void AddStates(const std::vector<std::string>& states, std::vector<Misreading>& misreadings) {
   const int count = static_cast<int>(states.size());
   for (int a = 0; a < count; ++a) {
@@ -119,6 +139,7 @@ std::vector<Misreading> Misreadings(const ExplainingLight& light) {
                }));
   AddUnits(misreadings);
   AddHeights(light, misreadings);
+  AddTilts(misreadings);
   AddStates(light.states, misreadings);
   if (light.scale != ScaleSource::kNone)
     misreadings.push_back({{{"", {}}}, "read them again, in lx, and see the range of the meter", true});

@@ -5,6 +5,7 @@
 //   places, or heights alone, in another unit
 //   meter on top of what stands at its place
 //   all heights off by one length, free in steps of 5 cm
+//   all heads tilted alike, by 3 to 12 degrees, towards one of eight directions
 //   two states written for each other
 //   the readings that set the scale off by a factor, free; all readings, where something else sets the scale
 //

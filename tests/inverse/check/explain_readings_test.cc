@@ -161,6 +161,19 @@ TEST(ExplainReadings, HeightsOffAlike) {
              "the meter was 1.10 m higher");
 }
 
+TEST(ExplainReadings, HeadsTiltedAlike) {
+  const Eigen::AngleAxisd towards_x(5 * M_PI / 180, Eigen::Vector3d::UnitY());
+  std::vector<ReadingAsGiven> readings = Right();
+  for (ReadingAsGiven& r : readings) {
+    Sensor tilted = r.sensor;
+    tilted.normal = towards_x * tilted.normal;
+    r.measured_lx = PointLx(tilted, r.state);
+  }
+  const auto found = Explain(readings);
+  ASSERT_EQ(found.size(), 1u) << (found.empty() ? "" : InWords(found));
+  EXPECT_THAT(found[0].as_if, HasSubstr("the meter's head was tilted by about 5 degrees towards (1, 0)"));
+}
+
 TEST(ExplainReadings, OnTopOfWhatStandsThere) {
   std::vector<ReadingAsGiven> readings = Right(0);
   for (ReadingAsGiven& r : readings) {

@@ -135,7 +135,7 @@ std::vector<CatalogueCase> GeometryCases() {
       {kGroup,
        "one material for everything",
        Required::kNamed,
-       {"surface_unlike_its_material", "model_misfit"},
+       {"surface_unlike_its_material"},
        [](const OfficeCopy& office) {
          std::string mesh = office.Read("office/room.obj");
          for (size_t at = mesh.find("usemtl"); at != std::string::npos; at = mesh.find("usemtl", at + 1))

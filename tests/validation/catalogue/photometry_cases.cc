@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -51,10 +53,21 @@ std::vector<CatalogueCase> PhotometryCases() {
        {"exposure_metadata"},
        [](const OfficeCopy& office) { Scale(office, "v03", "B", 0.5); }},
       {kGroup,
-       "photos of one state 4 stops under",
-       Required::kNamed,
-       {"exposure_metadata", "state_exposures_undetermined"},
-       [](const OfficeCopy& office) { Scale(office, "", "C", 1.0 / 16); }},
+       "exposures of all photos of a state wrong by 2",
+       Required::kSolved,
+       {},
+       [](const OfficeCopy& office) { Scale(office, "", "C", 0.5); }},
+      {kGroup,
+       "photos of a state 4 stops under, as stated",
+       Required::kSolved,
+       {},
+       [](const OfficeCopy& office) {
+         Scale(office, "", "C", 1.0 / 16);
+         office.ChangeRows("office/photos.csv", [](Fields& row) {
+           if (row[3] == "C") row[4] = fmt::format("{}", std::stod(row[4]) / 16);
+           return true;
+         });
+       }},
       {kGroup,
        "one photo encoded in sRGB among linear ones",
        Required::kNamed,
@@ -82,9 +95,9 @@ std::vector<CatalogueCase> PhotometryCases() {
        {"vignetting_found"},
        [](const OfficeCopy& office) { EditPhotos(office, Every, Darken); }},
       {kGroup,
-       "a third of full scale cut off",
-       Required::kSolved,
-       {},
+       "counts cut off at a third of full scale",
+       Required::kNamed,
+       {"luminance_clipped"},
        [](const OfficeCopy& office) {
          EditPhotos(office, Every, [](cv::Mat& counts) { cv::min(counts, kFullScale / 3, counts); });
        }},

@@ -36,6 +36,10 @@ void MirrorTags(const OfficeCopy& office) {
   });
 }
 
+void Blur(const OfficeCopy& office, double sigma_px) {
+  EditPhotos(office, Every, [=](cv::Mat& counts) { cv::GaussianBlur(counts, counts, cv::Size(), sigma_px); });
+}
+
 }  // namespace
 
 std::vector<CatalogueCase> RegistrationCases() {
@@ -95,13 +99,15 @@ std::vector<CatalogueCase> RegistrationCases() {
        {},
        [](const OfficeCopy& office) { KeepTags(office, [](int id) { return id % 4 == 0; }); }},
       {kGroup,
-       "photos blurred by 2 px",
+       "photos blurred by 1 px",
        Required::kSolved,
        {},
-       [](const OfficeCopy& office) {
-         EditPhotos(office, Every,
-                    [](cv::Mat& counts) { cv::GaussianBlur(counts, counts, cv::Size(), 2.0); });
-       }},
+       [](const OfficeCopy& office) { Blur(office, 1); }},
+      {kGroup,
+       "photos blurred by 2 px",
+       Required::kRefused,
+       {"sharp"},
+       [](const OfficeCopy& office) { Blur(office, 2); }},
       {kGroup, "focal length wrong by 10 %", Required::kNamed, {"focal_length_off"}, ScaleFocalLength},
       {kGroup,
        "all photos of a view are of another view",
