@@ -69,14 +69,15 @@ class AppliedCorrections : public testing::Test {
     return average_lx;
   }
 
-  // The same light, to what a dimming value of 0.3000 for 0.3 changes.
+  // The same light, to what rounding changes. A mesh that is moved back, whose corners are rounded otherwise, moves a
+  // luminaire by 0.28 mm, a dimming value of 0.30001 for 0.3 by 0.005 mm. The sigma of a position is 3 mm.
   static void ExpectSameLight(const json& right, const json& found) {
     ASSERT_EQ(right["luminaires"].size(), found["luminaires"].size());
     for (size_t k = 0; k < right["luminaires"].size(); ++k) {
       const json &a = right["luminaires"][k], &b = found["luminaires"][k];
       EXPECT_NEAR(b["flux_lm"].get<double>() / a["flux_lm"].get<double>(), 1, 1e-3);
       for (size_t axis = 0; axis < 3; ++axis)
-        EXPECT_NEAR(b["position_m"][axis].get<double>(), a["position_m"][axis].get<double>(), 2e-4);
+        EXPECT_NEAR(b["position_m"][axis].get<double>(), a["position_m"][axis].get<double>(), 5e-4);
     }
     ASSERT_EQ(right["luxmeter"].size(), found["luxmeter"].size());
     for (size_t i = 0; i < right["luxmeter"].size(); ++i)
