@@ -95,7 +95,7 @@ std::vector<Hypothesis> Hypotheses() {
 // taken for others. The result is the middle of adjacent factors that agree.
 std::optional<double> FindSizeFactor(const std::function<int(double)>& count_agreeing, int needed,
                                      double size_m) {
-  constexpr double kStep = 1.04;  // within a tag's tolerance of a twentieth of its side
+  constexpr double kStep = 1.02;  // tags agree within some two percent of their size
   constexpr double kMost = 3.2;   // beyond it sizes are wrong by a unit
   constexpr double kLeastTagM = 0.005, kMostTagM = 5;
   for (const double step : {kStep, 1 / kStep}) {

@@ -1,5 +1,5 @@
-// The office that an independent renderer photographed, one tag of its survey elsewhere: `luxfit register` names the tag, says where it
-// hangs, and blames no view.
+// The office that an independent renderer photographed, one tag of its survey elsewhere, or all of another size: `luxfit register`
+// names it, says where the tag hangs, and blames no view.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +49,16 @@ TEST_F(MovedTag, HalfAMetreIsNamed) {
   EXPECT_THAT(said, HasSubstr("Tag 1 disagrees with the other tags"));
   EXPECT_THAT(said, ContainsRegex("The photos show it (4[89]|50)[0-9] mm off its surveyed place"));
   EXPECT_THAT(said, Not(HasSubstr("See whether the camera moved")));
+}
+
+// A search in steps of 4 % missed the factor, and 7 of 10 views were registered metres off.
+TEST_F(MovedTag, SizesTwiceTooLargeAreNamed) {
+  json tags = office_.Json("office/tags.json");
+  for (json& tag : tags) tag["size_m"] = 2 * tag["size_m"].get<double>();
+  office_.Write("office/tags.json", tags.dump());
+  const support::ProgramRun run = office_.Run("register");
+  EXPECT_EQ(run.status, 2) << run.output;
+  EXPECT_THAT(run.output, ContainsRegex("show all tags 0.(49|5)[0-9]* times as large"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ std::vector<CatalogueCase> RegistrationCases() {
       {kGroup,
        "tags said to be twice as large",
        Required::kNamed,
-       {"tag_sizes_wrong", "size_m"},
+       {"tag_sizes_wrong", "times as large"},
        [](const OfficeCopy& office) {
          EditTags(office, [](json& tags) {
            for (json& tag : tags) tag["size_m"] = 0.4;
