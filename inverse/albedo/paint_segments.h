@@ -31,7 +31,7 @@ constexpr double kLeastSharedSigma = 0.02;
 struct ElementReflectance {
   int element = 0;
   double albedo = 0;
-  // Of red, green and blue, in light that is neutral; NaN: not known.
+  // Gives red, green and blue, as neutral light shows them; NaN: not known.
   Eigen::Vector3d albedo_rgb = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
