@@ -7,5 +7,5 @@ cd "$root"
 .ci/setup.sh
 cmake --preset release >/dev/null
 cmake --build build/release
-# One test at a time: each uses all cores itself, and timings in the log mean something.
-exec ctest --preset release "$@"
+# Fast tests two at a time. Slow ones run alone: each uses all cores itself, and timings in the log mean something.
+exec ctest --preset release --parallel 2 "$@"

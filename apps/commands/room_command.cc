@@ -18,6 +18,7 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/named_planes.h"
 #include "forward/room/planes.h"
 #include "forward/room/ray_shares.h"
 
@@ -57,17 +58,19 @@ void AddFindings(const Scene& given, ExaminedRoom& room) {
 }
 
 // Makes the scene as `run` does.
-void Layout(const Scene& given, ExaminedRoom& room) {
+void Layout(const SessionScene& said, const Scene& given, ExaminedRoom& room) {
   room.facets = static_cast<int>(given.facets.size());
   room.is_on_planes = IsFinerThanPatches(given, {});
   PlanesOptions options;
-  options.name_materials = true;
-  room.scene = room.is_on_planes ? LayOnPlanes(given, options).scene : WithoutOverlaps(given);
+  options.named_material = MaterialWithoutPaints(said, given);
+  room.scene = room.is_on_planes ? LayOnPlanes(given, options).scene
+                                 : WithPlanesNamed(WithoutOverlaps(given), options.named_material);
 }
 
 ExaminedRoom Examine(const RoomCommandOptions& options) {
   ExaminedRoom room;
   Scene given;
+  SessionScene said;
   std::string complaint;
   if (ExtensionOf(options.file) == ".toml") {
     const Session session = ReadSession(options.file);
@@ -76,14 +79,15 @@ ExaminedRoom Examine(const RoomCommandOptions& options) {
                        "expected what the room is, got no [scene]; add it with size, outline or mesh");
     room.name = session.name;
     room.is = RoomText(*session.scene);
-    given = SceneOf(*session.scene);
+    said = *session.scene;
+    given = SceneOf(said);
     complaint = SurveyComplaint(session, given);
   } else {
     room.name = FileName(options.file);
     room.is = options.file;
     given = ReadScene(options.file, MetresPerUnit(options.unit, "--unit"));
   }
-  Layout(given, room);
+  Layout(said, given, room);
   room.material_area_m2.assign(room.scene.materials.size(), 0);
   for (const Facet& facet : room.scene.facets)
     room.material_area_m2[static_cast<size_t>(facet.material)] += facet.AreaM2();

@@ -41,7 +41,7 @@ std::unique_ptr<MeshRoom> ReadRoom(const std::filesystem::path& mesh, const std:
   if (!known) throw std::runtime_error("Room: method: " + ExpectedOneOf(MethodNames(), method));
   options.form_factors = {rays, *known};
   options.planes.emplace();
-  options.planes->name_materials = true;
+  options.planes->named_material = kDefaultMaterial;
   const py::gil_scoped_release release;
   Scene scene = SceneOfFile(mesh.string(), metres_per_unit);
   Room made = MakeRoom(scene, options);

@@ -37,6 +37,7 @@ struct SessionScene {
   int line = 0;                                             // line of [scene.albedo], else of [scene]
   std::optional<RoomOutline> outline;                       // from size or outline; m
   bool finds_furniture = true;                              // furniture = "find"
+  bool names_planes = true;                                 // materials = "find"
   std::optional<MeshMove> mesh_move;  // where the mesh is instead, as a run's corrections have it
   std::vector<RoomBox> furniture;     // found in photos (apps/stages/observe/found_furniture.h), m
   std::vector<PlaneMove> walls;       // of the mesh, which photos show elsewhere

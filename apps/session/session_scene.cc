@@ -47,7 +47,8 @@ double MetresPerUnit(const std::string& unit, const std::string& key) {
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
-  section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo", "furniture"});
+  section.ExpectKeys(
+      {"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo", "furniture", "materials"});
   SessionScene scene;
   if (const auto unit = section.Find("unit")) {
     scene.unit = unit->OneOf(UnitNames());
@@ -57,6 +58,8 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
   if (const auto mesh = section.Find("mesh")) scene.mesh = AbsolutePath(FindFile(*mesh, folder));
   if (const auto furniture = section.Find("furniture"))
     scene.finds_furniture = furniture->OneOf({"find", "given"}) == "find";
+  if (const auto materials = section.Find("materials"))
+    scene.names_planes = materials->OneOf({"find", "given"}) == "find";
   scene.line = section.place().line;
   if (const auto albedo = section.Find("albedo")) {
     scene.line = albedo->place().line;

@@ -12,6 +12,7 @@
 #include "apps/stages/paint_surfaces.h"
 #include "apps/stages/register/registration_json.h"
 #include "apps/stages/stages.h"
+#include "apps/stages/warning_order.h"
 #include "apps/text/formats/json_vectors.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
@@ -260,6 +261,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   result["session"] = session.name;
   result["session_file"] = session.path;
   AddLuxmeter(readings, fit, ExplainCheck(session, readings, room, fit), context, result);
+  PutCausesFirst(context.warnings);
   AddStatus(context, result);
   if (fit.stopped) result["stopped"] = {{"reason", fit.stopped->reason}, {"step", fit.stopped->step}};
   if (!registered.misplaced.empty()) result["misplaced_photos"] = MisplacedJson(registered.misplaced);

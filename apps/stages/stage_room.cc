@@ -11,6 +11,7 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/named_planes.h"
 #include "forward/room/patches.h"
 #include "forward/room/planes.h"
 #include "forward/room/scene.h"
@@ -60,6 +61,19 @@ void ExpectRoomSize(const Session& session, const Scene& scene) {
                   "room is {:.4g} m x {:.4g} m x {:.4g} m; check the unit, and whether a corner lies far off "
                   "all others",
                   session.path, session.scene->unit, size.x(), size.y(), size.z()));
+}
+
+void RecordPlaneNames(const std::string& material, const Room& room, RunContext& context) {
+  context.choices.push_back(
+      {"materials",
+       fmt::format("{} materials, by planes", room.scene.materials.size()),
+       {"a reflectance for each plane", "one for all"},
+       material == kDefaultMaterial
+           ? "the mesh has no materials, and floor, ceiling and walls are seldom of one paint"
+           : fmt::format(
+                 "the mesh gives all surfaces the material {}, and floor, ceiling and walls are seldom of "
+                 "one paint; materials = \"given\" under [scene] keeps it",
+                 material)});
 }
 
 }  // namespace
@@ -147,13 +161,18 @@ void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext&
   }
 }
 
+std::string MaterialWithoutPaints(const SessionScene& scene, const Scene& mesh) {
+  std::string sole = SoleMaterialOf(mesh);
+  return scene.names_planes && scene.known_albedo_rgb.count(sole) == 0 ? sole : "";
+}
+
 Room LoadRoom(const Session& session, RunContext& context) {
   if (!session.scene) return MakeRoom(Scene{});
   const StageTimer timer(context, "scene", RoomText(*session.scene));
   const LoadedMesh mesh = LoadMesh(session);
   RoomOptions options;
   options.planes.emplace();
-  options.planes->name_materials = session.scene->known_albedo_rgb.count(kDefaultMaterial) == 0;
+  options.planes->named_material = MaterialWithoutPaints(*session.scene, mesh.scene);
   Room room = MakeRoom(mesh.scene, options);
   if (room.sparse) {
     throw std::runtime_error(
@@ -179,6 +198,8 @@ Room LoadRoom(const Session& session, RunContext& context) {
          {},
          "facets finer than patches tell light nothing; their errors average out over a plane"});
   }
+  if (!options.planes->named_material.empty())
+    RecordPlaneNames(options.planes->named_material, room, context);
   WarnOfMesh(mesh.findings, room, context);
   WarnOfUnknownMaterials(session, room.scene, context);
   return room;

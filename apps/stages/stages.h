@@ -91,6 +91,10 @@ void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext&
 // Warns of reflectances that the session gives for materials that the room does not have.
 void WarnOfUnknownMaterials(const Session& session, const Scene& scene, RunContext& context);
 
+// Returns the material that says nothing of paints, so that its planes get materials of their own: the only one of the mesh, where
+// [scene] says neither its reflectance nor materials = "given". Empty: none. See forward/room/named_planes.h.
+std::string MaterialWithoutPaints(const SessionScene& scene, const Scene& mesh);
+
 // Returns that room with its form factors; an empty room where the session has no [scene].
 Room LoadRoom(const Session& session, RunContext& context);
 

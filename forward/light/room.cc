@@ -14,6 +14,7 @@
 #include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/room/internal/expect_valid.h"
 #include "forward/room/mesh_check.h"
+#include "forward/room/named_planes.h"
 
 namespace luxfit {
 namespace {
@@ -71,6 +72,7 @@ Room MakeRoom(const Scene& given, const RoomOptions& options) {
     on_planes = laid.how;
   } else {
     scene = given.surface.empty() ? WithoutOverlaps(given) : given;
+    if (options.planes) scene = WithPlanesNamed(std::move(scene), options.planes->named_material);
   }
   RayScene rays(scene);
   Patches patches = Subdivide(scene, rays, options.patches);

@@ -53,7 +53,8 @@ struct Room {
   std::shared_ptr<const Room> clusters;
 };
 // Makes a room. A mesh finer than patches is laid onto planes first where the options ask for it (LayOnPlanes); of any
-// other, facets drawn on one another are cut (WithoutOverlaps). So `scene` may differ from the given one.
+// other, facets drawn on one another are cut (WithoutOverlaps), and planes of one material are named where the options ask
+// for it (WithPlanesNamed). So `scene` may differ from the given one.
 Room MakeRoom(const Scene& given, const RoomOptions& options = {});
 
 struct Receivers {

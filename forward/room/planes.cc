@@ -13,6 +13,7 @@
 
 #include "forward/room/internal/close_holes.h"
 #include "forward/room/internal/grow_planes.h"
+#include "forward/room/internal/plane_names.h"
 #include "forward/room/internal/scan_mesh.h"
 
 namespace luxfit {
@@ -173,101 +174,6 @@ class RegionFacet {
   double area_m2_ = 0;
 };
 
-// Returns by triangle the number of the piece that hangs together.
-std::vector<int> PiecesOf(const ScanMesh& mesh) {
-  std::vector<int> piece(mesh.triangles.size(), -1);
-  int count = 0;
-  for (size_t start = 0; start < piece.size(); ++start) {
-    if (piece[start] >= 0) continue;
-    std::vector<size_t> stack{start};
-    piece[start] = count;
-    while (!stack.empty()) {
-      const size_t t = stack.back();
-      stack.pop_back();
-      for (const int n : mesh.across[t]) {
-        if (n < 0 || piece[static_cast<size_t>(n)] >= 0) continue;
-        piece[static_cast<size_t>(n)] = count;
-        stack.push_back(static_cast<size_t>(n));
-      }
-    }
-    ++count;
-  }
-  return piece;
-}
-
-// Names large planes by what they are in a room, and numbers those of a kind by area.
-class PlaneNames {
- public:
-  PlaneNames(const ScanMesh& mesh, const PlanarRegions& regions) {
-    low_.assign(regions.planes.size(), std::numeric_limits<double>::infinity());
-    high_.assign(regions.planes.size(), -std::numeric_limits<double>::infinity());
-    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (regions.of_triangle[t] < 0) continue;
-      const auto region = static_cast<size_t>(regions.of_triangle[t]);
-      for (size_t k = 0; k < 3; ++k) {
-        low_[region] = std::min(low_[region], mesh.Corner(t, k).z());
-        high_[region] = std::max(high_[region], mesh.Corner(t, k).z());
-      }
-    }
-    floor_m_ = *std::min_element(low_.begin(), low_.end());
-    ceiling_m_ = *std::max_element(high_.begin(), high_.end());
-  }
-
-  std::string NameOf(size_t region, const Plane& plane) {
-    const std::string kind = KindOf(region, plane);
-    const int number = ++count_[kind];
-    const bool is_single = number == 1 && (kind == "floor" || kind == "ceiling");
-    return is_single ? kind : kind + " " + std::to_string(number);
-  }
-
- private:
-  std::string KindOf(size_t region, const Plane& plane) const {
-    constexpr double kLevel = 0.95, kUpright = 0.3, kEnd = 0.1, kTall = 0.7;
-    const double height_m = ceiling_m_ - floor_m_;
-    if (plane.normal.z() > kLevel && high_[region] < floor_m_ + kEnd * height_m) return "floor";
-    if (plane.normal.z() < -kLevel && low_[region] > ceiling_m_ - kEnd * height_m) return "ceiling";
-    if (std::abs(plane.normal.z()) < kUpright && high_[region] - low_[region] > kTall * height_m)
-      return "wall";
-    return "surface";
-  }
-
-  std::vector<double> low_, high_;  // by region, m
-  double floor_m_ = 0, ceiling_m_ = 0;
-  std::map<std::string, int> count_;
-};
-
-// Gives each plane a material of its own where it is large, and the small ones of a piece one together. Regions come
-// largest first, and so do the numbers.
-void NameMaterials(const Segmented& room, Scene& scene, std::vector<int>& material) {
-  constexpr double kLargeM2 = 0.3;
-  const std::vector<int> pieces = PiecesOf(room.mesh);
-  std::vector<int> piece_of(material.size(), -1);
-  std::vector<double> piece_m2(pieces.size(), 0);
-  for (size_t t = 0; t < pieces.size(); ++t) {
-    if (room.regions.of_triangle[t] >= 0)
-      piece_of[static_cast<size_t>(room.regions.of_triangle[t])] = pieces[t];
-    piece_m2[static_cast<size_t>(pieces[t])] += 0.5 * room.mesh.AreaNormal(t).norm();
-  }
-  PlaneNames names(room.mesh, room.regions);
-  scene.materials.clear();
-  const auto add = [&scene](std::string name) {
-    scene.materials.push_back(std::move(name));
-    return static_cast<int>(scene.materials.size()) - 1;
-  };
-  constexpr int kScraps = -1;  // pieces that are small themselves
-  std::map<int, int> details;  // by piece
-  for (size_t r = 0; r < material.size(); ++r) {
-    if (room.regions.area_m2[r] >= kLargeM2) {
-      material[r] = add(names.NameOf(r, room.regions.planes[r]));
-      continue;
-    }
-    const int piece = piece_m2[static_cast<size_t>(piece_of[r])] < kLargeM2 ? kScraps : piece_of[r];
-    const auto [of_piece, is_new] = details.try_emplace(piece, 0);
-    if (is_new) of_piece->second = add("details " + std::to_string(details.size()));
-    material[r] = of_piece->second;
-  }
-}
-
 }  // namespace
 
 OnPlanes LayOnPlanes(const Scene& mesh, const PlanesOptions& options) {
@@ -276,9 +182,8 @@ OnPlanes LayOnPlanes(const Scene& mesh, const PlanesOptions& options) {
   result.how = room.how;
   result.scene.materials = mesh.materials;
   result.scene.dropped_facets = mesh.dropped_facets;
-  std::vector<int> material = room.regions.material;
-  if (options.name_materials && mesh.materials == std::vector<std::string>{kDefaultMaterial})
-    NameMaterials(room, result.scene, material);
+  const std::vector<int> material =
+      NamePlanes(room.mesh, room.regions, options.named_material, result.scene.materials);
   const std::vector<Vector3d> placed = VerticesOnPlanes(room);
   const Vector3d main_direction = MainDirection(room.regions);
   std::vector<RegionFacet> facets;

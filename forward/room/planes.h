@@ -11,15 +11,15 @@
 // Holes of up to 1.2 m, as scanners leave them, are closed. Pieces that no neighbour takes in are planes of their own,
 // however small. Rooms of more planes than `most_planes` are laid onto coarser ones, up to ten times as far off; what is left
 // then of small pieces (a plant, a heap of cables) is gathered: those of 0.4 m of space that face alike share a plane.
-// Where materials are asked for, a mesh without any gets one for each plane of 0.3 m2 and more ("floor",
-// "ceiling", "wall 1", ..., "surface 1", ... by area) and one for all smaller planes of each piece that hangs together
-// ("details 1", ...).
+// Planes of one material get a material each where that is asked for (forward/room/named_planes.h).
 //
 // Lengths in m, world frame. Sources: Rabbani, van den Heuvel, Vosselman (2006), "Segmentation of point clouds using
 // smoothness constraint" (region growing); Garland and Heckbert (1997), "Surface simplification using quadric error
 // metrics" (the place of a vertex from its planes).
 #ifndef LUXFIT_FORWARD_ROOM_PLANES_H_
 #define LUXFIT_FORWARD_ROOM_PLANES_H_
+
+#include <string>
 
 #include "forward/room/patches.h"
 #include "forward/room/scene.h"
@@ -30,7 +30,7 @@ struct PlanesOptions {
   double off_plane_m = 0.03;    // depth cameras err by a centimetre or two; light hardly sees such relief
   double largest_hole_m = 1.2;  // diagonal of holes that are closed
   int most_planes = 1200;       // more become fewer, see above
-  bool name_materials = false;  // a mesh without materials gets some
+  std::string named_material;   // its planes get names; empty: none do
 };
 
 struct LaidOnPlanes {

@@ -24,7 +24,7 @@
 #include "inverse/choose/internal/two_sides.h"
 #include "inverse/fit/internal/detail_words.h"
 #include "inverse/fit/internal/early_stop.h"
-#include "inverse/fit/internal/expect_whole.h"
+#include "inverse/fit/internal/fit_as_given.h"
 #include "inverse/fit/internal/indirect_albedo.h"
 #include "inverse/fit/internal/match_scale.h"
 #include "inverse/fit/internal/misfit.h"
@@ -492,8 +492,7 @@ class RoomFitter {
 
 }  // namespace
 
-RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options) {
-  ExpectWhole(room, observations);
+RoomFit FitAsGiven(const Room& room, const RoomObservations& observations, const FitRoomOptions& options) {
   return RoomFitter(room, observations, options).Run();
 }
 

@@ -7,6 +7,8 @@
 // 2. the simplest model of each luminaire that data left out support (inverse/choose);
 // 3. the absolute scale;
 // 4. FitLuminaires on all observations, with the interreflection solved.
+// Where the fit contradicts a place that is given with a sigma, it is done again without it, and kept where it explains the light no
+// worse.
 // The result holds values, covariance, choices with their reasons and warnings with their remedies.
 //
 // Throws std::invalid_argument for inputs that do not fit together:

@@ -89,8 +89,9 @@ ScanMesh MakeScanMesh(const Scene& scene) {
   mesh.vertices = std::move(topology.vertices);
   for (size_t f = 0; f < scene.facets.size(); ++f) {
     const std::array<int, 4>& c = topology.corners[f];
-    AddTriangle(c[0], c[1], c[2], scene.facets[f].material, mesh);
-    if (c[3] >= 0) AddTriangle(c[0], c[2], c[3], scene.facets[f].material, mesh);
+    const int material = scene.facets[f].material;
+    if (AddTriangle(c[0], c[1], c[2], material, mesh)) mesh.facet.push_back(static_cast<int>(f));
+    if (c[3] >= 0 && AddTriangle(c[0], c[2], c[3], material, mesh)) mesh.facet.push_back(static_cast<int>(f));
   }
   FindNeighbours(mesh);
   return mesh;

@@ -17,6 +17,7 @@ struct ScanMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from the front
   std::vector<int> material;                  // by triangle
+  std::vector<int> facet;                     // by triangle of the scene: the facet that it is of
   std::vector<std::array<int, 3>>
       across;  // by triangle: the neighbour at side k, corners k and k + 1; -1: none
 

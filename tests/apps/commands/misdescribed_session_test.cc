@@ -57,5 +57,26 @@ TEST_F(MisdescribedSession, AWrongDimmingValueLeavesTheResultUndetermined) {
   EXPECT_THAT(result["warnings"].dump(), Not(HasSubstr("exposure_metadata")));
 }
 
+TEST_F(MisdescribedSession, APlaceThatPhotosContradictIsLeftOut) {
+  office_.Write("office/session.toml",
+                office_.Read("office/session.toml") +
+                    "\n[[luminaire]]\nid = \"A\"\nposition_m = [2.0, 2.0, 2.79]\nposition_sigma_m = 0.01\n");
+  const json result = office_.ResultOf("fit", 0);
+  EXPECT_EQ(result["warnings"][0]["code"], "given_contradicted") << result["warnings"].dump(1);
+  EXPECT_NEAR(result["luminaires"][0]["position_m"][0].get<double>(), 1.5, 0.01);
+}
+
+// An export without materials: floor, walls and desks are not of one paint.
+TEST_F(MisdescribedSession, OneMaterialForAllIsTakenForNone) {
+  std::string mesh = office_.Read("office/room.obj");
+  for (size_t at = mesh.find("usemtl"); at != std::string::npos; at = mesh.find("usemtl", at + 1))
+    mesh.replace(at, mesh.find('\n', at) - at, "usemtl wall");
+  office_.Write("office/room.obj", mesh);
+  const json result = office_.ResultOf("fit", 0);
+  EXPECT_EQ(result["materials"][0]["name"], "floor");
+  EXPECT_NEAR(result["luminaires"][0]["position_m"][0].get<double>(), 1.5, 0.01);
+  EXPECT_LT(result["summary"]["mean_abs_error_percent"].get<double>(), 3);
+}
+
 }  // namespace
 }  // namespace luxfit

@@ -1,5 +1,6 @@
 #include "forward/room/planes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -131,7 +132,7 @@ TEST(LayOnPlanes, HitsHaveThePlaceOnTheirFacet) {
 
 TEST(LayOnPlanes, MaterialsAreNamedByWhatPlanesAre) {
   PlanesOptions options;
-  options.name_materials = true;
+  options.named_material = kDefaultMaterial;
   const Scene scene = LayOnPlanes(ScanOfRoom(), options).scene;
   const std::set<std::string> names(scene.materials.begin(), scene.materials.end());
   for (const char* name : {"floor", "ceiling", "wall 1", "wall 4", "surface 1", "surface 2", "details 1"})
@@ -141,11 +142,40 @@ TEST(LayOnPlanes, MaterialsAreNamedByWhatPlanesAre) {
   EXPECT_EQ(LayOnPlanes(ScanOfRoom()).scene.materials, std::vector<std::string>{kDefaultMaterial});
 }
 
-TEST(NamedPlanes, AreNumberedInOrderOnASurface) {
+// A drawn room of one material, with a box that photos showed.
+TEST(NamedPlanes, OfADrawnMeshAreItsFacets) {
+  Scene drawn = Furnished();
+  for (Facet& facet : drawn.facets) facet.material = 0;
+  drawn.materials = {"paint"};
+  support::AddBox(drawn, {Vector3d(3, 2, 0), Vector3d(3.6, 2.4, 1)}, support::Facing::kOutward, {"found 1"});
+  ASSERT_EQ(SoleMaterialOf(drawn), "paint");
+  const Scene named = WithPlanesNamed(drawn, "paint");
+  EXPECT_THAT(named.materials,
+              testing::UnorderedElementsAre("floor", "ceiling", "wall 1", "wall 2", "wall 3", "wall 4",
+                                            "surface 1", "surface 2", "details 1", "found 1"));
+  ASSERT_EQ(named.facets.size(), drawn.facets.size());
+  for (const Facet& facet : named.facets) {
+    const std::string& name = named.materials[static_cast<size_t>(facet.material)];
+    const Vector3d normal = facet.Normal();
+    if (name == "floor") EXPECT_GT(normal.z(), 0.99);
+    if (name == "ceiling") EXPECT_LT(normal.z(), -0.99);
+    if (name.rfind("wall", 0) == 0) EXPECT_GT(facet.AreaM2(), 9);
+    if (name == "details 1") EXPECT_LT(facet.AreaM2(), 0.3);
+  }
+  for (size_t f = drawn.facets.size() - 6; f < drawn.facets.size(); ++f)
+    EXPECT_EQ(named.materials[static_cast<size_t>(named.facets[f].material)], "found 1");
+  EXPECT_TRUE(AreNamedPlanes(named));
+}
+
+TEST(NamedPlanes, SeveralMaterialsStay) {
+  const Scene furnished = Furnished();
+  EXPECT_EQ(SoleMaterialOf(furnished), "");
+  EXPECT_EQ(WithPlanesNamed(furnished, "").materials, furnished.materials);
+}
+
+TEST(NamedPlanes, AreNumberedInOrder) {
   Scene scene;
   scene.materials = {"floor", "wall 1", "floor 2", "wall 2", "details 1", "found 1"};
-  EXPECT_FALSE(AreNamedPlanes(scene));  // a drawn mesh may call its materials so
-  scene.surface.resize(1);
   EXPECT_TRUE(AreNamedPlanes(scene));
   for (const char* other : {"wall", "wall 4", "floor", "carpet", "DefaultMaterial"}) {
     Scene unlike = scene;

@@ -1,0 +1,43 @@
+// Fits as given. What is given of a luminaire's place and is contradicted by all other data is left out, and the fit done again: it stays out
+// where the light is explained no worse without it.
+#include <utility>
+
+#include "inverse/fit/fit_room.h"
+#include "inverse/fit/internal/contradicted_given.h"
+#include "inverse/fit/internal/expect_whole.h"
+#include "inverse/fit/internal/fit_as_given.h"
+
+namespace luxfit {
+namespace {
+
+// Returns the fit without the places, where it is whole and no worse.
+RoomFit FitWithoutPlaces(const Room& room, const RoomObservations& given, const std::vector<int>& places,
+                         RoomFit as_given, const FitRoomOptions& options) {
+  RoomFit without = FitAsGiven(room, WithoutPlacesOf(places, given), options);
+  const bool is_better = without.IsUsable() && !without.stopped && !without.data.observations.empty() &&
+                         without.fit.relative_sigma <= as_given.fit.relative_sigma;
+  RoomFit& taken = is_better ? without : as_given;
+  for (const int k : places) {
+    const KnownLuminaire& known = given.luminaires[static_cast<size_t>(k)];
+    if (is_better)
+      WarnOfPlaceLeftOut(known, without, as_given, taken.findings);
+    else
+      WarnOfPlace(known, as_given, taken.findings);
+  }
+  return std::move(taken);
+}
+
+}  // namespace
+
+RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options) {
+  ExpectWhole(room, observations);
+  RoomFit fit = FitAsGiven(room, observations, options);
+  const ContradictedGiven contradicted = FindContradictedGiven(observations, fit);
+  if (!contradicted.places.empty())
+    fit = FitWithoutPlaces(room, observations, contradicted.places, std::move(fit), options);
+  for (const int k : contradicted.fluxes)
+    WarnOfFlux(observations.luminaires[static_cast<size_t>(k)], fit, fit.findings);
+  return fit;
+}
+
+}  // namespace luxfit
