@@ -83,7 +83,7 @@ luxfit_test(apps/commands applied_corrections_test SLOW LINK luxfit::forward fmt
 add_dependencies(apps_applied_corrections_test luxfit)
 luxfit_test(apps/commands misdescribed_session_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_misdescribed_session_test luxfit)
-luxfit_test(apps/commands misplaced_mesh_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
+luxfit_test(apps/commands misplaced_mesh_test SLOW LINK luxfit::forward nlohmann_json::nlohmann_json)
 add_dependencies(apps_misplaced_mesh_test luxfit)
 luxfit_test(apps/commands moved_tag_test SLOW LINK luxfit::forward fmt::fmt nlohmann_json::nlohmann_json)
 add_dependencies(apps_moved_tag_test luxfit)

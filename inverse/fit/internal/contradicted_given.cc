@@ -10,12 +10,13 @@ namespace luxfit {
 namespace {
 
 constexpr double kPlaceLimit = 14.16, kFluxLimit = 3;
+constexpr double kSmallError = 0.05;  // relative
 
 // Returns what the fit says of the luminaire; null where it was not found.
 const Luminaire* FittedOf(const KnownLuminaire& given, const RoomFit& fit) {
   const std::vector<Luminaire>& all = fit.fit.state.luminaires;
-  const auto at = std::find_if(all.begin(), all.end(),
-                               [&](const Luminaire& l) { return l.id == given.luminaire.id; });
+  const auto at =
+      std::find_if(all.begin(), all.end(), [&](const Luminaire& l) { return l.id == given.luminaire.id; });
   if (at == all.end() || !fit.luminaire_found[static_cast<size_t>(at - all.begin())]) return nullptr;
   return &*at;
 }
@@ -29,9 +30,10 @@ bool IsPlaceContradicted(const KnownLuminaire& given, const RoomFit& fit) {
   if (!fitted || !given.position_m || !(given.position_sigma_m.value_or(0) > 0)) return false;
   double z2 = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double sigma = SigmaOf(fit, ParameterKind::kLuminaire, IndexOf(*fitted, fit),
-                                 static_cast<LuminaireQuantity>(axis));
-    z2 += std::pow((fitted->position - *given.position_m)[axis] / std::hypot(*given.position_sigma_m, sigma), 2);
+    const double sigma =
+        SigmaOf(fit, ParameterKind::kLuminaire, IndexOf(*fitted, fit), static_cast<LuminaireQuantity>(axis));
+    z2 += std::pow((fitted->position - *given.position_m)[axis] / std::hypot(*given.position_sigma_m, sigma),
+                   2);
   }
   return z2 > kPlaceLimit;
 }
@@ -39,10 +41,8 @@ bool IsPlaceContradicted(const KnownLuminaire& given, const RoomFit& fit) {
 bool IsFluxContradicted(const KnownLuminaire& given, const RoomFit& fit) {
   const Luminaire* fitted = FittedOf(given, fit);
   if (!fitted || !fit.absolute || !given.flux_lm || !(given.flux_sigma_lm.value_or(0) > 0)) return false;
-  const double sigma = SigmaOf(fit, ParameterKind::kLogFlux, IndexOf(*fitted, fit));
-  const double z =
-      std::log(fitted->flux_lm / *given.flux_lm) / std::hypot(*given.flux_sigma_lm / *given.flux_lm, sigma);
-  return std::abs(z) > kFluxLimit;
+  const double z = std::log(fitted->flux_lm / *given.flux_lm) / (*given.flux_sigma_lm / *given.flux_lm);
+  return std::abs(z) > kFluxLimit && std::abs(fitted->flux_lm / *given.flux_lm - 1) > kSmallError;
 }
 
 std::string PlaceWords(const KnownLuminaire& given, const Luminaire& fitted) {
@@ -83,13 +83,13 @@ void WarnOfPlaceLeftOut(const KnownLuminaire& given, const RoomFit& fit, const R
   const Luminaire* fitted = FittedOf(given, fit);
   if (!fitted) return;
   const std::string& id = given.luminaire.id;
-  findings.warnings.push_back(
-      {"given_contradicted",
-       fmt::format("the data show {} {}: the place was left out (the light is explained to {:.2g} % without it, to {:.2g} % "
-                   "with it)",
-                   id, PlaceWords(given, *fitted), 100 * fit.fit.relative_sigma,
-                   100 * fit_as_given.fit.relative_sigma),
-       RemedyOfPlace(id)});
+  findings.warnings.push_back({"given_contradicted",
+                               fmt::format("the data show {} {}: the place was left out (the light is "
+                                           "explained to {:.2g} % without it, to {:.2g} % "
+                                           "with it)",
+                                           id, PlaceWords(given, *fitted), 100 * fit.fit.relative_sigma,
+                                           100 * fit_as_given.fit.relative_sigma),
+                               RemedyOfPlace(id)});
 }
 
 void WarnOfPlace(const KnownLuminaire& given, const RoomFit& fit, Findings& findings) {
@@ -108,11 +108,15 @@ void WarnOfFlux(const KnownLuminaire& given, const RoomFit& fit, Findings& findi
   const std::string& id = given.luminaire.id;
   findings.AddUndetermined(
       {"given_contradicted",
-       fmt::format("the other data contradict flux_lm of {} ({:g} ± {:g} lm): the fit ends at {:.0f} lm between them. "
-                   "What sets the scale besides, readings, the camera or fluxes of other luminaires, disagrees with it, "
+       fmt::format("the other data contradict flux_lm of {} ({:g} ± {:g} lm): the fit ends at {:.0f} lm "
+                   "between them. "
+                   "What sets the scale besides, readings, the camera or fluxes of other luminaires, "
+                   "disagrees with it, "
                    "and nothing tells which is wrong",
                    id, *given.flux_lm, *given.flux_sigma_lm, fitted->flux_lm),
-       fmt::format("check flux_lm of {} and its sigma, and the readings that set the scale; leave out what is wrong", id)});
+       fmt::format(
+           "check flux_lm of {} and its sigma, and the readings that set the scale; leave out what is wrong",
+           id)});
 }
 
 }  // namespace luxfit

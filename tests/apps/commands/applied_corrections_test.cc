@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,15 +26,8 @@ using Fields = std::vector<std::string>;
 class AppliedCorrections : public testing::Test {
  protected:
   void ShiftMesh(double x_m) {
-    std::istringstream given(office_.Read("office/room.obj"));
-    std::string shifted;
-    for (std::string line; std::getline(given, line);) {
-      std::istringstream words(line);
-      std::string key, a, b, c;
-      words >> key >> a >> b >> c;
-      shifted += (key == "v" ? fmt::format("v {} {} {}", std::stod(a) + x_m, b, c) : line) + "\n";
-    }
-    office_.Write("office/room.obj", shifted);
+    office_.MapMesh(
+        [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + Eigen::Vector3d(x_m, 0, 0); });
   }
 
   void ExchangePhotos(const std::string& view) {

@@ -2,12 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
-#include <utility>
 
 #include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
@@ -21,19 +18,9 @@ using testing::Not;
 
 class MisplacedMesh : public testing::Test {
  protected:
-  // Changes x of every vertex. A mirror turns the faces round, as a modeller does.
   void ChangeX(const std::function<double(double)>& x_of, bool is_mirror) {
-    std::istringstream given(office_.Read("office/room.obj"));
-    std::string changed;
-    for (std::string line; std::getline(given, line);) {
-      std::istringstream words(line);
-      std::string key, a, b, c, d;
-      words >> key >> a >> b >> c >> d;
-      if (key == "v") line = fmt::format("v {} {} {}", x_of(std::stod(a)), b, c);
-      if (key == "f" && is_mirror) line = fmt::format("f {} {} {} {}", d, c, b, a);
-      changed += line + "\n";
-    }
-    office_.Write("office/room.obj", changed);
+    office_.MapMesh([&](const Eigen::Vector3d& p) { return Eigen::Vector3d(x_of(p.x()), p.y(), p.z()); },
+                    is_mirror);
   }
 
   support::ProgramRun Fit() const { return office_.Run("fit", "--budget 5"); }

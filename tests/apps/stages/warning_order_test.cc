@@ -11,8 +11,8 @@ namespace {
 
 TEST(PutCausesFirst, KeepsTheOrderOfStagesWithinBothKinds) {
   std::vector<Warning> warnings;
-  for (const char* code : {"pose_ambiguous", "tag_disagrees", "model_misfit", "reading_outside", "readings_as_if",
-                           "readings_contradict"})
+  for (const char* code : {"pose_ambiguous", "tag_disagrees", "model_misfit", "reading_outside",
+                           "readings_as_if", "readings_contradict"})
     warnings.push_back({code, "", ""});
   PutCausesFirst(warnings);
   std::vector<std::string> order;

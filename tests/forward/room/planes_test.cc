@@ -157,10 +157,18 @@ TEST(NamedPlanes, OfADrawnMeshAreItsFacets) {
   for (const Facet& facet : named.facets) {
     const std::string& name = named.materials[static_cast<size_t>(facet.material)];
     const Vector3d normal = facet.Normal();
-    if (name == "floor") EXPECT_GT(normal.z(), 0.99);
-    if (name == "ceiling") EXPECT_LT(normal.z(), -0.99);
-    if (name.rfind("wall", 0) == 0) EXPECT_GT(facet.AreaM2(), 9);
-    if (name == "details 1") EXPECT_LT(facet.AreaM2(), 0.3);
+    if (name == "floor") {
+      EXPECT_GT(normal.z(), 0.99);
+    }
+    if (name == "ceiling") {
+      EXPECT_LT(normal.z(), -0.99);
+    }
+    if (name.rfind("wall", 0) == 0) {
+      EXPECT_GT(facet.AreaM2(), 9);
+    }
+    if (name == "details 1") {
+      EXPECT_LT(facet.AreaM2(), 0.3);
+    }
   }
   for (size_t f = drawn.facets.size() - 6; f < drawn.facets.size(); ++f)
     EXPECT_EQ(named.materials[static_cast<size_t>(named.facets[f].material)], "found 1");

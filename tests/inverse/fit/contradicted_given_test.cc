@@ -61,6 +61,10 @@ TEST_F(ContradictedGivenOf, FluxesAreWhereTheFitHasLumens) {
   EXPECT_THAT(Found().fluxes, ElementsAre(1));
   Given().flux_sigma_lm = 2500;
   EXPECT_THAT(Found().fluxes, IsEmpty());
+  Given().flux_lm = 3700;  // 3 % off: the model's own errors are as large
+  Given().flux_sigma_lm = 10;
+  EXPECT_THAT(Found().fluxes, IsEmpty());
+  Given().flux_lm = 7200;
   Given().flux_sigma_lm = 50;
   fit_.absolute = false;
   EXPECT_THAT(Found().fluxes, IsEmpty());

@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <random>
 
-#include "forward/light/room.h"
 #include "tests/support/inverse/random_room.h"
 
 namespace luxfit {
@@ -19,21 +17,13 @@ namespace {
 class Pendants : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Pendants, AreFoundWhereTheyHangWithTheLightOfBothSides) {
-  std::mt19937_64 rng(GetParam());
-  const support::RandomRoom drawn = support::DrawRoom(rng);
-  ASSERT_GT(std::count(drawn.kinds.begin(), drawn.kinds.end(), "pendants"), 0) << drawn.words;
-  RoomOptions options;
-  options.patches.patch_size_m = 0.4;
-  options.patches.element_size_m = 0.2;
-  const Room model = MakeRoom(drawn.mesh, options);
-  support::TracedRoomOptions traced;
-  traced.paths_per_point = 128;
-  const RoomObservations given = support::ObserveTraced(drawn.room, model, rng, traced);
+  const support::ObservedRandomRoom room = support::ObserveRandomRoom(GetParam());
+  ASSERT_GT(std::count(room.drawn.kinds.begin(), room.drawn.kinds.end(), "pendants"), 0) << room.drawn.words;
   support::FoundLimits limits;
   limits.outlined_off_mm = 20;  // one view sees one of the downlights
   limits.off_mm = 30;
   limits.common_error_mm = 10;
-  support::ExpectFound(drawn.room, model, given, limits);
+  support::ExpectFound(room.drawn.room, room.model, room.given, limits);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Pendants, testing::Values(3, 16));

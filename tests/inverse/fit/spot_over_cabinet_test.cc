@@ -6,29 +6,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <random>
 
-#include "forward/light/room.h"
 #include "tests/support/inverse/random_room.h"
 
 namespace luxfit {
 namespace {
 
 TEST(SpotOverCabinet, IsWithinItsIntervals) {
-  std::mt19937_64 rng(15);
-  const support::RandomRoom drawn = support::DrawRoom(rng);
-  ASSERT_EQ(std::count(drawn.kinds.begin(), drawn.kinds.end(), "turned spots"), 5) << drawn.words;
-  RoomOptions options;
-  options.patches.patch_size_m = 0.4;
-  options.patches.element_size_m = 0.2;
-  const Room model = MakeRoom(drawn.mesh, options);
-  support::TracedRoomOptions traced;
-  traced.paths_per_point = 128;
-  const RoomObservations given = support::ObserveTraced(drawn.room, model, rng, traced);
+  const support::ObservedRandomRoom room = support::ObserveRandomRoom(15);
+  ASSERT_EQ(std::count(room.drawn.kinds.begin(), room.drawn.kinds.end(), "turned spots"), 5)
+      << room.drawn.words;
   support::FoundLimits limits;
   limits.outlined_off_mm = limits.off_mm;  // one view sees one of the spots, none the others
   limits.reading_percent = 3;              // one place is 5.6 % off
-  support::ExpectFound(drawn.room, model, given, limits);
+  support::ExpectFound(room.drawn.room, room.model, room.given, limits);
 }
 
 }  // namespace

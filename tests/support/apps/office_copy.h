@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -62,6 +63,32 @@ class OfficeCopy : public TempFolder {
   void KeepPhotos(const Keeps& keeps) const {
     ChangeRows("office/photos.csv",
                [&](const std::vector<std::string>& photo) { return keeps(photo.at(2), photo.at(3)); });
+  }
+
+  // Moves every vertex of the mesh. A mirror turns the faces round, as a modeller does.
+  template <typename Map>
+  void MapMesh(const Map& map, bool is_mirror = false) const {
+    std::istringstream given(Read("office/room.obj"));
+    std::ostringstream mapped;
+    mapped.precision(17);
+    for (std::string line; std::getline(given, line);) {
+      std::istringstream words(line);
+      std::string key;
+      words >> key;
+      if (key == "v") {
+        Eigen::Vector3d p;
+        words >> p.x() >> p.y() >> p.z();
+        p = map(p);
+        mapped << "v " << p.x() << " " << p.y() << " " << p.z() << "\n";
+      } else if (key == "f" && is_mirror) {
+        std::string turned;
+        for (std::string corner; words >> corner;) turned = " " + corner + turned;
+        mapped << "f" << turned << "\n";
+      } else {
+        mapped << line << "\n";
+      }
+    }
+    Write("office/room.obj", mapped.str());
   }
 
   // Gives the camera its true scale.

@@ -351,4 +351,17 @@ RandomRoom DrawRoom(std::mt19937_64& rng) {
   return drawn;
 }
 
+ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  RandomRoom drawn = DrawRoom(rng);
+  RoomOptions options;
+  options.patches.patch_size_m = 0.4;
+  options.patches.element_size_m = 0.2;
+  Room model = MakeRoom(drawn.mesh, options);
+  TracedRoomOptions traced;
+  traced.paths_per_point = 128;
+  RoomObservations given = ObserveTraced(drawn.room, model, rng, traced);
+  return {std::move(drawn), std::move(model), std::move(given)};
+}
+
 }  // namespace luxfit::support

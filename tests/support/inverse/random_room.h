@@ -8,6 +8,7 @@
 #define LUXFIT_TESTS_SUPPORT_INVERSE_RANDOM_ROOM_H_
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
@@ -32,6 +33,14 @@ struct RandomRoom {
 };
 
 RandomRoom DrawRoom(std::mt19937_64& rng);
+
+// A room drawn by a seed, its model of patches of 0.4 m, and what photos of few paths a point and a luxmeter tell of it.
+struct ObservedRandomRoom {
+  RandomRoom drawn;
+  Room model;
+  RoomObservations given;
+};
+ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed);
 
 // Materials come in the order of the pieces: those of the first few pieces begin those of all.
 Scene WithFurniture(Scene shell, const std::vector<Furniture>& pieces);

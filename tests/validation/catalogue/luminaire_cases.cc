@@ -37,7 +37,7 @@ std::vector<CatalogueCase> LuminaireCases() {
       {kGroup,
        "a luminaire given 0.5 m off, as sure",
        Required::kNamed,
-       {"parameter_at_bound", "photometry_contradicted"},
+       {"given_contradicted"},
        [](const OfficeCopy& office) {
          Given(office, "id = \"A\"\nposition_m = [2.0, 2.0, 2.79]\nposition_sigma_m = 0.01\n");
        }},
@@ -51,7 +51,7 @@ std::vector<CatalogueCase> LuminaireCases() {
       {kGroup,
        "a flux given twice too high",
        Required::kNamed,
-       {"readings_off_alike", "photometry_flux"},
+       {"given_contradicted"},
        [](const OfficeCopy& office) { Given(office, "id = \"A\"\nflux_lm = 7200\nflux_sigma_lm = 50\n"); }},
       {kGroup,
        "only one view",

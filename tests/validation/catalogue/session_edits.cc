@@ -67,29 +67,6 @@ void ExchangeFiles(const OfficeCopy& office, const std::string& a, const std::st
   office.Write(b, of_a);
 }
 
-void MapMesh(const OfficeCopy& office, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map,
-             bool is_mirror) {
-  std::istringstream given(office.Read("office/room.obj"));
-  std::string mapped;
-  for (std::string line; std::getline(given, line);) {
-    std::istringstream words(line);
-    std::string key;
-    words >> key;
-    if (key == "v") {
-      Eigen::Vector3d p;
-      words >> p.x() >> p.y() >> p.z();
-      p = map(p);
-      line = fmt::format("v {} {} {}", p.x(), p.y(), p.z());
-    } else if (key == "f" && is_mirror) {
-      std::string turned;
-      for (std::string corner; words >> corner;) turned = " " + corner + turned;
-      line = "f" + turned;
-    }
-    mapped += line + "\n";
-  }
-  office.Write("office/room.obj", mapped);
-}
-
 void LeaveOutGroups(const OfficeCopy& office, const std::string& prefix) {
   std::istringstream given(office.Read("office/room.obj"));
   std::string kept;

@@ -28,9 +28,6 @@ void EditPhotos(const support::OfficeCopy& office,
                 const std::function<void(cv::Mat& counts)>& edit);
 void ExchangeFiles(const support::OfficeCopy& office, const std::string& a, const std::string& b);
 
-// Moves every vertex of the mesh. `is_mirror`: faces are turned round.
-void MapMesh(const support::OfficeCopy& office,
-             const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& map, bool is_mirror = false);
 // Leaves out the groups of the mesh whose name begins so.
 void LeaveOutGroups(const support::OfficeCopy& office, const std::string& prefix);
 
