@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char kFormat[] = "luxfit-stage-3";
+constexpr char kFormat[] = "luxfit-stage-4";
 
 std::string PathOf(const std::string& out, const std::string& stage) {
   return out + "/stages/" + stage + ".cbor";

@@ -88,6 +88,22 @@ std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPh
   return seen;
 }
 
+// Returns the photos that say what was counted: with ambient light taken out, luminance says no more.
+CountedShares CountedSharesOf(const RoomPhotos& photos, const std::vector<RegisteredView>& views,
+                              bool has_ambient) {
+  CountedShares shares;
+  if (photos.cameras.empty() || has_ambient) return shares;
+  const std::vector<double> gains = StatedGains(photos);
+  for (const RoomPhoto& photo : photos.photos) {
+    const auto view = std::find_if(views.begin(), views.end(),
+                                   [&](const RegisteredView& v) { return v.view == photo.view; });
+    const auto c = static_cast<size_t>(photo.camera);
+    if (view == views.end() || !photos.cameras[c].response_is_open) continue;
+    shares[{static_cast<int>(view - views.begin()), photo.state}] = photo.exposure_s * gains[c];
+  }
+  return shares;
+}
+
 // Lists the blobs of all photos but those left out.
 std::vector<PhotoBlobs> ListBlobs(std::vector<SeenPhoto> seen, const std::vector<PhotoAsIf>& left_out) {
   std::vector<PhotoBlobs> blobs;
@@ -143,7 +159,8 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
               CorrectRadiometry(room.patches, photos, cameras, views, dimming, observations);
           observed.radiometry = std::move(corrected.radiometry);
           return std::move(corrected.observations);
-        });
+        },
+        CountedSharesOf(photos, views, observed.has_ambient));
     evidence.observations = std::move(explained.observations);
     evidence.photos_as_if = std::move(explained.photos_as_if);
     evidence.states_as_if = std::move(explained.states_as_if);

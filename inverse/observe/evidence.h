@@ -1,7 +1,7 @@
 // Turns photos of registered views into the evidence that a fit starts from.
 //
 //   photos, poses -> luminance of every element, without ambient light, in one camera's unit
-//                 -> photos of another state left out -> states explained -> exposures, vignetting, response corrected
+//                 -> photos of another state, or encoded, left out -> states explained -> exposures, vignetting, response corrected
 //                 -> places and outlines where luminaires show
 //
 // Y_s = Y_s(photo) - Y_dark(photo of the same view): where a state has all luminaires off, it is ambient light, and

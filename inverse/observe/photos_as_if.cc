@@ -8,6 +8,7 @@
 
 #include "calib/luminance/median.h"
 #include "inverse/observe/internal/photo_offsets.h"
+#include "inverse/observe/internal/srgb_observations.h"
 #include "inverse/observe/internal/view_table.h"
 #include "inverse/select/contradicted.h"
 
@@ -79,13 +80,15 @@ class OtherViews {
 
 struct JudgedPhoto {
   PhotoAsIf photo;
-  double score = 0;  // in its state as given
+  double score = 0, score_as_if = 0;  // as given, and so read
 };
 
 class PhotoJudge {
  public:
-  PhotoJudge(const Patches& patches, const ViewTable& table)
-      : patches_(patches), table_(table), others_(table) {
+  // `decoded`: the table as it is where the photos of `counted` went through the curve of sRGB.
+  PhotoJudge(const Patches& patches, const ViewTable& table, const ViewTable& decoded,
+             const CountedShares& counted)
+      : patches_(patches), table_(table), decoded_(decoded), counted_(counted), others_(table) {
     for (int c = 0; c < table.columns(); ++c) {
       const auto view = static_cast<size_t>(table.view[static_cast<size_t>(c)]);
       if (columns_.size() <= view) columns_.resize(view + 1);
@@ -112,9 +115,10 @@ class PhotoJudge {
     }
     if (!worst) return {};
     std::vector<PhotoAsIf> found{worst->photo};
+    if (worst->photo.is_srgb) return found;
     // One other view may say so of a photo whose state is known to be another one's.
     const auto partner = Judge({worst->photo.view, worst->photo.as_if}, kAny);
-    if (!partner || partner->photo.as_if != worst->photo.state) return found;
+    if (!partner || partner->photo.is_srgb || partner->photo.as_if != worst->photo.state) return found;
     found.push_back(partner->photo);
     for (PhotoAsIf& photo : found) photo.is_exchanged = true;
     return found;
@@ -135,15 +139,20 @@ class PhotoJudge {
   int states() const { return static_cast<int>(table_.log_luminance.rows()); }
   int views() const { return static_cast<int>(columns_.size()); }
 
-  // Compares a photo with a reference, on the elements that `shared` has, too.
   PatternRows Compared(PhotoOf photo, Reference with, std::optional<Reference> shared = {}) const {
+    return Compared(table_, photo, with, shared);
+  }
+
+  // Compares a photo, as a table has it, with a reference, on the elements that `shared` has, too.
+  PatternRows Compared(const ViewTable& own, PhotoOf photo, Reference with,
+                       std::optional<Reference> shared) const {
     PatternRows rows;
     for (const int c : columns_[static_cast<size_t>(photo.view)]) {
-      if (!std::isfinite(table_.log_luminance(photo.state, c))) continue;
-      const double d = table_.log_luminance(photo.state, c) - ValueOf(with, c);
+      if (!std::isfinite(own.log_luminance(photo.state, c))) continue;
+      const double d = own.log_luminance(photo.state, c) - ValueOf(with, c);
       if (std::isfinite(d) && (!shared || std::isfinite(ValueOf(*shared, c))))
-        rows.Add(d, table_.variance(photo.state, c),
-                 patches_.elements[static_cast<size_t>(table_.element[static_cast<size_t>(c)])].patch);
+        rows.Add(d, own.variance(photo.state, c),
+                 patches_.elements[static_cast<size_t>(own.element[static_cast<size_t>(c)])].patch);
     }
     if (!rows.difference.empty()) rows.Centre();
     return rows;
@@ -170,8 +179,8 @@ class PhotoJudge {
     const Reference own{photo.state, fewest};
     const PatternRows all = Compared(photo, own);
     if (all.difference.size() < kFewestShared || IsExplained(all)) return std::nullopt;
-    std::optional<JudgedPhoto> found;
-    double best = kExplainsPhoto;
+    std::optional<JudgedPhoto> found = JudgeEncoding(photo, all, own);
+    double best = found ? found->score_as_if : kExplainsPhoto;
     for (int s = 0; s < states(); ++s) {
       if (s == photo.state) continue;
       const Reference other{s, kAny};
@@ -181,13 +190,27 @@ class PhotoJudge {
       if (Mean(scores) > best || !IsContradicted(as_given.Scores(spread_), scores)) continue;
       best = Mean(scores);
       found = {{photo.view, photo.state, s, false, as_given.Spread(), as_if.Spread()},
-               Mean(all.Scores(spread_))};
+               Mean(all.Scores(spread_)),
+               best};
     }
     return found;
   }
 
+  // Returns the photo as one encoded in sRGB where that explains it. `as_given`: compared with `own`.
+  std::optional<JudgedPhoto> JudgeEncoding(PhotoOf photo, const PatternRows& as_given,
+                                           const Reference& own) const {
+    if (counted_.count({photo.view, photo.state}) == 0) return std::nullopt;
+    const PatternRows as_if = Compared(decoded_, photo, own, {});
+    const GroupScores given_scores = as_given.Scores(spread_), scores = as_if.Scores(spread_);
+    if (Mean(scores) > kExplainsPhoto || !IsContradicted(given_scores, scores)) return std::nullopt;
+    PhotoAsIf encoded{photo.view, photo.state, photo.state, false, as_given.Spread(), as_if.Spread(), true};
+    return JudgedPhoto{encoded, Mean(given_scores), Mean(scores)};
+  }
+
   const Patches& patches_;
   const ViewTable& table_;
+  const ViewTable& decoded_;
+  const CountedShares& counted_;
   const OtherViews others_;
   std::vector<std::vector<int>> columns_;  // by view
   double spread_ = 0;
@@ -195,12 +218,13 @@ class PhotoJudge {
 
 }  // namespace
 
-std::vector<PhotoAsIf> FindPhotosAsIf(const Patches& patches, const std::vector<Observation>& observations) {
+std::vector<PhotoAsIf> FindPhotosAsIf(const Patches& patches, const std::vector<Observation>& observations,
+                                      const CountedShares& counted) {
   std::vector<Observation> rest = ThinElements(observations, kComparedElements);
   std::vector<PhotoAsIf> photos;
   for (int pass = 0; pass < kMostFound && !rest.empty(); ++pass) {
-    const ViewTable table = TableOfViews(rest);
-    const std::vector<PhotoAsIf> found = PhotoJudge(patches, table).FindWorst();
+    const ViewTable table = TableOfViews(rest), decoded = TableOfViews(DecodedSrgb(rest, counted));
+    const std::vector<PhotoAsIf> found = PhotoJudge(patches, table, decoded, counted).FindWorst();
     if (found.empty()) break;
     photos.insert(photos.end(), found.begin(), found.end());
     rest = WithoutPhotos(rest, found);

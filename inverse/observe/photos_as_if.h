@@ -1,4 +1,4 @@
-// Finds photos that look as if they had been taken in another state of the luminaires than given.
+// Finds photos that look as if they had been taken in another state of the luminaires than given, or encoded in sRGB.
 //
 //   d_e = ln Y_evs - median_(v' != v) (ln Y_ev's' - g_v's')        g: inverse/observe/internal/photo_offsets.h
 //   z_e = (d_e - median_e d) / sigma_e,   score(s') = mean min(z^2, 9), by patch
@@ -10,6 +10,10 @@
 // the score of s is above 4.5, half of the worst, that of s' below. No light is fitted, and exposures do not matter:
 // states that differ by a factor alone are not told apart.
 //
+// A photo among linear ones whose counts went through the curve of sRGB shows the right pattern with too little contrast. It looks
+// so where its observations, decoded (inverse/observe/internal/srgb_observations.h), contradict those as given in the photo's own state by
+// the same rule. Of several explanations the one of the lowest score counts.
+//
 // In the photo's own state an element counts where two other views or more show it. A photo of fewer than 30 such elements
 // is not judged, nor is one that is right once some other view is not asked: of two views, nobody knows which is wrong.
 // More than half of the views of a place have to be right. One other view is enough to say which state it is instead, and
@@ -18,6 +22,8 @@
 #ifndef LUXFIT_INVERSE_OBSERVE_PHOTOS_AS_IF_H_
 #define LUXFIT_INVERSE_OBSERVE_PHOTOS_AS_IF_H_
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "forward/room/patches.h"
@@ -27,13 +33,19 @@ namespace luxfit {
 
 struct PhotoAsIf {
   int view = 0, state = 0;    // as given
-  int as_if = 0;              // state whose light it shows
+  int as_if = 0;              // state whose light it shows; its own where it is_srgb
   bool is_exchanged = false;  // true: the photo of its view in `as_if` looks as if it were of `state`
-  // Robust spread of ln Y against the other views, up to a factor: in the state as given, and in `as_if`.
+  // Robust spread of ln Y against the other views, up to a factor: as given, and so read.
   double difference = 0, difference_as_if = 0;
+  bool is_srgb = false;  // its counts went through the curve of sRGB
 };
 
-std::vector<PhotoAsIf> FindPhotosAsIf(const Patches& patches, const std::vector<Observation>& observations);
+// Share of full scale that a relative luminance of 1 counts, by view and state.
+using CountedShares = std::map<std::pair<int, int>, double>;
+
+// `counted`: the photos whose counts are said to be proportional to light; no other is taken to be encoded.
+std::vector<PhotoAsIf> FindPhotosAsIf(const Patches& patches, const std::vector<Observation>& observations,
+                                      const CountedShares& counted = {});
 
 // Returns the observations of all other photos.
 std::vector<Observation> WithoutPhotos(const std::vector<Observation>& observations,

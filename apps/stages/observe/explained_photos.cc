@@ -32,7 +32,17 @@ void WarnOfPhotos(const std::vector<PhotoAsIf>& found, const RoomPhotos& photos,
     const std::string &state = names.states[static_cast<size_t>(photo.state)],
                       &as_if = names.states[static_cast<size_t>(photo.as_if)];
     const std::string name = NameOf(photos, names, view, photo.state);
-    if (!photo.is_exchanged) {
+    if (photo.is_srgb) {
+      findings.warnings.push_back(
+          {"photos_as_if",
+           fmt::format(
+               "{} looks as if it was encoded in sRGB, not linear: the pattern of its light differs from "
+               "the other views' by {} so read; it was not used",
+               name, DifferenceWords(photo)),
+           "develop it as the camera's other photos, without a tone curve; or give it a view and a "
+           "[[camera]] "
+           "of its own, with response = \"srgb\""});
+    } else if (!photo.is_exchanged) {
       findings.warnings.push_back(
           {"photos_as_if",
            fmt::format(
@@ -67,6 +77,7 @@ nlohmann::json PhotosAsIfJson(const Session& session, const Registration& regist
                     {"state", StateName(session, photo.state)},
                     {"as_if_state", StateName(session, photo.as_if)},
                     {"exchanged", photo.is_exchanged},
+                    {"encoded_in_srgb", photo.is_srgb},
                     {"difference_percent", 100 * photo.difference},
                     {"difference_percent_as_if", 100 * photo.difference_as_if}});
   return list;

@@ -72,7 +72,8 @@ json AsIfJson(const Evidence& observed) {
                       {"as_if", p.as_if},
                       {"is_exchanged", p.is_exchanged},
                       {"difference", p.difference},
-                      {"difference_as_if", p.difference_as_if}});
+                      {"difference_as_if", p.difference_as_if},
+                      {"is_srgb", p.is_srgb}});
   for (const StateExplanation& e : observed.states_as_if) {
     json dimming = json::array();
     for (const Eigen::VectorXd& row : e.dimming) dimming.push_back(VectorJson(row));
@@ -88,7 +89,7 @@ json AsIfJson(const Evidence& observed) {
 void ReadAsIf(const json& in, Evidence& observed) {
   for (const json& p : in.at("photos"))
     observed.photos_as_if.push_back({p.at("view"), p.at("state"), p.at("as_if"), p.at("is_exchanged"),
-                                     p.at("difference"), p.at("difference_as_if")});
+                                     p.at("difference"), p.at("difference_as_if"), p.at("is_srgb")});
   for (const json& e : in.at("states")) {
     StateExplanation explanation{
         e.at("as_if"), e.at("remedy"), {}, e.at("difference_as_given"), e.at("difference")};

@@ -8,9 +8,10 @@
 namespace luxfit {
 
 ExplainedObservations ExplainObservations(const Patches& patches, std::vector<Observation> observations,
-                                          const StateTable& states, const CorrectObservations& correct) {
+                                          const StateTable& states, const CorrectObservations& correct,
+                                          const CountedShares& counted) {
   ExplainedObservations explained;
-  explained.photos_as_if = FindPhotosAsIf(patches, observations);
+  explained.photos_as_if = FindPhotosAsIf(patches, observations, counted);
   observations = WithoutPhotos(observations, explained.photos_as_if);
   const bool has_table = !states.luminaires.empty();
   if (has_table) explained.states_as_if = FindStatesAsIf(patches, observations, states);

@@ -1,6 +1,6 @@
 // Finds what photos contradict of what is said of them, and corrects them by what they say.
 //
-//   1. photos that show another state, or are exchanged, are left out          inverse/observe/photos_as_if.h
+//   1. photos that show another state, are exchanged or encoded, are left out  inverse/observe/photos_as_if.h
 //   2. a mistake in the table of states is found                               inverse/observe/states_as_if.h
 //   3. exposures, vignetting and response are corrected by the states as they were: by a wrong table, right photos would be
 //      blamed. States that still do not add up stand by themselves, and the correction is repeated
@@ -27,9 +27,10 @@ struct ExplainedObservations {
 using CorrectObservations = std::function<std::vector<Observation>(
     const std::vector<Eigen::VectorXd>& dimming, const std::vector<Observation>&)>;
 
-// `observations`: of all photos, in one unit.
+// `observations`: of all photos, in one unit. `counted`: those whose counts are said to be proportional to light.
 ExplainedObservations ExplainObservations(const Patches& patches, std::vector<Observation> observations,
-                                          const StateTable& states, const CorrectObservations& correct);
+                                          const StateTable& states, const CorrectObservations& correct,
+                                          const CountedShares& counted = {});
 
 }  // namespace luxfit
 

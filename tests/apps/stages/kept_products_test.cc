@@ -142,7 +142,7 @@ TEST(KeptProductsTest, Observations) {
   place.states = {0, 2};
   place.area_m2 = std::numeric_limits<double>::quiet_NaN();
   before.seen = {place};
-  before.photos_as_if = {{3, 0, 1, true, 1.0 / 7, 0.01}};
+  before.photos_as_if = {{3, 0, 1, true, 1.0 / 7, 0.01, true}};
   before.states_as_if = {{"A was off", "take it out", {Eigen::Vector2d(0, 1.0 / 3)}, 0.3, 0.02}};
   const Evidence after = ObservationsFromJson(ThroughCbor(ObservationsJson(before)));
   ASSERT_EQ(after.observations.size(), 2U);
@@ -160,6 +160,7 @@ TEST(KeptProductsTest, Observations) {
   EXPECT_EQ(after.photos_as_if[0].difference, 1.0 / 7);
   ASSERT_EQ(after.states_as_if.size(), 1U);
   EXPECT_EQ(after.states_as_if[0].as_if, "A was off");
+  EXPECT_TRUE(after.photos_as_if[0].is_srgb);
   EXPECT_EQ(after.states_as_if[0].dimming.at(0), Eigen::Vector2d(0, 1.0 / 3));
   EXPECT_EQ(after.states_as_if[0].difference_as_given, 0.3);
 }
