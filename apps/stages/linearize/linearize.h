@@ -1,6 +1,6 @@
 // Declares the steps of the linearize stage; stage_linearize.cc runs them in order.
 //
-//   photo table + EXIF -> relative exposures -> brackets -> response -> corrected exposures -> vignetting
+//   photo table + EXIF -> relative exposures -> brackets -> counts cut off -> response -> corrected exposures -> vignetting
 //
 // Each step takes photos and returns them completed; the session stays as it is. Warnings name the photo (by
 // its line in the table) and the remedy. Throws std::runtime_error for what the user must fix.
@@ -26,6 +26,9 @@ std::vector<SessionPhoto> RowsWithMetadata(const Session& session, RunContext& c
 // ISO or aperture is known for some photos of a camera only.
 LinearizedPhotos MakeBrackets(const Session& session, const std::vector<SessionPhoto>& rows,
                               RunContext& context);
+
+// Finds the counts below full scale at which photos were cut off. Warns ("counts_cut_off").
+LinearizedPhotos WithCutOffs(LinearizedPhotos photos, const Session& session, RunContext& context);
 
 // Finds the response curve of every camera that is not linear: read from its file, or estimated from brackets
 // and written to OUT/response_CAMERA.csv. `artifact` receives the scores.

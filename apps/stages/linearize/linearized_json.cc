@@ -36,7 +36,9 @@ CameraResponse ResponseFromJson(const json& in) {
 
 json PhotoJson(const LinearizedPhoto& photo) {
   json bracket = json::array();
-  for (const PhotoExposure& e : photo.bracket) bracket.push_back({e.file, e.relative_exposure_s, e.line});
+  for (const PhotoExposure& e : photo.bracket)
+    bracket.push_back(
+        {e.file, e.relative_exposure_s, e.line, e.cut_off_counts ? json(*e.cut_off_counts) : json()});
   return {{"file", photo.file},   {"camera", photo.camera},         {"view", photo.view},
           {"state", photo.state}, {"exposure_s", photo.exposure_s}, {"bracket", bracket}};
 }
@@ -48,7 +50,10 @@ LinearizedPhoto PhotoFromJson(const json& in) {
   photo.view = in.at("view");
   photo.state = in.at("state");
   photo.exposure_s = in.at("exposure_s");
-  for (const json& e : in.at("bracket")) photo.bracket.push_back({e.at(0), e.at(1), e.at(2)});
+  for (const json& e : in.at("bracket")) {
+    photo.bracket.push_back({e.at(0), e.at(1), e.at(2), {}});
+    if (!e.at(3).is_null()) photo.bracket.back().cut_off_counts = e.at(3);
+  }
   return photo;
 }
 

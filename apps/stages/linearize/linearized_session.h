@@ -20,6 +20,8 @@ struct PhotoExposure {
   // exposure_s * (iso / iso of the camera's first photo) * (f-number of that / f-number)^2, as corrected.
   double relative_exposure_s = 0;
   int line = 0;  // in the photo table
+  std::optional<double> cut_off_counts =
+      {};  // below full scale; photos at it are saturated (calib/luminance/cut_off.h)
 };
 
 struct LinearizedPhoto {

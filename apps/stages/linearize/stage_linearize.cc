@@ -13,9 +13,11 @@
 namespace luxfit {
 namespace {
 
-Photo ReadCounts(const LinearizedCamera& camera, const std::string& file) {
+Photo ReadCounts(const LinearizedCamera& camera, const PhotoExposure& exposure) {
   const SessionCamera& settings = camera.given;
+  const std::string& file = exposure.file;
   Photo counts = ReadPhoto(file);
+  if (exposure.cut_off_counts) counts.saturation_counts = *exposure.cut_off_counts;
   if (counts.bits_per_channel == 8 && settings.response == "linear") {
     throw std::runtime_error(fmt::format(
         "{}: expected linear counts (camera \"{}\" has response = \"linear\"), got an 8-bit "
@@ -79,8 +81,10 @@ void WriteArtifact(const LinearizedPhotos& photos, size_t first_warning, nlohman
   artifact["photos"] = nlohmann::json::array();
   for (const LinearizedPhoto& photo : photos.photos) {
     nlohmann::json exposures = nlohmann::json::array();
-    for (const PhotoExposure& exposure : photo.bracket)
+    for (const PhotoExposure& exposure : photo.bracket) {
       exposures.push_back({{"file", exposure.file}, {"relative_exposure_s", exposure.relative_exposure_s}});
+      if (exposure.cut_off_counts) exposures.back()["cut_off_counts"] = *exposure.cut_off_counts;
+    }
     artifact["photos"].push_back({{"view", photo.view},
                                   {"state", photo.state},
                                   {"camera", photos.cameras[static_cast<size_t>(photo.camera)].given.id},
@@ -106,7 +110,7 @@ LuminanceOptions LuminanceOptionsOf(const LinearizedCamera& camera) {
 }
 
 LuminanceImage ReadExposure(const LinearizedCamera& camera, const PhotoExposure& exposure) {
-  return ToRelativeLuminance(ReadCounts(camera, exposure.file), exposure.relative_exposure_s,
+  return ToRelativeLuminance(ReadCounts(camera, exposure), exposure.relative_exposure_s,
                              LuminanceOptionsOf(camera));
 }
 
@@ -118,13 +122,13 @@ LuminanceImage ReadLuminance(const LinearizedPhotos& photos, const LinearizedPho
   if (photo.bracket.size() > 1) {
     BracketMerger merger(options);
     for (const PhotoExposure& exposure : photo.bracket) {
-      const Photo counts = ReadCounts(own, exposure.file);
+      const Photo counts = ReadCounts(own, exposure);
       ExpectSize(counts, exposure.file, own.given, camera);
       merger.Add(counts, exposure.relative_exposure_s);
     }
     image = merger.Merged();
   } else {
-    const Photo counts = ReadCounts(own, photo.file);
+    const Photo counts = ReadCounts(own, photo.bracket.at(0));
     ExpectSize(counts, photo.file, own.given, camera);
     if (noise == NoiseNeed::kOfAll) options.noise = DefaultNoise(counts.bits_per_channel);
     image = ToRelativeLuminance(counts, photo.bracket.at(0).relative_exposure_s, options);
@@ -155,6 +159,7 @@ LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context) {
   const StageTimer timer(
       context, "linearize",
       fmt::format("{} photos of {} views and states", FilesOf(photos), photos.photos.size()));
+  photos = WithCutOffs(std::move(photos), session, context);
   photos = WithResponses(std::move(photos), session, context, artifact);
   photos = WithCorrectedExposures(std::move(photos), session, context, artifact);
   photos = WithFlatFields(std::move(photos), context, artifact);

@@ -108,11 +108,13 @@ TEST(KeptProductsTest, Linearized) {
   photo.view = "v";
   photo.state = "s";
   photo.exposure_s = 1.0 / 7;
-  photo.bracket = {{"a.png", 0.5, 3}, {"b.png", 1.0 / 3, 4}};
+  photo.bracket = {{"a.png", 0.5, 3}, {"b.png", 1.0 / 3, 4, 4095}};
   before.photos = {photo};
   const LinearizedPhotos after = LinearizedFromJson(read, ThroughCbor(LinearizedJson(before)));
   ASSERT_EQ(after.photos.size(), 1U);
   EXPECT_EQ(after.photos[0].bracket.at(1).relative_exposure_s, 1.0 / 3);
+  EXPECT_EQ(after.photos[0].bracket[1].cut_off_counts, 4095);
+  EXPECT_FALSE(after.photos[0].bracket[0].cut_off_counts);
   EXPECT_EQ(after.photos[0].exposure_s, 1.0 / 7);
   EXPECT_EQ(after.photos[0].view, "v");
   EXPECT_EQ(after.photos[0].state, "s");
@@ -158,9 +160,9 @@ TEST(KeptProductsTest, Observations) {
   EXPECT_EQ(after.photos_as_if[0].as_if, 1);
   EXPECT_TRUE(after.photos_as_if[0].is_exchanged);
   EXPECT_EQ(after.photos_as_if[0].difference, 1.0 / 7);
+  EXPECT_TRUE(after.photos_as_if[0].is_srgb);
   ASSERT_EQ(after.states_as_if.size(), 1U);
   EXPECT_EQ(after.states_as_if[0].as_if, "A was off");
-  EXPECT_TRUE(after.photos_as_if[0].is_srgb);
   EXPECT_EQ(after.states_as_if[0].dimming.at(0), Eigen::Vector2d(0, 1.0 / 3));
   EXPECT_EQ(after.states_as_if[0].difference_as_given, 0.3);
 }

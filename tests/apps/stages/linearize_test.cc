@@ -115,6 +115,27 @@ TEST_F(LinearizeTest, PlainPhotosStayAsTheyAre) {
   EXPECT_THAT(folder_.Read("out/stages/linearize.json"), HasSubstr("luxfit-linearize-1"));
 }
 
+// As a raw converter with another white level writes them: counts end at 20 000 of 65 535.
+TEST_F(LinearizeTest, CountsCutOffBelowFullScaleAreSaturated) {
+  model_.full_scale_counts = 20000;
+  std::string rows;
+  for (const char* exposure : {"0.5", "1", "2"}) {
+    const std::string name = std::string("v") + exposure;
+    Shoot(name + ".png", std::stod(exposure));
+    rows += name + ".png,cam0," + name + ",on," + exposure + ",,\n";
+  }
+  WriteSession("", rows);
+  const LinearizedPhotos linearized = Linearized();
+  ASSERT_THAT(WarningCodes(), ElementsAre("counts_cut_off"));
+  EXPECT_THAT(context_.warnings[0].message,
+              HasSubstr("3 photos of camera cam0 end at one largest count, 20000"));
+  const LuminanceImage image = Luminance(linearized, 2);
+  const Photo counts = ReadPhoto(folder_.Path("v2.png"));
+  EXPECT_TRUE(image.saturated.any() && image.valid.any());
+  EXPECT_FALSE((image.valid && counts.rgb_counts[1] >= 0.97f * 20000).any());
+  EXPECT_TRUE((image.saturated || counts.rgb_counts[1] < 0.97f * 20000).all());
+}
+
 TEST_F(LinearizeTest, RowsOfOneViewAndStateAreMerged) {
   std::string rows;
   for (const double exposure : {0.125, 4.0, 0.5}) {

@@ -97,7 +97,7 @@ std::vector<CatalogueCase> PhotometryCases() {
       {kGroup,
        "counts cut off at a third of full scale",
        Required::kNamed,
-       {"luminance_clipped"},
+       {"counts_cut_off"},
        [](const OfficeCopy& office) {
          EditPhotos(office, Every, [](cv::Mat& counts) { cv::min(counts, kFullScale / 3, counts); });
        }},
