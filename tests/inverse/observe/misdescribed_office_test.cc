@@ -156,7 +156,9 @@ TEST(MisdescribedOffice, APhotoEncodedInSrgb) {
       least = std::min(least, p.difference);
     }
     named += found.size() == 1 ? 1 : 0;
-    if (photo.second != kEvening) EXPECT_EQ(found.size(), 1u) << name;
+    if (photo.second != kEvening) {
+      EXPECT_EQ(found.size(), 1u) << name;
+    }
     if (found.empty()) std::printf("%s is not named\n", name.c_str());
   }
   std::printf("%d of %zu encoded photos named; differences at least %.1f %%, so read at most %.1f %%\n",
