@@ -84,11 +84,22 @@ std::optional<JudgedTable> Judge(const Patches& patches, const std::vector<Obser
   return judged;
 }
 
+// Returns whether the table as given explains decoded photos, and better than a mistake explains them as given.
+bool IsCurve(const Patches& patches, const std::vector<Observation>& decoded, const StateTable& table,
+             const JudgedMistake& best) {
+  if (decoded.empty()) return false;
+  const std::optional<JudgedTable> judged = Judge(patches, decoded, table);
+  if (!judged) return false;
+  const double score = Mean(judged->score.scores);
+  return score <= kExplainsStates && score < Mean(best.score.scores);
+}
+
 }  // namespace
 
 std::vector<StateExplanation> FindStatesAsIf(const Patches& patches,
                                              const std::vector<Observation>& observations,
-                                             const StateTable& table) {
+                                             const StateTable& table,
+                                             const std::vector<Observation>& decoded) {
   const std::optional<JudgedTable> judged = Judge(patches, observations, table);
   if (!judged || Mean(judged->score.scores) <= 1) return {};
   const SuperposedColumns& columns = judged->columns;
@@ -96,7 +107,8 @@ std::vector<StateExplanation> FindStatesAsIf(const Patches& patches,
   const std::vector<JudgedMistake> holding =
       Holding(TableMistakes(table, columns, judged->dimming), columns, as_given.scores, judged->rank);
   if (std::all_of(holding.begin(), holding.end(),
-                  [](const JudgedMistake& m) { return m.mistake.is_of_whole_state; }))
+                  [](const JudgedMistake& m) { return m.mistake.is_of_whole_state; }) ||
+      IsCurve(patches, decoded, table, holding.front()))
     return {};
   std::vector<StateExplanation> explanations;
   for (const JudgedMistake& m : holding) {

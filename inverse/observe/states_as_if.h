@@ -17,7 +17,10 @@
 // is then one that the table cannot state: a luminaire of several on one switch was off in a state, or lamps warmed up.
 // Each state then stands by itself.
 //
-// Tells nothing where the table has as many independent states as states. A tone curve in the photos hides mistakes.
+// A tone curve looks like states that do not add up. Where the photos, decoded from sRGB, add up by the table as given, and with a
+// lower score than any mistake has, nothing is returned: self-calibration finds the curve (`response_not_linear`).
+//
+// Tells nothing where the table has as many independent states as states. Another tone curve in the photos hides mistakes.
 // Source: superposition of light; the rule's.
 #ifndef LUXFIT_INVERSE_OBSERVE_STATES_AS_IF_H_
 #define LUXFIT_INVERSE_OBSERVE_STATES_AS_IF_H_
@@ -48,11 +51,13 @@ struct StateExplanation {
   bool IsOfTable() const { return difference > 0; }  // another table; false: states by themselves
 };
 
-// Returns the explanations that hold, the best first. Throws std::invalid_argument for names and dimming of different
-// numbers, and for a state out of range.
+// Returns the explanations that hold, the best first. `decoded`: the same observations as they are where their photos are
+// encoded in sRGB; empty: they are not. Throws std::invalid_argument for names and dimming of different numbers, and for
+// a state out of range.
 std::vector<StateExplanation> FindStatesAsIf(const Patches& patches,
                                              const std::vector<Observation>& observations,
-                                             const StateTable& table);
+                                             const StateTable& table,
+                                             const std::vector<Observation>& decoded = {});
 
 // Returns that each state stands by itself where the photos do not add up, else nothing. `observations`: with exposures
 // and response corrected by the table, which no mistake explains. Throws as FindStatesAsIf.

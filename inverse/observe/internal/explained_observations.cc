@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "inverse/observe/evidence.h"
+#include "inverse/observe/internal/srgb_observations.h"
 
 namespace luxfit {
 
@@ -14,7 +15,11 @@ ExplainedObservations ExplainObservations(const Patches& patches, std::vector<Ob
   explained.photos_as_if = FindPhotosAsIf(patches, observations, counted);
   observations = WithoutPhotos(observations, explained.photos_as_if);
   const bool has_table = !states.luminaires.empty();
-  if (has_table) explained.states_as_if = FindStatesAsIf(patches, observations, states);
+  if (has_table) {
+    const std::vector<Observation> decoded =
+        counted.empty() ? std::vector<Observation>() : DecodedSrgb(observations, counted);
+    explained.states_as_if = FindStatesAsIf(patches, observations, states, decoded);
+  }
   explained.observations = correct(DimmingSeen(states, explained.states_as_if), observations);
   if (!has_table || !explained.states_as_if.empty()) return explained;
   std::optional<StateExplanation> alone = StatesByThemselves(patches, explained.observations, states);

@@ -15,6 +15,7 @@
 #include "calib/lens/camera_file.h"
 #include "forward/light/room.h"
 #include "forward/room/scene.h"
+#include "inverse/observe/internal/srgb_observations.h"
 #include "inverse/observe/observe_photos.h"
 #include "inverse/observe/photos_as_if.h"
 #include "inverse/observe/states_as_if.h"
@@ -163,6 +164,21 @@ TEST(MisdescribedOffice, APhotoEncodedInSrgb) {
   }
   std::printf("%d of %zu encoded photos named; differences at least %.1f %%, so read at most %.1f %%\n",
               named, shares.size(), 100 * least, 100 * worst);
+}
+
+// All photos encoded look like states that do not add up. Linear ones do not look encoded where the table is wrong.
+TEST(MisdescribedOffice, ATableIsNotAccusedOfAToneCurve) {
+  const CountedShares shares = OfficeShares();
+  const Patches& patches = TheOffice().room.patches;
+  std::vector<Observation> encoded = TheOffice().observations;
+  for (const auto& [photo, exposure_s] : shares)
+    encoded = EncodedInSrgb(std::move(encoded), photo, exposure_s);
+  EXPECT_FALSE(FoundStates(encoded, OfficeStates()).empty());
+  EXPECT_TRUE(FindStatesAsIf(patches, encoded, OfficeStates(), DecodedSrgb(encoded, shares)).empty());
+  StateTable table = OfficeStates();
+  table.dimming[kEvening][kLampA] = 1;
+  const std::vector<Observation>& linear = TheOffice().observations;
+  EXPECT_FALSE(FindStatesAsIf(patches, linear, table, DecodedSrgb(linear, shares)).empty());
 }
 
 TEST(MisdescribedOffice, APhotoOfAnotherStateIsNamedAlone) {
