@@ -19,6 +19,7 @@
 #include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/observe/observed_words.h"
 #include "apps/stages/register/registration_words.h"
+#include "apps/stages/warning_order.h"
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/image.h"
@@ -274,6 +275,7 @@ FoundLight FitWithoutSession(const MeshRoom& room, const py::dict& states,
   const Room& fitted_room = changed ? *changed : room;
   fitted.fit = FitRoom(fitted_room, given);
   PutFirst(std::move(before), fitted.fit.findings);
+  PutCausesFirst(fitted.fit.findings.warnings);
   fitted.materials = fitted_room.scene.materials;
   fitted.luminaires = EstimatedLuminaires(fitted.fit);
   fitted.readings = PredictedReadings(fitted.fit);

@@ -129,13 +129,14 @@ LoadedMesh LoadMesh(const Session& session) {
   return mesh;
 }
 
-void WarnOfUnknownMaterials(const Session& session, const Scene& scene, RunContext& context) {
+void WarnOfUnknownMaterials(const Session& session, const std::vector<std::string>& materials,
+                            RunContext& context) {
   if (!session.scene) return;
   for (const auto& [name, albedo] : session.scene->known_albedo_rgb) {
-    if (std::count(scene.materials.begin(), scene.materials.end(), name) > 0) continue;
+    if (std::count(materials.begin(), materials.end(), name) > 0) continue;
     context.warnings.push_back({"unknown_material",
                                 fmt::format("scene.albedo.{}: the room has no such material", name),
-                                "remove it, or correct the name" + DidYouMean(name, scene.materials)});
+                                "remove it, or correct the name" + DidYouMean(name, materials)});
   }
 }
 
@@ -201,7 +202,10 @@ Room LoadRoom(const Session& session, RunContext& context) {
   if (!options.planes->named_material.empty())
     RecordPlaneNames(options.planes->named_material, room, context);
   WarnOfMesh(mesh.findings, room, context);
-  WarnOfUnknownMaterials(session, room.scene, context);
+  // Who misspells the mesh's own material is shown that.
+  std::vector<std::string> names = room.scene.materials;
+  if (!options.planes->named_material.empty()) names.push_back(options.planes->named_material);
+  WarnOfUnknownMaterials(session, names, context);
   return room;
 }
 

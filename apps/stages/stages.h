@@ -89,7 +89,9 @@ LoadedMesh LoadMesh(const Session& session);
 std::vector<MeshFinding> JudgedByRays(std::vector<MeshFinding> findings, bool is_on_planes, RayShares shares);
 void WarnOfMesh(std::vector<MeshFinding> findings, const Room& room, RunContext& context);
 // Warns of reflectances that the session gives for materials that the room does not have.
-void WarnOfUnknownMaterials(const Session& session, const Scene& scene, RunContext& context);
+// `materials`: the names that there are.
+void WarnOfUnknownMaterials(const Session& session, const std::vector<std::string>& materials,
+                            RunContext& context);
 
 // Returns the material that says nothing of paints, so that its planes get materials of their own: the only one of the mesh, where
 // [scene] says neither its reflectance nor materials = "given". Empty: none. See forward/room/named_planes.h.

@@ -1,6 +1,11 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include "apps/stages/linearize/linearize.h"
 #include "calib/luminance/cut_off.h"
 
@@ -14,6 +19,15 @@ std::vector<PhotoExposure*> FilesOf(LinearizedPhotos& photos, size_t camera) {
     for (PhotoExposure& exposure : photo.bracket) files.push_back(&exposure);
   }
   return files;
+}
+
+// Returns nothing for a photo that cannot be read, too: who needs it refuses it. Registration by COLMAP needs none.
+std::optional<TopCount> TopCountOfFile(const std::string& file) {
+  try {
+    return ReadTopCount(file);
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 void WarnOfCutOff(const Session& session, const std::vector<PhotoExposure*>& files, double counts,
@@ -38,7 +52,7 @@ LinearizedPhotos WithCutOffs(LinearizedPhotos photos, const Session& session, Ru
     const std::vector<PhotoExposure*> files = FilesOf(photos, c);
     std::vector<ExposedTop> tops(files.size());
     tbb::parallel_for(size_t{0}, files.size(), [&](size_t i) {
-      if (const auto top = ReadTopCount(files[i]->file)) tops[i] = {*top, files[i]->relative_exposure_s};
+      if (const auto top = TopCountOfFile(files[i]->file)) tops[i] = {*top, files[i]->relative_exposure_s};
     });
     for (const double counts : FindCutOffs(tops)) {
       for (size_t i = 0; i < files.size(); ++i)

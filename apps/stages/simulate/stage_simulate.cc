@@ -39,7 +39,7 @@ class Simulation {
         given_(ReadGivenScene(session, "simulate", context)),
         error_percent_(error_percent) {
     ExpectReadings(session);
-    WarnOfUnknownMaterials(session_, given_.lit.scene, context_);
+    WarnOfUnknownMaterials(session_, given_.lit.scene.materials, context_);
   }
 
   json Run() {
