@@ -216,10 +216,7 @@ class OuterLoop {
 
   // Predicts at the present state, unless the last solve or an earlier call did.
   void PredictAtState(bool with_jacobian) {
-    if (solved_) {
-      at_state_ = *std::exchange(solved_, std::nullopt);
-      is_at_state_ = true;
-    }
+    if (solved_) at_state_ = *std::exchange(solved_, std::nullopt), is_at_state_ = true;
     const bool lacks_jacobian = with_jacobian && at_state_.jacobian.rows() != model_.row_count();
     if (!is_at_state_ || lacks_jacobian)
       at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
