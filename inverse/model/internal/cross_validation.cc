@@ -1,7 +1,5 @@
 #include "inverse/model/internal/cross_validation.h"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -28,9 +26,8 @@ class FoldPredictor {
     model_.RefreezeVisibility(fit.state);
     at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
     weights_ = WeightsOf(fit, room, data);
-    folds_ = 1 + *std::max_element(fold_of_row_.begin(), fold_of_row_.end());
-    rows_at_fit_ = RowsByFold(at_fit_);
-    information_ = SumOf(rows_at_fit_).matrix.diagonal().cwiseMax(1e-300);
+    information_ =
+        weights_.Weighed(at_fit_.prediction.jacobian).colwise().squaredNorm().transpose().cwiseMax(1e-300);
   }
 
   LeftOutPrediction Run() {
@@ -40,7 +37,8 @@ class FoldPredictor {
     result.value = at_fit_.prediction.value;
     result.is_smooth = model_.InPenumbra();
     result.is_smooth.flip();
-    for (int fold = 0; fold < folds_; ++fold) {
+    const int folds = 1 + *std::max_element(fold_of_row_.begin(), fold_of_row_.end());
+    for (int fold = 0; fold < folds; ++fold) {
       const Eigen::VectorXd value = ValueWithout(fold);
       for (Eigen::Index i = 0; i < value.size(); ++i)
         if (FoldOf(i) == fold) result.value[i] = value[i];
@@ -90,36 +88,19 @@ class FoldPredictor {
     return squares;
   }
 
-  // Returns the equations of each fold's rows, and last of those that belong to none.
-  std::vector<NormalEquations> RowsByFold(const Point& at) const {
+  NormalEquations EquationsWithout(int fold, const Point& at) const {
+    const Eigen::VectorXd x = PackParameters(at.state, at.parameters);
+    NormalEquations equations(x.size());
     const Eigen::VectorXd residual = weights_.Residual(at.prediction.value);
     const RowMajorMatrix jacobian = weights_.Weighed(at.prediction.jacobian);
-    std::vector<std::vector<Eigen::Index>> own(static_cast<size_t>(folds_) + 1);
+    std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < residual.size(); ++i)
-      own[static_cast<size_t>(FoldOf(i) < 0 ? folds_ : FoldOf(i))].push_back(i);
-    std::vector<NormalEquations> by_fold(own.size(), NormalEquations(jacobian.cols()));
-    tbb::parallel_for(size_t{0}, own.size(), [&](size_t f) {
-      if (own[f].empty()) return;
-      const Eigen::MatrixXd rows = jacobian(own[f], Eigen::all).transpose();
-      by_fold[f].matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
-      by_fold[f].matrix = Eigen::MatrixXd(by_fold[f].matrix.selfadjointView<Eigen::Lower>());
-      by_fold[f].gradient.noalias() += rows * residual(own[f]);
-    });
-    return by_fold;
-  }
-
-  // `without`: a fold; -1: none.
-  static NormalEquations SumOf(const std::vector<NormalEquations>& by_fold, int without = -1) {
-    NormalEquations sum(by_fold.front().gradient.size());
-    for (size_t f = 0; f < by_fold.size(); ++f)
-      if (static_cast<int>(f) != without) sum.Add(by_fold[f]);
-    return sum;
-  }
-
-  NormalEquations EquationsWithout(int fold, const std::vector<NormalEquations>& by_fold,
-                                   const Point& at) const {
-    NormalEquations equations = SumOf(by_fold, fold);
-    AddPriors(priors_, smoothness_, PackParameters(at.state, at.parameters), equations);
+      if (FoldOf(i) != fold) kept.push_back(i);
+    const Eigen::MatrixXd rows = jacobian(kept, Eigen::all).transpose();
+    equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+    equations.gradient.noalias() += rows * residual(kept);
+    equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
+    AddPriors(priors_, smoothness_, x, equations);
     // A direction that only the fold determines stays where it is.
     constexpr double kRidge = 1e-9;
     equations.matrix.diagonal() += kRidge * information_;
@@ -128,8 +109,8 @@ class FoldPredictor {
 
   // Takes one step, halved until it lowers the squares. Returns the share of the expected gain that it made;
   // 0: no step lowers the squares.
-  double Step(int fold, const std::vector<NormalEquations>& by_fold, Point& at) const {
-    const NormalEquations equations = EquationsWithout(fold, by_fold, at);
+  double Step(int fold, Point& at) const {
+    const NormalEquations equations = EquationsWithout(fold, at);
     const Eigen::VectorXd step = -equations.matrix.ldlt().solve(equations.gradient);
     const double expected = -equations.gradient.dot(step);
     const Eigen::VectorXd x0 = PackParameters(at.state, at.parameters);
@@ -158,7 +139,7 @@ class FoldPredictor {
     constexpr double kNearlyLinear = 0.8;
     Point at = at_fit_;
     for (int i = 0; i < kMostSteps; ++i) {
-      const double gained = Step(fold, i == 0 ? rows_at_fit_ : RowsByFold(at), at);
+      const double gained = Step(fold, at);
       if (gained <= 0 || gained > kNearlyLinear) break;
       at.parameters = Recentred(at.parameters, at.state);
       at.prediction = model_.Predict(at.state, at.parameters, true);
@@ -172,10 +153,8 @@ class FoldPredictor {
   const std::vector<int>& fold_of_row_;
   LightModel model_;
   RowWeights weights_;
-  int folds_ = 0;
   Point at_fit_;
-  std::vector<NormalEquations> rows_at_fit_;  // without priors
-  Eigen::VectorXd information_;               // diagonal of the whole fit's matrix
+  Eigen::VectorXd information_;  // diagonal of the whole fit's matrix
 };
 
 }  // namespace
