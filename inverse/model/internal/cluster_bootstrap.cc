@@ -33,16 +33,6 @@ Eigen::MatrixXd CarriedDirections(const ClusterSums& sums) {
   return eigen.eigenvectors().leftCols(carried);  // eigenvalues increase
 }
 
-ClusterSums AlongDirections(const ClusterSums& sums, const Eigen::MatrixXd& directions) {
-  const Eigen::Index n = directions.cols();
-  ClusterSums along{directions.transpose() * sums.gradient, Eigen::MatrixXd(n * n, sums.count())};
-  for (Eigen::Index c = 0; c < sums.count(); ++c) {
-    const Eigen::MatrixXd information = directions.transpose() * sums.InformationOf(c) * directions;
-    along.information.col(c) = information.reshaped();
-  }
-  return along;
-}
-
 // Holds the draws, one in each column: how much oftener a cluster was taken than in the fit, and the gradient.
 struct Draws {
   Eigen::MatrixXd surplus;   // m_c - 1: clusters x draws
@@ -113,14 +103,16 @@ double RobustScale(const Eigen::VectorXd& drawn) {
 
 }  // namespace
 
-Eigen::VectorXd BootstrapVariance(const ClusterSums& sums, const Eigen::MatrixXd& known_variance) {
-  const Eigen::Index n = sums.gradient.rows();
+Eigen::VectorXd BootstrapVariance(const ClusteredRows& rows, const Eigen::MatrixXd& known_variance) {
+  const Eigen::Index n = rows.jacobian.cols();
   Eigen::VectorXd variance = Eigen::VectorXd::Zero(n);
+  ClusterSums sums = SumClusters(rows);
   if (sums.count() == 0) return variance;
   const Eigen::MatrixXd carried = CarriedDirections(sums);
   if (carried.cols() == 0) return variance;
-  const Eigen::MatrixXd steps = StepsOf(carried.cols() < n ? AlongDirections(sums, carried) : sums,
-                                        carried.transpose() * known_variance * carried);
+  if (carried.cols() < n)
+    sums = SumClusters({rows.jacobian * carried, rows.residual, rows.cluster, rows.spread});
+  const Eigen::MatrixXd steps = StepsOf(sums, carried.transpose() * known_variance * carried);
   if (2 * steps.cols() < kBootstrapDraws) return variance;
   const Eigen::MatrixXd along_axes = carried * steps;
   for (Eigen::Index d = 0; d < n; ++d) variance[d] = std::pow(RobustScale(along_axes.row(d)), 2);

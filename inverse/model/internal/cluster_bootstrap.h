@@ -32,9 +32,9 @@
 
 namespace luxfit {
 
-// Returns the variance along each axis of whitened parameters; 0 where the clusters say nothing. `sums`: of rows whose
-// Jacobian is J W; known_variance is V, parameters x parameters.
-Eigen::VectorXd BootstrapVariance(const ClusterSums& sums, const Eigen::MatrixXd& known_variance);
+// Returns the variance along each axis of whitened parameters; 0 where the clusters say nothing. The Jacobian of
+// `rows` is J W; known_variance is V, parameters x parameters.
+Eigen::VectorXd BootstrapVariance(const ClusteredRows& rows, const Eigen::MatrixXd& known_variance);
 
 }  // namespace luxfit
 

@@ -1,7 +1,5 @@
 #include "inverse/model/internal/cluster_sums.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -46,26 +44,16 @@ ClusterSums SumClusters(const ClusteredRows& rows) {
   const auto most = static_cast<Eigen::Index>(members.size());
   ClusterSums sums{Eigen::MatrixXd(n, most), Eigen::MatrixXd(n * n, most)};
   const auto parts = PartsByCluster(rows.spread, members.size());
-  std::vector<char> is_informed(members.size());  // not vector<bool>: threads write side by side
-  tbb::parallel_for(size_t{0}, members.size(), [&](size_t c) {
+  Eigen::Index count = 0;
+  for (size_t c = 0; c < members.size(); ++c) {
     const Eigen::MatrixXd jacobian = rows.jacobian(members[c], Eigen::all);
-    is_informed[c] = !jacobian.isZero(0);
-    if (!is_informed[c]) return;
-    const auto column = static_cast<Eigen::Index>(c);
-    sums.gradient.col(column) = jacobian.transpose() * rows.residual(members[c]);
-    Eigen::Map<Eigen::MatrixXd> information(sums.information.col(column).data(), n, n);
+    if (jacobian.isZero(0)) continue;
+    sums.gradient.col(count) = jacobian.transpose() * rows.residual(members[c]);
+    Eigen::Map<Eigen::MatrixXd> information(sums.information.col(count).data(), n, n);
     information.setZero();
     information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
     information.triangularView<Eigen::StrictlyUpper>() = information.transpose();
-    AddSpread(rows, parts[c], sums.gradient.col(column), information);
-  });
-  Eigen::Index count = 0;
-  for (Eigen::Index c = 0; c < most; ++c) {
-    if (!is_informed[static_cast<size_t>(c)]) continue;
-    if (count < c) {
-      sums.gradient.col(count) = sums.gradient.col(c);
-      sums.information.col(count) = sums.information.col(c);
-    }
+    AddSpread(rows, parts[c], sums.gradient.col(count), information);
     ++count;
   }
   sums.gradient.conservativeResize(Eigen::NoChange, count);

@@ -1,8 +1,5 @@
 #include "inverse/model/internal/fit_covariance.h"
 
-#include <tbb/parallel_for.h>
-
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -45,12 +42,6 @@ InverseRoot RootOf(const Eigen::MatrixXd& hessian) {
 
 // Returns (I - S)^-1 for one cluster's information S in whitened directions; at least kLeastLeft remains.
 Eigen::MatrixXd WithoutCluster(const Eigen::MatrixXd& information) {
-  const Eigen::Index n = information.rows();
-  // No eigenvalue exceeds the norm: that much remains of every direction, and no eigenvectors are needed.
-  if (information.norm() <= 1 - kLeastLeft) {
-    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n, n);
-    return (all - information).llt().solve(all);
-  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> leverage(information);
   const Eigen::VectorXd left = (1 - leverage.eigenvalues().array()).max(kLeastLeft);
   return leverage.eigenvectors() * left.cwiseInverse().asDiagonal() * leverage.eigenvectors().transpose();
@@ -63,18 +54,22 @@ struct ClusterVariance {
   Eigen::VectorXd share, share_squares;  // sums of v_c and v_c^2
 };
 
-ClusterVariance VarianceOfClusters(const ClusterSums& sums) {
-  const Eigen::Index n = sums.gradient.rows();
-  Eigen::MatrixXd moved(n, sums.count()), share(n, sums.count());  // by cluster
-  tbb::parallel_for(Eigen::Index{0}, sums.count(), [&](Eigen::Index c) {
+ClusterVariance VarianceOfClusters(const ClusteredRows& whitened) {
+  const Eigen::Index n = whitened.jacobian.cols();
+  ClusterVariance sum{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
+                      Eigen::VectorXd::Zero(n)};
+  const ClusterSums sums = SumClusters(whitened);
+  for (Eigen::Index c = 0; c < sums.count(); ++c) {
     const auto information = sums.InformationOf(c);
     const Eigen::MatrixXd without = WithoutCluster(information);
-    moved.col(c) = without * sums.gradient.col(c);
-    share.col(c) = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
-  });
-  const Eigen::VectorXd independent = sums.information.rowwise().sum();
-  return {moved * moved.transpose(), independent.reshaped(n, n), share.rowwise().sum(),
-          share.cwiseAbs2().rowwise().sum()};
+    const Eigen::VectorXd moved = without * sums.gradient.col(c);
+    sum.estimated += moved * moved.transpose();
+    sum.if_independent += information;
+    const Eigen::VectorXd share = (without * information).cwiseProduct(without).rowwise().sum().cwiseMax(0);
+    sum.share += share;
+    sum.share_squares += share.cwiseAbs2();
+  }
+  return sum;
 }
 
 // Holds the variance along one axis, and its degrees of freedom; 0 where the clusters say nothing of it.
@@ -131,7 +126,7 @@ Eigen::MatrixXd AtLeastIndependent(const Eigen::MatrixXd& estimated, const Eigen
 double DesignEffect(const WeightedRows& rows) {
   const Eigen::MatrixXd root = RootOf(HessianOf(rows)).root;
   const ClusterVariance clusters =
-      VarianceOfClusters(SumClusters({rows.jacobian * root, rows.residual, rows.cluster, rows.spread}));
+      VarianceOfClusters({rows.jacobian * root, rows.residual, rows.cluster, rows.spread});
   // Where other knowledge gives nearly all, the ratio says nothing.
   constexpr double kLeastShare = 0.1;
   std::vector<double> ratio;
@@ -165,14 +160,12 @@ FitCovariance CovarianceOf(const WeightedRows& rows) {
   // In whitened directions the plain covariance is 1, so combinations that cancel stay cancelled.
   ClusteredRows whitened_rows{rows.jacobian * root, rows.residual, rows.cluster, rows.spread};
   const Eigen::MatrixXd known = KnownVariance(rows, whitened_rows.jacobian, root);
-  const ClusterSums fine_sums = SumClusters(whitened_rows);
-  const ClusterVariance fine = VarianceOfClusters(fine_sums);
-  Eigen::VectorXd least = BootstrapVariance(fine_sums, known).cwiseMax(1);
+  const ClusterVariance fine = VarianceOfClusters(whitened_rows);
+  Eigen::VectorXd least = BootstrapVariance(whitened_rows, known).cwiseMax(1);
   whitened_rows.cluster = rows.coarse_cluster;
   whitened_rows.spread = rows.coarse_spread;
-  const ClusterSums coarse_sums = SumClusters(whitened_rows);
-  const ClusterVariance coarse = VarianceOfClusters(coarse_sums);
-  least = least.cwiseMax(BootstrapVariance(coarse_sums, known));
+  const ClusterVariance coarse = VarianceOfClusters(whitened_rows);
+  least = least.cwiseMax(BootstrapVariance(whitened_rows, known));
 
   FitCovariance result;
   result.null_directions = std::move(inverse_root.null_directions);

@@ -79,8 +79,7 @@ ClusteredRows WhitenedRows(const Line& line, const Errors& errors) {
 Eigen::Vector2d VarianceOf(const Line& line, const Errors& errors) {
   const Eigen::Matrix2d root = line.Root();
   const Eigen::Vector2d prior(0, line.prior_information);
-  return BootstrapVariance(SumClusters(WhitenedRows(line, errors)),
-                           root.transpose() * prior.asDiagonal() * root);
+  return BootstrapVariance(WhitenedRows(line, errors), root.transpose() * prior.asDiagonal() * root);
 }
 
 // Returns the squared width of the 95 % interval of each row over that of a normal distribution.
@@ -196,7 +195,7 @@ TEST(ClusterBootstrapTest, MixingDirectionsOfOneClusterEachSaysNothing) {
   const ClusteredRows rows{
       std::sqrt(0.9) * mix, Eigen::VectorXd::Ones(kParameters), {0, 1, 2, 3, 4, 5, 6, 7}};
   const Eigen::MatrixXd known = 0.1 * Eigen::MatrixXd::Identity(kParameters, kParameters);
-  EXPECT_EQ(BootstrapVariance(SumClusters(rows), known), Eigen::VectorXd::Zero(kParameters).eval());
+  EXPECT_EQ(BootstrapVariance(rows, known), Eigen::VectorXd::Zero(kParameters).eval());
 }
 
 // Cluster 0 and a prior, which holds a hundredth of the information, know one direction. A third of the draws leave
@@ -216,14 +215,14 @@ TEST(ClusterBootstrapTest, ADirectionOfOneClusterDisturbsNoOther) {
                         root = hessian.llt().matrixU().solve(Eigen::Matrix3d::Identity());
   rows.jacobian *= root;
   const Eigen::Matrix3d known = root.transpose() * prior * root;
-  const Eigen::Vector3d apart = BootstrapVariance(SumClusters(rows), known);
+  const Eigen::Vector3d apart = BootstrapVariance(rows, known);
   EXPECT_EQ(apart[0], 0);
   EXPECT_GT(apart.tail(2).minCoeff(), 0.3);
   // Turned by an angle of cosine 0.8 between axes 0 and 1: both show axis 1 as far as they lie along it.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   turn.topLeftCorner(2, 2) << 0.8, -0.6, 0.6, 0.8;
   rows.jacobian *= turn;
-  const Eigen::Vector3d mixed = BootstrapVariance(SumClusters(rows), turn.transpose() * known * turn);
+  const Eigen::Vector3d mixed = BootstrapVariance(rows, turn.transpose() * known * turn);
   std::printf("apart %.3f, %.3f; mixed %.3f, %.3f, %.3f\n", apart[1], apart[2], mixed[0], mixed[1], mixed[2]);
   EXPECT_NEAR(mixed[0] / apart[1], 0.36, 1e-6);
   EXPECT_NEAR(mixed[1] / apart[1], 0.64, 1e-6);
@@ -233,9 +232,9 @@ TEST(ClusterBootstrapTest, ADirectionOfOneClusterDisturbsNoOther) {
 TEST(ClusterBootstrapTest, PriorsAloneSayNothing) {
   const Eigen::Matrix2d known = Eigen::Matrix2d::Identity();
   const ClusteredRows alone{Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(1, 2), {-1, -1}};
-  EXPECT_EQ(BootstrapVariance(SumClusters(alone), known), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(BootstrapVariance(alone, known), Eigen::Vector2d(0, 0));
   const ClusteredRows unused{Eigen::MatrixXd::Zero(6, 2), Eigen::VectorXd::Ones(6), {0, 1, 2, 3, 4, 5}};
-  EXPECT_EQ(BootstrapVariance(SumClusters(unused), known), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(BootstrapVariance(unused, known), Eigen::Vector2d(0, 0));
 }
 
 TEST(ClusterBootstrapTest, IsTheSameWithAnyNumberOfThreads) {

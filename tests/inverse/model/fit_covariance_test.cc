@@ -151,8 +151,7 @@ TEST(FitCovarianceTest, TheLargerOfJackknifeAndBootstrapCounts) {
     }
     jackknife *= std::pow(StudentFactor(found.degrees_of_freedom[0]), 2);
     const ClusteredRows whitened{slope / std::sqrt(information), rows.residual, rows.cluster};
-    const double bootstrap =
-        BootstrapVariance(SumClusters(whitened), Eigen::MatrixXd::Zero(1, 1))[0] / information;
+    const double bootstrap = BootstrapVariance(whitened, Eigen::MatrixXd::Zero(1, 1))[0] / information;
     EXPECT_GT(bootstrap, 0);
     EXPECT_NEAR(found.covariance(0, 0) / std::max({1 / information, jackknife, bootstrap}), 1, 1e-9);
     (bootstrap > jackknife ? of_bootstrap : of_jackknife) += 1;
