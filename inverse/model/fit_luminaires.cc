@@ -107,7 +107,6 @@ class OuterLoop {
         x = PackParameters(before, fit_.parameters);
         solved_ = SolveFrozen(problem, InnerOptions(is_near), x);
       }
-      is_at_state_ = x == PackParameters(before, fit_.parameters);
       fit_.state = WithParameters(before, fit_.parameters, x);
       if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
       settled = is_near &&
@@ -135,36 +134,24 @@ class OuterLoop {
     const auto is_alike = [](const Parameter& a, const Parameter& b) {
       return a.frame.along == b.frame.along && a.frame.across == b.frame.across;
     };
-    if (!std::equal(recentred.begin(), recentred.end(), fit_.parameters.begin(), is_alike))
-      ForgetDerivatives();
+    if (!std::equal(recentred.begin(), recentred.end(), fit_.parameters.begin(), is_alike)) solved_.reset();
     fit_.parameters = std::move(recentred);
   }
 
   void ReflectDerivatives(bool reflects) {
-    if (options_.steps_by_direct_light) ForgetDerivatives();
+    if (options_.steps_by_direct_light) solved_.reset();
     model_.ReflectDerivatives(reflects);
-  }
-
-  void ForgetDerivatives() {
-    at_state_.jacobian.resize(0, 0);
-    if (solved_) solved_->jacobian.resize(0, 0);
-  }
-
-  // Forgets what was predicted by a model that has changed.
-  void ForgetPredictions() {
-    is_at_state_ = false;
-    solved_.reset();
   }
 
   // Lets patches reflect as their elements' texture says. Returns whether that matters.
   bool ExchangesTexturedLight() {
     if (data_.indirect_is_held || room_.sparse) return false;
-    Refresh(false);
+    Refresh(true);
     fit_.patch_factor = weigher_.elements().PatchFactors(room_, weights_.texture);
     if (fit_.patch_factor.size() == 0) return false;
     model_.SetPatchFactor(fit_.patch_factor);
     model_.FreezeReflected(fit_.state);
-    ForgetPredictions();
+    solved_.reset();
     return true;
   }
 
@@ -202,9 +189,10 @@ class OuterLoop {
 
   // Updates visibility, model error and weights at the present state.
   void Refresh(bool with_jacobian) {
-    if (model_.RefreezeVisibility(fit_.state, options_.visibility_order)) ForgetPredictions();
+    if (model_.RefreezeVisibility(fit_.state, options_.visibility_order)) solved_.reset();
     const std::vector<bool> penumbra = model_.InPenumbra();
-    PredictAtState(with_jacobian);
+    at_state_ = solved_ ? *std::move(solved_) : model_.Predict(fit_.state, fit_.parameters, with_jacobian);
+    solved_.reset();
     const bool is_first = weights_.root_weight.size() == 0;
     for (int left = is_first && options_.start_is_near ? kMostWeighings : 1; left > 0; --left) {
       relative_sigma_before_ = fit_.relative_sigma;
@@ -212,15 +200,6 @@ class OuterLoop {
                                 fit_.relative_sigma);
       if (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < kSettledWeights) break;
     }
-  }
-
-  // Predicts at the present state, unless the last solve or an earlier call did.
-  void PredictAtState(bool with_jacobian) {
-    if (solved_) at_state_ = *std::exchange(solved_, std::nullopt), is_at_state_ = true;
-    const bool lacks_jacobian = with_jacobian && at_state_.jacobian.rows() != model_.row_count();
-    if (!is_at_state_ || lacks_jacobian)
-      at_state_ = model_.Predict(fit_.state, fit_.parameters, with_jacobian);
-    is_at_state_ = true;
   }
 
   // Returns whether a step without damping stayed where its linearisation can be trusted. Farther away, less
@@ -438,7 +417,6 @@ class OuterLoop {
   std::vector<SmoothnessRow> smoothness_;
   Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
   Prediction at_state_;
-  bool is_at_state_ = false;          // at_state_ is of fit_.state, not of a state before the last solve
   std::optional<Prediction> solved_;  // of the last solve's end, as long as the model stays the same
   double relative_sigma_before_ = 0;
 };
