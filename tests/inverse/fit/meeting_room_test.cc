@@ -139,6 +139,8 @@ TEST(MeetingRoom, LuminairesThatPhotosShowStayThere) {
   given.seen.push_back(Highlight({2.0, 2.0, 0.72}, 0.02, {2, 4}, 3));
   support::FoundLimits limits;
   limits.off_mm = 80, limits.flux_percent = 3.5;
+  // Rounding decides where the washers end: right with OpenBLAS's kernels for AVX-512, undetermined with those for AVX2.
+  limits.hidden_may_be_undetermined = true;
   support::ExpectFound(room, model, given, limits);
 }
 
