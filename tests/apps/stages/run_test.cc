@@ -425,7 +425,7 @@ TEST_F(OfficeRun, StandsWhereNothingChanged) {
   EXPECT_EQ(again.status, 0);
   EXPECT_THAT(again.output, testing::HasSubstr("nothing has changed since the last run"));
   EXPECT_THAT(again.output, testing::HasSubstr("session office: done"));
-  EXPECT_LT(took.count(), 1);
+  EXPECT_LT(took.count(), 3);  // a fit takes longer, however busy the machine
   EXPECT_EQ(Read(Out() + "/result.json"), result_);
 }
 
