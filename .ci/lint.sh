@@ -1,9 +1,10 @@
 #!/bin/sh
 # Reports what clang-tidy finds in the libraries and the program, and clang-format in every source, after a configured build: one line a
 # finding (FILE:LINE: text [check]), worst first, forty at most. Exit status 1 where there is any.
-#   .ci/lint.sh [BUILD_FOLDER] [--since REV] [--analyze] [--seconds N]
+#   .ci/lint.sh [BUILD_FOLDER] [--since REV | --changed] [--analyze] [--seconds N]
 # BUILD_FOLDER  default build/release; the whole report is left in its lint.txt
 # --since       clang-tidy over what REV..HEAD touched; without it over everything, which takes 12 to 20 minutes
+# --changed     the same over the commits of the last twelve hours before HEAD
 # --analyze     adds clang's static analyzer, which takes as long again: before a release
 # --seconds     stops clang-tidy after N seconds; sources that were touched last come first
 set -eu
@@ -12,9 +13,10 @@ build=build/release since='' analyzer='' seconds=7200
 while [ $# -gt 0 ]; do
   case $1 in
     --since) since=$2; shift ;;
+    --changed) since=$(git rev-list -1 --before="$(($(git log -1 --format=%ct) - 43200))" HEAD) ;;
     --seconds) seconds=$2; shift ;;
     --analyze) analyzer=--checks='clang-analyzer-core.*,clang-analyzer-cplusplus.*,clang-analyzer-deadcode.*' ;;
-    -*) echo "lint.sh: $1: expected --since REV, --analyze or --seconds N" >&2; exit 2 ;;
+    -*) echo "lint.sh: $1: expected --since REV, --changed, --analyze or --seconds N" >&2; exit 2 ;;
     *) build=$1 ;;
   esac
   shift
