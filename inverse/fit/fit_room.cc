@@ -22,6 +22,7 @@
 #include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/choose/internal/two_sides.h"
+#include "inverse/fit/internal/compare_starts_again.h"
 #include "inverse/fit/internal/detail_words.h"
 #include "inverse/fit/internal/early_stop.h"
 #include "inverse/fit/internal/fit_as_given.h"
@@ -60,7 +61,8 @@ class RoomFitter {
                            result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
     LuminaireFit fit = FitInTime();
     const bool is_whole = !result_.stopped;
-    if (is_whole && fit.IsUsable()) CompareStartsAgain(fit);
+    if (is_whole && fit.IsUsable())
+      CompareStartsAgain(room_, result_.data, fit, Priors(), is_seen_, starts_);
     RecordAmbiguity();
     if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, Priors());
@@ -214,36 +216,6 @@ class RoomFitter {
       c.luminaire = static_cast<int>(named(static_cast<size_t>(c.luminaire)));
     const std::vector<std::optional<SeenPlace>> seen = start_.seen;
     for (size_t k = 0; k < seen.size(); ++k) start_.seen[static_cast<size_t>(named(k))] = seen[k];
-  }
-
-  // Compares places that explained a luminaire's light equally once more, now with its final model and with what its type
-  // has in common: a lobe of any width may imitate at one place what a known one shows to lie at another.
-  void CompareStartsAgain(const LuminaireFit& fit) {
-    LightState state = fit.state;
-    for (const std::vector<int>& type : TypesOf(state)) {
-      for (const int k : type) {
-        if (type.size() < 2) continue;
-        FreeQuantities& free = state.free[static_cast<size_t>(k)];
-        free.exponent = free.size = false;
-        free.table_sigma = free.emission_sigma = 0;
-      }
-    }
-    std::vector<std::vector<Luminaire>> rivals(state.luminaires.size());
-    for (const StartComparison& c : starts_) {
-      if (is_seen_.count(c.luminaire) > 0) continue;
-      for (const int rival : c.rivals)
-        rivals[static_cast<size_t>(c.luminaire)].push_back(c.end[static_cast<size_t>(rival)]);
-    }
-    const bool has_any = std::any_of(rivals.begin(), rivals.end(), [](const auto& r) { return !r.empty(); });
-    if (!has_any || result_.data.observations.empty()) return;
-    const LightData data =
-        WithoutTexture(room_, WithModelledIndirect(room_, result_.data, fit.state), fit, Priors());
-    SeveralStarts again = FitFromSeveralStarts(room_, data, state, rivals, Priors());
-    for (StartComparison& c : again.comparisons) {
-      const auto before = std::find_if(starts_.begin(), starts_.end(),
-                                       [&](const StartComparison& s) { return s.luminaire == c.luminaire; });
-      if (c.chosen == 0) *before = std::move(c);
-    }
   }
 
   // Records where several places explain a luminaire's light, and which of them no photo settles.
@@ -416,14 +388,28 @@ class RoomFitter {
     return options;
   }
 
+  // Fits again without what the fit does not tell from its simplest value. A narrow lobe and a small opening are alike:
+  // where either is needless beside the other, the one without which more light is explained goes.
   LuminaireFit WithoutNeedless(const LightData& part, LuminaireFit fit) {
-    SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
+    const SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
+    const auto fitted = [&](const SimplifiedState& s) {
+      return FitLuminaires(room_, part, WithSidesAlike(s.state, open_), Priors(), OfPart(&fit));
+    };
+    if (simplified.needless.empty()) {
+      fit.state = WithoutVanishedSizes(fit.state);
+      return fit;
+    }
+    LuminaireFit simple = fitted(simplified);
+    if (const auto other = WithOtherPoints(fit, open_, held_, simplified)) {
+      LuminaireFit with_points = fitted(*other);
+      if (with_points.relative_sigma < simple.relative_sigma) {
+        RecordNeedless(given_, other->needless, result_.findings);
+        return WithoutNeedless(part, std::move(with_points));
+      }
+    }
     RecordNeedless(given_, simplified.needless, result_.findings);
-    if (!simplified.needless.empty())
-      fit = FitLuminaires(room_, part, WithSidesAlike(std::move(simplified.state), open_), Priors(),
-                          OfPart(&fit));
-    fit.state = WithoutVanishedSizes(fit.state);
-    return fit;
+    simple.state = WithoutVanishedSizes(simple.state);
+    return simple;
   }
 
   // Returns which refinements of the luminaire's simple model are open.

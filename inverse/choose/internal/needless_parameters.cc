@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "inverse/observe/internal/angle.h"
@@ -138,10 +139,18 @@ class Simplifier {
   std::vector<LuminaireQuantity> set_;
 };
 
+// Returns the luminaires that become points.
+std::set<int> PointsOf(const SimplifiedState& simplified) {
+  std::set<int> points;
+  for (const NeedlessParameter& n : simplified.needless)
+    if (n.kind == NeedlessKind::kSize) points.insert(n.luminaire);
+  return points;
+}
+
 }  // namespace
 
 SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::vector<OpenChoice>& open,
-                                          const std::vector<HeldDirections>& held) {
+                                          const std::vector<HeldDirections>& held, SimplifiedFirst first) {
   SimplifiedState result{fit.state, {}};
   if (!fit.IsUsable() || fit.covariance.size() == 0) return result;
   for (size_t k = 0; k < open.size(); ++k) {
@@ -150,13 +159,25 @@ SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::ve
       if (found) result.needless.push_back(*found);
       return found.has_value();
     };
-    if (open[k].distribution) keep(simplifier.HoldExponent());
-    if (open[k].shape && keep(simplifier.HoldSize())) continue;  // the rest was estimated with the size
+    const auto exponent = [&] {
+      if (open[k].distribution) keep(simplifier.HoldExponent());
+    };
+    if (first == SimplifiedFirst::kExponent) exponent();
+    if (open[k].shape && keep(simplifier.HoldSize())) continue;
+    if (first == SimplifiedFirst::kSize) exponent();
     if (open[k].aim) keep(simplifier.HoldAim(held[k].aim));
     if (open[k].heading) keep(simplifier.HoldHeading(held[k].heading));
   }
   result.state = WithLikeTypes(std::move(result.state));
   return result;
+}
+
+std::optional<SimplifiedState> WithOtherPoints(const LuminaireFit& fit, const std::vector<OpenChoice>& open,
+                                               const std::vector<HeldDirections>& held,
+                                               const SimplifiedState& exponents_first) {
+  SimplifiedState sizes_first = WithoutNeedlessParameters(fit, open, held, SimplifiedFirst::kSize);
+  if (PointsOf(sizes_first) == PointsOf(exponents_first)) return {};
+  return sizes_first;
 }
 
 }  // namespace luxfit

@@ -13,6 +13,7 @@
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_NEEDLESS_PARAMETERS_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_NEEDLESS_PARAMETERS_H_
 
+#include <optional>
 #include <vector>
 
 #include "inverse/choose/internal/choose_model.h"
@@ -39,9 +40,19 @@ struct SimplifiedState {
   std::vector<NeedlessParameter> needless;
 };
 
-// `fit` needs its covariance. `held`: one for each luminaire. Looks only at what `open` leaves open.
+// What of a luminaire is looked at first: two quantities may be needless each by itself, and not together.
+enum class SimplifiedFirst { kExponent, kSize };
+
+// `fit` needs its covariance. `held`: one for each luminaire. Looks only at what `open` leaves open. Where a size is
+// needless, what is looked at after it stays as fitted: it was estimated with that size.
 SimplifiedState WithoutNeedlessParameters(const LuminaireFit& fit, const std::vector<OpenChoice>& open,
-                                          const std::vector<HeldDirections>& held);
+                                          const std::vector<HeldDirections>& held,
+                                          SimplifiedFirst first = SimplifiedFirst::kExponent);
+
+// Returns the same with sizes first, where that turns other luminaires into points than with exponents first.
+std::optional<SimplifiedState> WithOtherPoints(const LuminaireFit& fit, const std::vector<OpenChoice>& open,
+                                               const std::vector<HeldDirections>& held,
+                                               const SimplifiedState& exponents_first);
 
 }  // namespace luxfit
 

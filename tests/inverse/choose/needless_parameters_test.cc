@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace luxfit {
@@ -215,9 +216,21 @@ TEST_F(NeedlessParameters, QuantitiesThatAreNotNeedlessTogetherAreSimplifiedOneA
     return WithoutNeedlessParameters(fit_, open, std::vector<HeldDirections>(2)).needless;
   };
   EXPECT_EQ(needless().size(), 2u);
+  const std::vector<HeldDirections> held(2);
+  const auto with_other_points = [&] {
+    return WithOtherPoints(fit_, open, held, WithoutNeedlessParameters(fit_, open, held));
+  };
+  EXPECT_FALSE(with_other_points().has_value());
   fit_.covariance(exponent, along) = fit_.covariance(along, exponent) = -0.95 * 0.5;
   ASSERT_EQ(needless().size(), 1u);
   EXPECT_EQ(needless()[0].kind, NeedlessKind::kExponent);
+  // Or the size, and then the exponent stays.
+  const std::optional<SimplifiedState> points = with_other_points();
+  ASSERT_TRUE(points.has_value());
+  ASSERT_EQ(points->needless.size(), 1u);
+  EXPECT_EQ(points->needless[0].kind, NeedlessKind::kSize);
+  EXPECT_EQ(points->state.luminaires[0].shape, LuminaireShape::kPoint);
+  EXPECT_TRUE(points->state.free[0].exponent);
 }
 
 TEST_F(NeedlessParameters, WhatIsNotOpenIsNotTouched) {

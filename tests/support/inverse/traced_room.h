@@ -51,8 +51,6 @@ struct FoundLimits {
   double sigmas = 3;             // of each coordinate, in its sigma
   double common_error_mm = 1.5;  // standard error of what all luminaires err alike along an axis
   double reading_percent = 2;    // mean of the readings that only check
-  // Luminaires that no photo shows, and readings, may be off where the result is undetermined, but within their sigmas.
-  bool hidden_may_be_undetermined = false;
 };
 
 // Fits, prints how far each luminaire is from the true one, and expects it within the limits, no error of position that
