@@ -61,8 +61,7 @@ class RoomFitter {
                            result_.data.observations.size(), light_.used_readings, given_.luminaires.size()));
     LuminaireFit fit = FitInTime();
     const bool is_whole = !result_.stopped;
-    if (is_whole && fit.IsUsable())
-      CompareStartsAgain(room_, result_.data, fit, Priors(), is_seen_, starts_);
+    if (is_whole && fit.IsUsable()) CompareStartsAgain(room_, result_.data, fit, Priors(), is_seen_, starts_);
     RecordAmbiguity();
     if (is_whole && fit.IsUsable() && AsksForDirectShare()) {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, Priors());
