@@ -15,7 +15,7 @@ constexpr double kBehindM = 1e-4;  // above the ray tracer's rounding, below any
 constexpr int kDiscCorners = 12;
 
 // Counter-clockwise seen from where the luminaire shines.
-std::vector<Eigen::Vector3d> Outline(const Luminaire& luminaire) {
+std::vector<Eigen::Vector3d> OpeningOutline(const Luminaire& luminaire) {
   const LuminaireAxes axes = AxesOf(luminaire);
   std::vector<Eigen::Vector3d> outline;
   if (luminaire.shape == LuminaireShape::kRectangle) {
@@ -44,7 +44,7 @@ Scene WithLuminaireBodies(Scene scene, const std::vector<Luminaire>& luminaires)
     if (!flat || !OpsOf(luminaire.distribution).shines_to_one_side(luminaire)) continue;
     for (const bool front : {true, false}) {
       // along x across = aim: the outline's own order faces where the luminaire shines.
-      std::vector<Eigen::Vector3d> corners = Outline(luminaire);
+      std::vector<Eigen::Vector3d> corners = OpeningOutline(luminaire);
       if (!front) std::reverse(corners.begin(), corners.end());
       for (Eigen::Vector3d& corner : corners)
         corner += luminaire.position - (front ? 1 : 2) * kBehindM * luminaire.aim;

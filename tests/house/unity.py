@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""The build of the packages (preset `package`) compiles ten files at a time as one: names that each file has for itself must not meet
+there, nor those of headers. Looks at the source alone: compiling every batch to see takes ten minutes.
+
+  unity.py SOURCE
+"""
+import collections
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+NAME = r"[A-Za-z_]\w*"
+
+
+def batches(source):
+    """Returns for every batch of the preset its files."""
+    with tempfile.TemporaryDirectory() as build:
+        subprocess.run(["cmake", "-S", source, "--preset", "package", "-B", build], check=True, stdout=subprocess.DEVNULL)
+        for unit in sorted(pathlib.Path(build).rglob("Unity/unity_*_cxx.cxx")):
+            yield [f for f in re.findall(r'#include "(.*)"', unit.read_text()) if not f.startswith(build)]
+
+
+def statements(path, space):
+    """Yields what stands at the margin of a file's namespaces of one name, each up to its body or its end."""
+    text = pathlib.Path(path).read_text()
+    for inside in re.findall(rf"^namespace {space}\{{$(.*?)^\}}  // namespace {space}".rstrip() + "$", text, re.M | re.S):
+        inside = re.sub(r"//[^\n]*", "", inside)
+        yield from (" ".join(s.split()) for s in re.findall(r"^[A-Za-z_\[][^;{]*(?:;|\{[^\n]*)", inside, re.M))
+
+
+def headers(source, path):
+    """Returns the project's headers that a file includes."""
+    included = re.findall(r'^#include "(.*)"', pathlib.Path(path).read_text(), re.M)
+    return [f"{source}/{h}" for h in included if pathlib.Path(source, h).exists()]
+
+
+def parameter_types(parameters):
+    """Returns the types of a parameter list without names and defaults."""
+    plain = parameters
+    while re.search(r"<[^<>]*,[^<>]*>", plain):
+        plain = re.sub(r"<([^<>]*),([^<>]*)>", r"<\1;\2>", plain)
+    return tuple(re.sub(rf"(?<=[\s&*])({NAME})?\s*(=.*)?$", "", p.strip()).replace(" ", "") for p in plain.split(","))
+
+
+def names(statement):
+    """Yields what a statement defines: a name, or a function with the types of its parameters."""
+    kind = re.match(rf"(?:template <[^{{]*> )?(?:struct|class|enum(?: class)?|union) ({NAME})[^;(]*\{{", statement)
+    if kind:
+        yield kind.group(1)
+    elif "=" in statement.split("(")[0] or re.match(rf"(constexpr|const|static|std::)[^()]*\b{NAME}(\{{|;)", statement):
+        yield from re.findall(rf"\b({NAME})(?:\[\w*\])? ?(?==(?!=)|\{{)", re.sub(r"\([^()]*\)", "", statement))
+    else:
+        function = re.match(rf"[^(]*?\b({NAME})\((.*)\)[^)]*[{{;]", statement)
+        if function:
+            yield f"{function.group(1)}({','.join(parameter_types(function.group(2)))})"
+
+
+def defined(path, space):
+    """Returns the names of a file's namespaces of one name."""
+    return {n for s in statements(path, space) if not s.startswith(("using ", "namespace ")) for n in names(s)}
+
+
+def main():
+    source, found = sys.argv[1], 0
+    for batch in batches(source):
+        files = collections.defaultdict(set)
+        for path in batch:
+            for name in defined(path, ""):
+                files[name].add(path)
+        for header in sorted({h for path in batch for h in headers(source, path)}):
+            for name in defined(header, "luxfit "):
+                if name in files:
+                    files[name].add(header)
+        for name, paths in files.items():
+            paths = paths | files.get(name.split("(")[0], set())  # a type hides, or is hidden by, a function of its name
+            if len(paths) > 1:
+                print(f"{name} is defined in {' and in '.join(sorted(paths))}, which are compiled as one", file=sys.stderr)
+                found += 1
+    sys.exit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    main()
