@@ -12,7 +12,9 @@ namespace luxfit {
 namespace {
 
 constexpr double kUnexplained = 0.25;  // robust weight at five sigmas
-constexpr double kLargeError = 0.02, kLargeShare = 0.15;
+constexpr double kLargeShare = 0.15;
+// Errors of single rows average out, up to kVeryLargeError; what neighbours share is light that moves luminaires.
+constexpr double kLargeError = 0.02, kLargeSharedError = 0.01, kVeryLargeError = 0.05;
 
 struct Count {
   int unexplained = 0, all = 0;
@@ -61,6 +63,11 @@ std::string LuminairesOn(const RoomFit& result, int state) {
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
+bool IsErrorLarge(const LuminaireFit& fit) {
+  return fit.relative_sigma >= kVeryLargeError ||
+         (fit.relative_sigma >= kLargeError && fit.shared_relative_sigma >= kLargeSharedError);
+}
+
 }  // namespace
 
 void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
@@ -70,7 +77,7 @@ void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
       std::max_element(misfit.of_state.begin(), misfit.of_state.end(),
                        [](const auto& a, const auto& b) { return a.second.Share() < b.second.Share(); });
   const bool is_of_state = worst->second.Share() >= kLargeShare;
-  if (!is_of_state && result.fit.relative_sigma < kLargeError) return;
+  if (!is_of_state && !IsErrorLarge(result.fit)) return;
   std::string message = fmt::format(
       "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no better "
       "than "

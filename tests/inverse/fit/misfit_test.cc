@@ -48,11 +48,20 @@ TEST_F(Misfit, OneStateNamesItsLuminaires) {
   EXPECT_TRUE(findings.IsUndetermined());
 }
 
-TEST_F(Misfit, ALargeErrorOfAllRowsIsAWarning) {
+TEST_F(Misfit, ALargeErrorThatNeighboursShareIsAWarning) {
   result_.fit.relative_sigma = 0.03;
+  result_.fit.shared_relative_sigma = 0.01;
   const Findings findings = Found();
   ASSERT_EQ(findings.warnings.size(), 1u);
   EXPECT_FALSE(findings.IsUndetermined());
+}
+
+TEST_F(Misfit, NoiseOfSingleRowsIsOneOnlyWhereItIsVeryLarge) {
+  result_.fit.relative_sigma = 0.04;
+  result_.fit.shared_relative_sigma = 0.003;
+  EXPECT_TRUE(Found().warnings.empty());
+  result_.fit.relative_sigma = 0.06;
+  EXPECT_EQ(Found().warnings.size(), 1u);
 }
 
 TEST_F(Misfit, RowsThatTookNoPartAreNotCounted) {
