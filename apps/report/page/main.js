@@ -11,7 +11,7 @@ import { lightBar, lightWords } from './light_bar.js';
 import { paints } from './paints.js';
 import { photoViews } from './photo_views.js';
 import { dimensionedPlan } from './plan.js';
-import { polarCurve } from './polar_curve.js';
+import { alikeInShape, polarCurve } from './polar_curve.js';
 import { readingTable, readingsPart } from './readings.js';
 import { choices, conditions, provenance, reflectances, speed } from './record.js';
 import { RoomPart } from './room_part.js';
@@ -19,6 +19,7 @@ import { findings, schedule } from './schedule.js';
 import { selfTest } from './self_test.js';
 import { WorkPlane } from './work_plane.js';
 
+const kBeside = 8;  // luminaires that stand beside the plan on paper
 const kShortNames = { answer: 'Answer', readings: 'Readings', curves: 'Distribution', room: 'Room', planes: 'Work planes', levels: 'Walls', glare: 'Glare', photos: 'Photos',
   surfaces: 'Surfaces', table: 'Table', conditions: 'Conditions', choices: 'Choices', speed: 'Speed', provenance: 'Provenance' };
 
@@ -41,10 +42,10 @@ function build(data) {
   const scaleNote = data.is_absolute ? null : h('p', { class: 'notice' }, 'This session has no absolute scale: all light in this report is in relative units, not in lx, lm or cd/m\u00b2. Shapes, ratios and uniformity stand.');
   const parts = [
     section('answer', 'The answer', null, cards(data, planes), scaleNote,
-      h('div', { class: 'found' }, h('h2', { class: 'print-only' }, 'Luminaires'), h('div', { class: data.room ? 'plan-and-schedule' : null }, data.room ? dimensionedPlan(data) : null,
+      h('div', { class: 'found' }, h('h2', { class: 'print-only' }, 'Luminaires'), h('div', { class: data.room ? 'plan-and-schedule' + (data.luminaires.length > kBeside ? ' many' : '') : null }, data.room ? dimensionedPlan(data) : null,
         h('div', { class: 'schedule-column' }, schedule(data), h('p', { class: 'note' }, 'Intervals hold 95 % (1.96 standard deviations). C0 is counted from +x.'))), findings(data))),
     section('readings', 'Measured against predicted', null, readingsPart(data)),
-    section('curves', 'Light distribution', null, h('div', { class: 'polars' }, data.luminaires.map((l, k) => polarCurve(l, data.result.luminaires[k], data.is_absolute ? 'cd' : 'rel.')))),
+    section('curves', 'Light distribution', null, h('div', { class: 'polars' }, alikeInShape(data.luminaires).map((group) => polarCurve(group, data.is_absolute ? 'cd' : 'rel.')))),
     room ? section('room', 'The room', null, room.element) : section('room', 'The room', 'The session has no mesh: there is no room to draw.'),
     planes.length > 0 ? section('planes', 'Work planes', h('span', null, 'Illuminance over areas, by the grid of EN 12464-1. ', h('span', { class: 'print-only' }, lightWords(data, light))), planes.map((p) => p.element)) : null,
     data.room && data.places.surfaces.length > 0 ? section('levels', 'Walls, ceiling, cylindrical illuminance', null, roomLevels(data, light), powerWords(data, light, planes)) : null,

@@ -44,8 +44,22 @@ function halfAngle(values, value) {
   return -180 + ((i + (values[i] - value) / (values[i] - values[i + 1])) * 360) / last;
 }
 
-export function polarCurve(luminaire, result, unit) {
-  const { curves, given } = luminaire;
+// Returns the luminaires whose curves differ by their flux alone, together.
+export function alikeInShape(luminaires) {
+  const shape = ({ curves }) => { const both = [...curves.c0, ...curves.c90], peak = Math.max(...both); return peak > 0 ? both.map((v) => v / peak) : null; };
+  const groups = [];
+  for (const luminaire of luminaires) {
+    const own = luminaire.given ? null : shape(luminaire);
+    const like = own && groups.find((g) => g.shape && g.shape.length === own.length && g.shape.every((v, i) => Math.abs(v - own[i]) < 0.005));
+    if (like) like.luminaires.push(luminaire);
+    else groups.push({ shape: own, luminaires: [luminaire] });
+  }
+  return groups.map((g) => g.luminaires);
+}
+
+// Draws one curve for luminaires that are alike in shape: the first one's.
+export function polarCurve(group, unit) {
+  const [luminaire] = group, { curves, given } = luminaire;
   const all = [...curves.c0, ...curves.c90, ...(given ? [...given.c0, ...given.c90] : [])];
   const highest = Math.max(...all);
   if (!(highest > 0)) return h('figure', { class: 'polar' }, h('figcaption', null, luminaire.id, ': no light'));
@@ -54,11 +68,13 @@ export function polarCurve(luminaire, result, unit) {
   const key = [h('span', { class: 'key fitted0' }, same ? 'fitted, all C' : 'fitted C0\u2013C180')];
   if (!same) key.push(h('span', { class: 'key fitted90' }, 'fitted C90\u2013C270'));
   if (given) key.push(h('span', { class: 'key given' }, `given: ${given.file}, ${digits(given.flux_lm)} lm`));
-  const peak = Math.max(...curves.c0, ...curves.c90), half = halfAngle(curves.c0, 0.5 * peak);
+  const peakOf = (l) => Math.max(...l.curves.c0, ...l.curves.c90), peak = peakOf(luminaire), peaks = group.map(peakOf);
+  const shown = digits(Math.min(...peaks), 3) === digits(Math.max(...peaks), 3) ? digits(peak, 3) : `${digits(Math.min(...peaks), 3)} to ${digits(Math.max(...peaks), 3)}`;
+  const half = halfAngle(curves.c0, 0.5 * peak);
   return h('figure', { class: 'polar' },
     svg('svg', { viewBox: `0 0 ${kSize} ${kSize}`, class: 'chart', role: 'img', 'aria-label': 'Polar curve of ' + luminaire.id }, web(top, step, unit),
       given ? [curve(given.c0, top, { class: 'given' }), curve(given.c90, top, { class: 'given' })] : null,
       same ? null : curve(curves.c90, top, { class: 'fitted90' }), curve(curves.c0, top, { class: 'fitted0' })),
-    h('figcaption', null, h('b', null, luminaire.id), ' ', h('span', { class: 'interval' }, 'peak ', digits(peak, 3), ' ', unit,
+    h('figcaption', null, h('b', null, group.map((l) => l.id).join(', ')), group.length > 1 ? `, drawn: ${luminaire.id}` : '', ' ', h('span', { class: 'interval' }, 'peak ', shown, ' ', unit,
       isNumber(half) ? `, half of it at ${Math.round(half)}\u00b0 in C0` : ''), h('div', { class: 'keys' }, key)));
 }

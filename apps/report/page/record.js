@@ -42,9 +42,32 @@ export function conditions(data) {
   ]);
 }
 
+// Returns choices of the same kind and outcome as one, with the luminaires that they are of.
+function alike(list, ids) {
+  const groups = new Map();
+  for (const c of list) {
+    const id = ids.find((l) => c.what.endsWith(' of ' + l));
+    const key = id === undefined ? c : c.what.slice(0, -id.length) + '\n' + c.chosen;
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push({ ...c, id });
+  }
+  return [...groups.values()];
+}
+
+function choiceOfOne(c) {
+  return h('div', null, h('dt', null, c.what, ': ', h('b', null, c.chosen)),
+    h('dd', null, c.because, c.among.length > 1 ? details(`among ${c.among.length}`, c.among.join(', ')) : null));
+}
+
+function choiceOfSeveral(group) {
+  const [first] = group;
+  return h('div', null, h('dt', null, first.what.slice(0, -first.id.length), group.map((c) => c.id).join(', '), ': ', h('b', null, first.chosen)),
+    h('dd', null, `of ${first.id}: `, first.because, details(`the other ${group.length - 1}`, h('dl', null, group.slice(1).map((c) => [h('dt', null, c.id), h('dd', null, c.because)])))));
+}
+
 export function choices(data) {
-  return h('dl', { class: 'choices' }, data.result.choices.map((c) => h('div', null, h('dt', null, c.what, ': ', h('b', null, c.chosen)),
-    h('dd', null, c.because, c.among.length > 1 ? details(`among ${c.among.length}`, c.among.join(', ')) : null))));
+  const ids = data.luminaires.map((l) => l.id).sort((a, b) => b.length - a.length);
+  return h('dl', { class: 'choices' }, alike(data.result.choices, ids).map((group) => (group.length > 1 ? choiceOfSeveral(group) : choiceOfOne(group[0]))));
 }
 
 // Stages of the run for the bar; stages within another have a bar of their own.
