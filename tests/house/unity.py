@@ -64,7 +64,10 @@ def defined(path, space):
 
 def main():
     source, found = sys.argv[1], 0
-    for batch in batches(source):
+    all_batches = list(batches(source))
+    if not all_batches:
+        sys.exit("the preset package builds no batches")
+    for batch in all_batches:
         files = collections.defaultdict(set)
         for path in batch:
             for name in defined(path, ""):

@@ -19,7 +19,7 @@ import { findings, schedule } from './schedule.js';
 import { selfTest } from './self_test.js';
 import { WorkPlane } from './work_plane.js';
 
-const kBeside = 8;  // luminaires that stand beside the plan on paper
+const kBeside = 8;  // more luminaires than these stand below the plan
 const kShortNames = { answer: 'Answer', readings: 'Readings', curves: 'Distribution', room: 'Room', planes: 'Work planes', levels: 'Walls', glare: 'Glare', photos: 'Photos',
   surfaces: 'Surfaces', table: 'Table', conditions: 'Conditions', choices: 'Choices', speed: 'Speed', provenance: 'Provenance' };
 

@@ -40,7 +40,7 @@ struct SimplifiedState {
   std::vector<NeedlessParameter> needless;
 };
 
-// What of a luminaire is looked at first: two quantities may be needless each by itself, and not together.
+// Says which quantity of a luminaire is simplified first. Two may be needless each by itself, and not together.
 enum class SimplifiedFirst { kExponent, kSize };
 
 // `fit` needs its covariance. `held`: one for each luminaire. Looks only at what `open` leaves open. Where a size is
