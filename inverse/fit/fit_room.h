@@ -80,7 +80,7 @@ struct EarlyStop {
 struct DeviatingFlux {
   int luminaire = 0;
   double ratio = 1;  // to the type's flux
-  double z = 0;      // of its logarithm, by the type's spread and its own sigma
+  double z = 0;      // of its logarithm, by the type's spread, what makers allow and its own sigma
 };
 
 // Holds luminaires that are alike but for place and flux (inverse/fit/internal/type_fluxes.h).

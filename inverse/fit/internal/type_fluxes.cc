@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include "calib/luminance/median.h"
 
@@ -10,6 +11,9 @@ namespace luxfit {
 namespace {
 
 constexpr size_t kFewestForSpread = 4;
+constexpr double kMakersSpread = 0.1 / 3, kMakersFreedom = 4;
+constexpr double kEfficiencyOfMad = 0.37;
+constexpr double kOnceIn = 0.01;
 
 // Returns the column of the luminaire's log flux; -1: its flux is given.
 Eigen::Index ColumnOf(const LuminaireFit& fit, int luminaire) {
@@ -31,6 +35,23 @@ Eigen::VectorXd VariancesAboutMean(const LuminaireFit& fit, const std::vector<in
   return (contrast * covariance * contrast.transpose()).diagonal().cwiseMax(0);
 }
 
+// Holds a variance that was estimated, with its degrees of freedom.
+struct EstimatedVariance {
+  double value = 0, freedom = 1;
+};
+
+// Returns the variance of log fluxes of a type, from their robust spread and what makers allow.
+EstimatedVariance WithMakersSpread(double relative_spread, size_t luminaires) {
+  const double freedom = kEfficiencyOfMad * (static_cast<double>(luminaires) - 1);
+  const double sum = kMakersFreedom * kMakersSpread * kMakersSpread + freedom * std::pow(relative_spread, 2);
+  return {sum / (kMakersFreedom + freedom), kMakersFreedom + freedom};
+}
+
+// Returns how often |t| or more comes by chance: Student's distribution, both tails.
+double ChanceOf(double t, double freedom) {
+  return Eigen::numext::betainc(freedom / 2, 0.5, freedom / (freedom + t * t));
+}
+
 LuminaireType Compared(const LuminaireFit& fit, const std::vector<int>& luminaires) {
   LuminaireType type{luminaires, 0, std::numeric_limits<double>::quiet_NaN(), {}};
   std::vector<double> log_flux;
@@ -44,13 +65,14 @@ LuminaireType Compared(const LuminaireFit& fit, const std::vector<int>& luminair
   distance.reserve(log_flux.size());
   for (const double value : log_flux) distance.push_back(std::abs(value - median));
   type.relative_spread = kSigmaPerMad * Median(distance);
-  const Eigen::VectorXd variance = VariancesAboutMean(fit, luminaires);
+  const EstimatedVariance between = WithMakersSpread(type.relative_spread, luminaires.size());
+  const Eigen::VectorXd own = VariancesAboutMean(fit, luminaires);
   for (size_t m = 0; m < luminaires.size(); ++m) {
-    const double sigma = std::hypot(type.relative_spread, std::sqrt(variance[static_cast<Eigen::Index>(m)]));
-    const double z = (log_flux[m] - median) / sigma;
-    constexpr double kOnceIn = 0.01;
-    const double chance = static_cast<double>(luminaires.size()) * std::erfc(std::abs(z) / std::sqrt(2.0));
-    if (chance < kOnceIn) type.deviating.push_back({luminaires[m], std::exp(log_flux[m] - median), z});
+    const double variance = between.value + own[static_cast<Eigen::Index>(m)];
+    const double z = (log_flux[m] - median) / std::sqrt(variance);
+    const double freedom = between.freedom * std::pow(variance / between.value, 2);
+    if (static_cast<double>(luminaires.size()) * ChanceOf(z, freedom) < kOnceIn)
+      type.deviating.push_back({luminaires[m], std::exp(log_flux[m] - median), z});
   }
   return type;
 }

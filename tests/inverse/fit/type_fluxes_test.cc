@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace luxfit {
@@ -70,6 +71,36 @@ TEST_F(TypeFluxes, AnUncertainOneDoesNotDeviate) {
     if (fit_.parameters[i].Is(ParameterKind::kLogFlux, 3, {})) fit_.covariance(own, own) = 0.2 * 0.2;
   }
   EXPECT_TRUE(CompareTypeFluxes(fit_).at(0).deviating.empty());
+}
+
+// Luminaires whose fluxes differ by 2 %, and by 5 %: as many rooms as the rule allows name one of them.
+TEST_F(TypeFluxes, RoomsWithoutAnAgedOneAreLeftAlone) {
+  constexpr int kRooms = 2000;
+  std::mt19937_64 rng(5);
+  for (const int count : {4, 5, 6, 8}) {
+    for (int k = 0; k < 8; ++k) fit_.state.first_of_type[static_cast<size_t>(k)] = k < count ? 0 : k;
+    Compared();  // sets the covariance
+    for (const double spread : {0.02, 0.05}) {
+      int named = 0;
+      for (int room = 0; room < kRooms; ++room) {
+        for (Luminaire& luminaire : fit_.state.luminaires)
+          luminaire.flux_lm = 3000 * std::exp(spread * std::normal_distribution<double>()(rng));
+        named += CompareTypeFluxes(fit_).at(0).deviating.empty() ? 0 : 1;
+      }
+      EXPECT_LT(named, 0.01 * kRooms) << spread << ", " << count;
+    }
+  }
+}
+
+// Five within 0.1 % of one another, and one at 96 %: four do not show that luminaires of the type differ no more.
+TEST_F(TypeFluxes, FewThatAreAlikeByChanceDoNotAccuseAnother) {
+  fit_.state.first_of_type = {0, 0, 0, 0, 0, 5, 6, 7};
+  for (int k = 0; k < 5; ++k)
+    fit_.state.luminaires[static_cast<size_t>(k)].flux_lm = 3000 * (k == 4 ? 0.96 : 1 + 0.001 * k);
+  EXPECT_TRUE(Compared().at(0).deviating.empty());
+  fit_.state.luminaires[4].flux_lm = 0.75 * 3000;
+  ASSERT_EQ(Compared().at(0).deviating.size(), 1u);
+  EXPECT_EQ(Compared().at(0).deviating[0].luminaire, 4);
 }
 
 TEST_F(TypeFluxes, ThreeDoNotTellTheirSpread) {
