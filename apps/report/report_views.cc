@@ -216,15 +216,6 @@ std::vector<StatePhotos> PhotosByState(const FittedRoom& fitted, const Linearize
   return all;
 }
 
-std::vector<LitRoom> LightOfEach(const FittedRoom& fitted) {
-  const Eigen::MatrixXd albedo = ChannelsOf(fitted);
-  std::vector<LitRoom> lit;
-  lit.reserve(fitted.luminaires.size());
-  for (const Luminaire& luminaire : fitted.luminaires)
-    lit.push_back(LightRoom(fitted.room, {luminaire}, albedo));
-  return lit;
-}
-
 // Compares the photos of one view in every state.
 void CompareView(const FittedRoom& fitted, const LinearizedPhotos& photos,
                  const PhotoCorrections& corrections, const std::vector<LitRoom>& lit, size_t index,
@@ -262,7 +253,7 @@ json ReportViewsJson(const FittedRoom& fitted) {
   const LinearizedPhotos photos = LinearizePhotos(fitted.session, context);
   std::vector<StatePhotos> states = PhotosByState(fitted, photos);
   const PhotoCorrections corrections = ReadPhotoCorrections(fitted.out);
-  const std::vector<LitRoom> lit = LightOfEach(fitted);
+  const std::vector<LitRoom> lit = LightRoomByEach(fitted.room, fitted.luminaires, ChannelsOf(fitted));
   for (size_t v = 0; v < registered.size(); ++v) {
     const Camera& camera = fitted.registered.cameras[static_cast<size_t>(registered[v].camera)];
     CompareView(fitted, photos, corrections, lit, v, WidthFor(camera, registered.size() * states.size()),

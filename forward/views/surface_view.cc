@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "forward/direct/internal/shadowed_light.h"
 #include "forward/light/illuminance.h"
@@ -73,36 +74,72 @@ Eigen::RowVectorXd IlluminanceAt(const Room& room, const LitRoom& lit, int facet
   return indirect_lx.array() + direct_lx;
 }
 
+// Returns the direct light of each luminaire at each element, lx (elements x luminaires).
+Eigen::MatrixXf DirectAtElements(const Room& room, const std::vector<Luminaire>& luminaires) {
+  const auto elements = static_cast<Eigen::Index>(room.patches.elements.size());
+  const LuminaireVisibility visibility = ComputeVisibility(room, {}, luminaires);
+  Eigen::MatrixXf direct_lx = Eigen::MatrixXf::Zero(elements, static_cast<Eigen::Index>(luminaires.size()));
+  tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
+    const Element& element = room.patches.elements[static_cast<size_t>(e)];
+    for (Eigen::Index k = 0; k < direct_lx.cols(); ++k) {
+      const float visible = visibility.elements(e, k);
+      if (visible == 0) continue;
+      const Luminaire& luminaire = luminaires[static_cast<size_t>(k)];
+      direct_lx(e, k) =
+          visible *
+          static_cast<float>(luminaire.flux_lm *
+                             DirectIlluminancePerLumen(luminaire, element.center, element.normal).lx_per_lm);
+    }
+  });
+  return direct_lx;
+}
+
+// Returns for each column of direct light at elements the reflected light at vertices, lx (vertices x channels). Each
+// channel's exchange of light is solved once for all columns.
+std::vector<Eigen::MatrixXf> ReflectedAtVertices(const Room& room, const VertexInterpolation& interpolation,
+                                                 const Eigen::MatrixXf& element_direct_lx,
+                                                 const Eigen::MatrixXd& albedo) {
+  const Eigen::MatrixXf patch_direct_lx = PatchMean(room.patches, element_direct_lx);
+  std::vector<Eigen::MatrixXf> reflected_lx(static_cast<size_t>(element_direct_lx.cols()),
+                                            Eigen::MatrixXf(interpolation.VertexCount(), albedo.cols()));
+  for (Eigen::Index c = 0; c < albedo.cols(); ++c) {
+    const Eigen::MatrixXf exitance = Transport(room.transport, albedo.col(c)).Exitance(patch_direct_lx);
+    const Eigen::MatrixXf at_vertices = AtVertices(interpolation, IndirectAtElements(room, exitance));
+    for (Eigen::Index k = 0; k < at_vertices.cols(); ++k)
+      reflected_lx[static_cast<size_t>(k)].col(c) = at_vertices.col(k);
+  }
+  return reflected_lx;
+}
+
+void ExpectAllMaterials(const Room& room, const Eigen::MatrixXd& albedo) {
+  if (albedo.rows() != static_cast<Eigen::Index>(room.scene.materials.size()))
+    throw std::invalid_argument("LightRoom: expected one row of reflectances a material");
+}
+
+std::shared_ptr<const VertexInterpolation> InterpolationOf(const Room& room) {
+  return std::make_shared<const VertexInterpolation>(MakeVertexInterpolation(room.scene, room.patches));
+}
+
 }  // namespace
 
 LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, const Eigen::MatrixXd& albedo) {
-  if (albedo.rows() != static_cast<Eigen::Index>(room.scene.materials.size()))
-    throw std::invalid_argument("LightRoom: expected one row of reflectances a material");
-  const Eigen::Index elements = static_cast<Eigen::Index>(room.patches.elements.size());
-  LitRoom lit;
-  lit.luminaires = luminaires;
-  lit.albedo = albedo;
-  const LuminaireVisibility visibility = ComputeVisibility(room, {}, luminaires);
-  Eigen::MatrixXf element_direct_lx = Eigen::MatrixXf::Zero(elements, 1);
-  tbb::parallel_for(Eigen::Index{0}, elements, [&](Eigen::Index e) {
-    const Element& element = room.patches.elements[static_cast<size_t>(e)];
-    for (size_t k = 0; k < luminaires.size(); ++k) {
-      const float visible = visibility.elements(e, static_cast<Eigen::Index>(k));
-      if (visible == 0) continue;
-      element_direct_lx(e, 0) +=
-          visible * static_cast<float>(
-                        luminaires[k].flux_lm *
-                        DirectIlluminancePerLumen(luminaires[k], element.center, element.normal).lx_per_lm);
-    }
-  });
-  const Eigen::MatrixXf patch_direct = PatchMean(room.patches, element_direct_lx);
-  Eigen::MatrixXf patch_exitance(patch_direct.rows(), albedo.cols());
-  for (Eigen::Index c = 0; c < albedo.cols(); ++c)
-    patch_exitance.col(c) = Transport(room.transport, albedo.col(c)).Exitance(patch_direct);
-  const Eigen::MatrixXf indirect_lx = IndirectAtElements(room, patch_exitance);
-  lit.interpolation =
-      std::make_shared<const VertexInterpolation>(MakeVertexInterpolation(room.scene, room.patches));
-  lit.vertex_indirect_lx = AtVertices(*lit.interpolation, indirect_lx);
+  ExpectAllMaterials(room, albedo);
+  LitRoom lit{luminaires, albedo, {}, InterpolationOf(room)};
+  const Eigen::MatrixXf direct_lx = DirectAtElements(room, luminaires).rowwise().sum();
+  lit.vertex_indirect_lx = ReflectedAtVertices(room, *lit.interpolation, direct_lx, albedo).front();
+  return lit;
+}
+
+std::vector<LitRoom> LightRoomByEach(const Room& room, const std::vector<Luminaire>& luminaires,
+                                     const Eigen::MatrixXd& albedo) {
+  ExpectAllMaterials(room, albedo);
+  const auto interpolation = InterpolationOf(room);
+  std::vector<Eigen::MatrixXf> reflected_lx =
+      ReflectedAtVertices(room, *interpolation, DirectAtElements(room, luminaires), albedo);
+  std::vector<LitRoom> lit;
+  lit.reserve(luminaires.size());
+  for (size_t k = 0; k < luminaires.size(); ++k)
+    lit.push_back({{luminaires[k]}, albedo, std::move(reflected_lx[k]), interpolation});
   return lit;
 }
 

@@ -35,6 +35,10 @@ struct LitRoom {
 };
 LitRoom LightRoom(const Room& room, const std::vector<Luminaire>& luminaires, const Eigen::MatrixXd& albedo);
 
+// Returns the room as each of the luminaires lights it alone: interreflection costs as much as for one.
+std::vector<LitRoom> LightRoomByEach(const Room& room, const std::vector<Luminaire>& luminaires,
+                                     const Eigen::MatrixXd& albedo);
+
 struct ViewOptions {
   // Cells a side of a luminaire on which shadows are tested, refined where they begin. 1 is five times as
   // fast as 4 and misses what hides less than a luminaire's corners.

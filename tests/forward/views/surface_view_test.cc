@@ -91,6 +91,24 @@ TEST(RenderView, RaysThatAreNoneAndThatMeetNothingAreBlack) {
   EXPECT_THROW(LightRoom(room, {}, Eigen::MatrixXd::Constant(2, 1, 0.5)), std::invalid_argument);
 }
 
+TEST(RenderView, LightOfEachLuminaireAddsUpToThatOfAll) {
+  const Room room = BoxRoom();
+  Eigen::MatrixXd albedo(1, 2);
+  albedo << 0.3, 0.7;
+  Luminaire spot = Panel();
+  spot.shape = LuminaireShape::kPoint;
+  spot.position = {0.7, 0.5, 2.2};
+  const std::vector<Luminaire> luminaires{Panel(), spot};
+  const std::vector<LitRoom> each = LightRoomByEach(room, luminaires, albedo);
+  ASSERT_EQ(each.size(), 2u);
+  EXPECT_TRUE(LightRoomByEach(room, {}, albedo).empty());
+  const Eigen::Vector3d eye(0.4, 0.3, 1.5), down(0.3, 0.5, -1);
+  const auto seen = [&](const LitRoom& lit) { return RenderView(room, lit, eye, down.normalized()); };
+  const Eigen::MatrixXd all = seen(LightRoom(room, luminaires, albedo));
+  EXPECT_TRUE((seen(each[0]) + seen(each[1])).isApprox(all, 1e-5));
+  EXPECT_TRUE(seen(each[1]).isApprox(seen(LightRoom(room, {spot}, albedo)), 1e-5));
+}
+
 TEST(RenderView, SurfacesShowTheLightThatSensorsReceive) {
   const Room room = BoxRoom();
   Eigen::MatrixXd albedo(1, 2);
