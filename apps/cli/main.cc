@@ -24,7 +24,7 @@ namespace {
 constexpr int kBadInput = 2, kMissing = 3, kDefect = 70;
 
 // Keeps memory that was freed for what is needed next. Matrices of tens of megabytes come and go in a fit; the system
-// would clear each of their pages every time, which took a fifth of the fit of a large room.
+// would clear each of their pages every time, which took a sixth of the time of `luxfit fit` in a large room.
 void KeepFreedMemory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);  // never

@@ -92,7 +92,7 @@ TEST_F(TypeFluxes, RoomsWithoutAnAgedOneAreLeftAlone) {
   }
 }
 
-// Five within 0.1 % of one another, and one at 96 %: four do not show that luminaires of the type differ no more.
+// Four within 0.3 % of one another, and one at 96 %: four do not show that luminaires of the type differ no more.
 TEST_F(TypeFluxes, FewThatAreAlikeByChanceDoNotAccuseAnother) {
   fit_.state.first_of_type = {0, 0, 0, 0, 0, 5, 6, 7};
   for (int k = 0; k < 5; ++k)
