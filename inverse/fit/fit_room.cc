@@ -73,6 +73,7 @@ class RoomFitter {
     result_.types = CompareTypeFluxes(fit);
     WarnOfDeviatingFluxes(fit.state, result_.types, result_.findings);
     WarnOfOddLuminaires(fit.state, FindOddLuminaires(fit, result_.data), result_.findings);
+    WarnOfOversizedLuminaires(fit.state, FindOversizedLuminaires(fit, shown_), result_.findings);
     result_.fit = WithPredictedReadings(room_, result_.data, std::move(fit));
     WarnOfMisfit(room_, result_, result_.findings);
     WarnOfIndirectAlbedo(room_, result_, result_.findings);
@@ -175,7 +176,7 @@ class RoomFitter {
     const LightState chosen = ChooseModels(data, starts.state);
     state = WithNamesInOrder(given_, chosen);
     FollowNames(chosen, state);
-    result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, state);
+    result_.data.outlines = shown_ = OutlinesOf(given_, start_.luminaire_found, state);
     state.camera_scale_free = start_.state.camera_scale_free;
     state.meter_scale_free = start_.state.meter_scale_free;
     return state;
@@ -469,10 +470,11 @@ class RoomFitter {
   bool is_scale_settled_ = false;
   std::vector<OpenChoice> open_;
   std::vector<StartComparison> starts_;
-  std::set<int> is_seen_;             // luminaires whose places photos tell
-  bool is_textured_ = false;          // elements depart from their materials
-  TakenRows taken_;                   // elements of the last fit
-  std::vector<HeldDirections> held_;  // by luminaire, before aims and headings were chosen
+  std::vector<LuminaireOutline> shown_;  // what photos show of luminaires, explained or not
+  std::set<int> is_seen_;                // luminaires whose places photos tell
+  bool is_textured_ = false;             // elements depart from their materials
+  TakenRows taken_;                      // elements of the last fit
+  std::vector<HeldDirections> held_;     // by luminaire, before aims and headings were chosen
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "inverse/fit/internal/outlines.h"
 #include "inverse/model/internal/dimming_groups.h"
 
 namespace luxfit {
@@ -13,11 +14,6 @@ namespace {
 
 constexpr double kLeftOver = 0.02, kMerged = 10;
 constexpr size_t kFewestFellows = 2;
-
-double AreaOf(const Luminaire& luminaire) {
-  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.prod();
-  return luminaire.shape == LuminaireShape::kDisc ? M_PI / 4 * std::pow(luminaire.size_m[0], 2) : 0;
-}
 
 bool IsFluxFitted(const LuminaireFit& fit, int luminaire) {
   return std::any_of(fit.parameters.begin(), fit.parameters.end(),
@@ -37,12 +33,12 @@ OddLuminaire AgainstFellows(const LuminaireFit& fit, int luminaire, const std::v
     if (k == luminaire) continue;
     compared.fellows.push_back(k);
     fluxes.push_back(fit.state.luminaires[static_cast<size_t>(k)].flux_lm);
-    area = std::max(area, AreaOf(fit.state.luminaires[static_cast<size_t>(k)]));
+    area = std::max(area, OpeningAreaM2(fit.state.luminaires[static_cast<size_t>(k)]));
   }
   const Luminaire& own = fit.state.luminaires[static_cast<size_t>(luminaire)];
   compared.flux_ratio = own.flux_lm / Median(fluxes);
   compared.is_left_over = compared.flux_ratio < kLeftOver;
-  if (area > 0) compared.area_ratio = AreaOf(own) / area;
+  if (area > 0) compared.area_ratio = OpeningAreaM2(own) / area;
   return compared;
 }
 
@@ -63,6 +59,18 @@ std::vector<OddLuminaire> FindOddLuminaires(const LuminaireFit& fit, const Light
     }
   }
   return odd;
+}
+
+std::vector<OversizedLuminaire> FindOversizedLuminaires(const LuminaireFit& fit,
+                                                        const std::vector<LuminaireOutline>& outlines) {
+  std::vector<OversizedLuminaire> oversized;
+  if (!fit.IsUsable()) return oversized;
+  for (int k = 0; k < static_cast<int>(fit.state.luminaires.size()); ++k) {
+    const Luminaire& luminaire = fit.state.luminaires[static_cast<size_t>(k)];
+    const double area_m2 = OpeningAreaM2(luminaire), shown_m2 = ShownAreaM2(luminaire, outlines, k);
+    if (shown_m2 > 0 && area_m2 > kMostTimesShown * shown_m2) oversized.push_back({k, area_m2, shown_m2});
+  }
+  return oversized;
 }
 
 }  // namespace luxfit

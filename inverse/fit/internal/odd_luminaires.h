@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "inverse/model/fit_luminaires.h"
+#include "inverse/observe/seen_luminaires.h"
 
 namespace luxfit {
 
@@ -25,6 +26,17 @@ struct OddLuminaire {
 // two fellows whose fluxes were fitted as well. An area that outlines of `data`, those that the fit explains, show is
 // not judged.
 std::vector<OddLuminaire> FindOddLuminaires(const LuminaireFit& fit, const LightData& data);
+
+// Holds a luminaire whose fitted opening is not the one that photos show.
+struct OversizedLuminaire {
+  int luminaire = 0;
+  double area_m2 = 0, shown_m2 = 0;
+};
+
+// Returns the luminaires that have more than kMostTimesShown the area that `outlines` show (inverse/fit/internal/outlines.h):
+// all outlines, those that the fit does not explain, too.
+std::vector<OversizedLuminaire> FindOversizedLuminaires(const LuminaireFit& fit,
+                                                        const std::vector<LuminaireOutline>& outlines);
 
 }  // namespace luxfit
 

@@ -43,13 +43,35 @@ SeenRadius RadiusOf(const Luminaire& luminaire, const std::vector<LuminaireOutli
   return {Median(std::move(px)), Median(std::move(m))};
 }
 
+// Returns the area that an outline encloses in the luminaire's plane, m2; 0 where it is seen edge-on, or from its plane.
+double AreaInPlane(const Luminaire& luminaire, const SeenOutline& seen) {
+  constexpr double kEdgeOn = 0.02;
+  const LuminaireAxes axes = AxesOf(luminaire);
+  const Eigen::Vector3d to = luminaire.position - seen.eye;
+  std::vector<Eigen::Vector2d> rim;
+  rim.reserve(seen.rays.size());
+  for (const OutlineRay& ray : seen.rays) {
+    const double cosine = ray.direction.dot(luminaire.aim), distance = to.dot(luminaire.aim) / cosine;
+    if (std::abs(cosine) < kEdgeOn || distance <= 0) return 0;
+    const Eigen::Vector3d hit = distance * ray.direction - to;
+    rim.emplace_back(hit.dot(axes.along), hit.dot(axes.across));
+  }
+  double twice = 0;
+  for (size_t i = 0; i < rim.size(); ++i) {
+    const Eigen::Vector2d &a = rim[i], &b = rim[(i + 1) % rim.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return std::abs(twice) / 2;
+}
+
 // Holds what the photos show of one luminaire: distances of its outline's points, and the views.
 struct Seen {
   std::vector<double> distance_px;
   std::set<int> views;
+  bool is_far_smaller = false;  // than the fit's
 
   double MedianPx() const { return Median(distance_px); }
-  bool IsExplained() const { return MedianPx() <= kExplainedSigmas * kOutlineSigmaPx; }
+  bool IsExplained() const { return MedianPx() <= kExplainedSigmas * kOutlineSigmaPx && !is_far_smaller; }
 };
 
 std::map<int, Seen> SeenBy(const LightData& data, const LuminaireFit& fit) {
@@ -61,7 +83,26 @@ std::map<int, Seen> SeenBy(const LightData& data, const LuminaireFit& fit) {
     for (size_t i = 0; i < outline.seen.rays.size(); ++i)
       of.distance_px.push_back(std::abs(fit.predicted[row++]));
   }
+  for (auto& [k, of] : seen) {
+    const Luminaire& luminaire = fit.state.luminaires[static_cast<size_t>(k)];
+    const double shown_m2 = ShownAreaM2(luminaire, data.outlines, k);
+    of.is_far_smaller = shown_m2 > 0 && OpeningAreaM2(luminaire) > kMostTimesShown * shown_m2;
+  }
   return seen;
+}
+
+// Gives a disc or a rectangle the size that photos show, where its own is far larger.
+void ShrinkToShown(const std::vector<LuminaireOutline>& outlines, int index, Luminaire& luminaire,
+                   Findings& findings) {
+  const double own_m2 = OpeningAreaM2(luminaire), shown_m2 = ShownAreaM2(luminaire, outlines, index);
+  if (shown_m2 <= 0 || own_m2 <= kMostTimesShown * shown_m2) return;
+  luminaire.size_m *= std::sqrt(shown_m2 / own_m2);
+  findings.choices.push_back(
+      {"size of " + luminaire.id,
+       "as photos show",
+       {"as its light tells", "as photos show"},
+       fmt::format("its light told {:.2g} m2, {:.0f} times the {:.2g} m2 that photos show", own_m2,
+                   own_m2 / shown_m2, shown_m2)});
 }
 
 }  // namespace
@@ -76,13 +117,30 @@ std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const st
   return outlines;
 }
 
+double OpeningAreaM2(const Luminaire& luminaire) {
+  if (luminaire.shape == LuminaireShape::kRectangle) return luminaire.size_m.prod();
+  return luminaire.shape == LuminaireShape::kDisc ? M_PI / 4 * std::pow(luminaire.size_m[0], 2) : 0;
+}
+
+double ShownAreaM2(const Luminaire& luminaire, const std::vector<LuminaireOutline>& outlines, int index) {
+  if (OpeningAreaM2(luminaire) == 0) return 0;
+  std::map<int, double> of_view;  // several outlines where something stands before it
+  for (const LuminaireOutline& outline : outlines)
+    if (outline.luminaire == index) of_view[outline.seen.view] += AreaInPlane(luminaire, outline.seen);
+  std::vector<double> areas_m2;
+  for (const auto& [view, area_m2] : of_view)
+    if (area_m2 > 0) areas_m2.push_back(area_m2);
+  return areas_m2.empty() ? 0 : Median(std::move(areas_m2));
+}
+
 LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<LuminaireOutline>& outlines,
                          LightState state, Findings& findings) {
   for (size_t k = 0; k < open.size(); ++k) {
     Luminaire& luminaire = state.luminaires[k];
+    if (!open[k].shape || !IsFirstOfType(state, static_cast<int>(k))) continue;
+    ShrinkToShown(outlines, static_cast<int>(k), luminaire, findings);
     // An isotropic point has no aim, which a disc needs.
-    if (!open[k].shape || !IsFirstOfType(state, static_cast<int>(k)) ||
-        luminaire.shape != LuminaireShape::kPoint || luminaire.distribution == Distribution::kIsotropic)
+    if (luminaire.shape != LuminaireShape::kPoint || luminaire.distribution == Distribution::kIsotropic)
       continue;
     const SeenRadius radius = RadiusOf(luminaire, outlines, static_cast<int>(k));
     if (radius.px <= kExplainedSigmas * kOutlineSigmaPx) continue;

@@ -6,7 +6,8 @@
 //
 // The seen outline of a luminaire is that of its bright opening only where the model explains it. Halos, lit
 // housings and tubes behind a diffuser look otherwise: where half of a luminaire's points lie more than 3
-// sigma from the fitted outline, none of them counts.
+// sigma from the fitted outline, none of them counts. Nor do they where the fitted luminaire has more than ten times the
+// area that they enclose: a large rim may pass near the points of a small one.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_OUTLINES_H_
 
@@ -24,8 +25,20 @@ namespace luxfit {
 std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const std::vector<bool>& found,
                                          const LightState& state);
 
+// Returns the area of a disc's or rectangle's opening, m2; 0 of other shapes.
+double OpeningAreaM2(const Luminaire& luminaire);
+
+// Returns the area that photos show of a disc or a rectangle, m2: what its outlines in a view enclose in its plane, the
+// median over views. 0 where none shows it from beside its plane.
+double ShownAreaM2(const Luminaire& luminaire, const std::vector<LuminaireOutline>& outlines, int index);
+
+// A fitted opening with more times the shown area is not the one that photos show. Blur and halos let it look
+// larger; a picture's border and what stands before it hide less than nine tenths of it.
+constexpr double kMostTimesShown = 10;
+
 // Turns points whose shape is open into discs of the size that photos show, where that is more than a point's
-// blur. Their light did not tell a size; their outlines do. Records it in `choices`.
+// blur. Their light did not tell a size; their outlines do. So do discs and rectangles of open shape get that size where
+// their light told one far larger. Records it in `choices`.
 LightState WithSeenSizes(const std::vector<OpenChoice>& open, const std::vector<LuminaireOutline>& outlines,
                          LightState state, Findings& findings);
 

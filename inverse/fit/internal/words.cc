@@ -377,6 +377,19 @@ void WarnOfOddLuminaires(const LightState& state, const std::vector<OddLuminaire
   }
 }
 
+void WarnOfOversizedLuminaires(const LightState& state, const std::vector<OversizedLuminaire>& oversized,
+                               Findings& findings) {
+  for (const OversizedLuminaire& o : oversized) {
+    const std::string& id = state.luminaires[static_cast<size_t>(o.luminaire)].id;
+    findings.AddUndetermined(
+        {"luminaire_unlike_photos",
+         fmt::format("{} has {:.2g} m2, {:.0f} times the area that photos of it show ({:.2g} m2): the fit "
+                     "probably ended at a wrong place",
+                     id, o.area_m2, o.area_m2 / o.shown_m2, o.shown_m2),
+         fmt::format("give size_m of {}, or photograph it from more views and with less noise", id)});
+  }
+}
+
 void RecordBodies(const BodyChoice& choice, Findings& findings) {
   if (choice.presence.among.empty()) return;
   findings.choices.push_back(

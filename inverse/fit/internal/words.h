@@ -50,6 +50,8 @@ void WarnOfDeviatingFluxes(const LightState& state, const std::vector<LuminaireT
                            Findings& findings);
 // Warns of luminaires that are unlike their fellows. What was asked for is then undetermined.
 void WarnOfOddLuminaires(const LightState& state, const std::vector<OddLuminaire>& odd, Findings& findings);
+void WarnOfOversizedLuminaires(const LightState& state, const std::vector<OversizedLuminaire>& oversized,
+                               Findings& findings);
 
 void RecordBodies(const BodyChoice& choice, Findings& findings);
 void RecordColours(const RoomObservations& given, const Room& room, const ColourDetail& colours,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "inverse/fit/internal/words.h"
+#include "tests/support/inverse/luminaire_outlines.h"
 
 namespace luxfit {
 namespace {
@@ -94,6 +95,26 @@ TEST_F(OddLuminaires, GivenFluxesAreNotJudged) {
   Panel(3).flux_lm = 45;
   fit_.state.free[3].flux = false;
   EXPECT_TRUE(Found().empty());
+}
+
+// Photos show all panels as they are; the fit has one of 2.9 m x 2.4 m, with or without fellows.
+TEST_F(OddLuminaires, OneFarLargerThanPhotosShowIsNamed) {
+  std::vector<LuminaireOutline> outlines;
+  for (int k = 0; k < 5; ++k)
+    outlines.push_back({k, support::OutlineFrom({3, 3, 1}, fit_.state.luminaires[static_cast<size_t>(k)])});
+  EXPECT_TRUE(FindOversizedLuminaires(fit_, outlines).empty());
+  Panel(4).size_m = {2.9, 2.4};
+  Panel(0).size_m = {1.2, 1.2};
+  const std::vector<OversizedLuminaire> oversized = FindOversizedLuminaires(fit_, outlines);
+  ASSERT_EQ(oversized.size(), 1u);
+  EXPECT_EQ(oversized[0].luminaire, 4);
+  EXPECT_NEAR(oversized[0].shown_m2, 0.36, 0.03);  // 32 points cut the square's corners
+  EXPECT_TRUE(FindOversizedLuminaires(fit_, {}).empty());
+  Findings findings;
+  WarnOfOversizedLuminaires(fit_.state, oversized, findings);
+  EXPECT_TRUE(findings.IsUndetermined());
+  ASSERT_EQ(findings.warnings.size(), 1u);
+  EXPECT_EQ(findings.warnings[0].code, "luminaire_unlike_photos");
 }
 
 TEST_F(OddLuminaires, TheResultIsUndeterminedAndSaysWhy) {
