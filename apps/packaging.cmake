@@ -86,7 +86,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_NAME libluxfit-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What luxfitConfig.cmake finds again.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "coinor-libclp-dev, libapriltag-dev, libceres-dev, libeigen3-dev, libembree-dev, libexiv2-dev, libfmt-dev, libheif-dev, libmrcal-dev, \
+    "coinor-libclp-dev, libapriltag-dev, libceres-dev, libeigen3-dev, libembree-dev, libexiv2-dev, libfmt-dev, libheif-dev, liblcms2-dev, libmrcal-dev, \
 libopenblas-dev, libopencv-dev, libraw-dev, libsqlite3-dev, libtbb-dev, libyaml-cpp-dev, pkg-config")
 set(CPACK_COMPONENT_DEV_DESCRIPTION
 "Static libraries and headers for find_package(luxfit) of CMake: luxfit::calib

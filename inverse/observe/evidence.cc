@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calib/luminance/bright_blobs.h"
+#include "calib/luminance/surround.h"
 #include "inverse/observe/internal/expect_known.h"
 #include "inverse/observe/internal/explained_observations.h"
 
@@ -65,8 +66,27 @@ std::vector<PixelMap> MapsOfViews(const Room& room, const std::vector<Camera>& c
 
 struct SeenPhoto {
   std::vector<Observation> observations;
-  std::optional<PhotoBlobs> blobs;  // absent: the photo was not used
+  std::vector<Surround::Values> surround;  // of each observation
+  std::optional<PhotoBlobs> blobs;         // absent: the photo was not used
 };
+
+// Returns what surrounds the pixels of each observation, in the mean.
+std::vector<Surround::Values> SurroundOf(const PixelMap& map, const LuminanceImage& image,
+                                         const std::vector<Observation>& observations) {
+  const Surround surround(image);
+  std::vector<Surround::Values> sum(map.pixels_of_element.size(), Surround::Values::Zero());
+  for (Eigen::Index v = 0; v < map.element.rows(); ++v) {
+    for (Eigen::Index u = 0; u < map.element.cols(); ++u)
+      if (map.element(v, u) >= 0) sum[static_cast<size_t>(map.element(v, u))] += surround.LogLuminance(v, u);
+  }
+  std::vector<Surround::Values> means;
+  means.reserve(observations.size());
+  for (const Observation& o : observations) {
+    const auto e = static_cast<size_t>(o.element);
+    means.emplace_back(sum[e] / static_cast<float>(map.pixels_of_element[e]));
+  }
+  return means;
+}
 
 std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPhotos& photos,
                                  const std::vector<RegisteredView>& views, bool has_ambient,
@@ -84,6 +104,7 @@ std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPh
     if (!image) return;
     seen[i].blobs = {index, photo.state, FindBrightBlobs(*image)};
     seen[i].observations = ObservePhoto(maps[static_cast<size_t>(index)], *image, index, photo.state);
+    seen[i].surround = SurroundOf(maps[static_cast<size_t>(index)], *image, seen[i].observations);
   });
   return seen;
 }
@@ -102,6 +123,13 @@ CountedShares CountedSharesOf(const RoomPhotos& photos, const std::vector<Regist
     shares[{static_cast<int>(view - views.begin()), photo.state}] = photo.exposure_s * gains[c];
   }
   return shares;
+}
+
+std::vector<int> CamerasOf(const std::vector<RegisteredView>& views) {
+  std::vector<int> cameras;
+  cameras.reserve(views.size());
+  for (const RegisteredView& view : views) cameras.push_back(view.camera);
+  return cameras;
 }
 
 // Lists the blobs of all photos but those left out.
@@ -145,11 +173,15 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
   if (observed.has_ambient) observed.views_without_ambient = ViewsWithout(photos, ambient);
   std::vector<SeenPhoto> seen = SeePhotos(MapsOfViews(room, cameras, views, options.tags), photos, views,
                                           observed.has_ambient, ambient, options.on_photo);
+  std::vector<Surround::Values> surround;
   for (const SeenPhoto& photo : seen) {
+    surround.insert(surround.end(), photo.surround.begin(), photo.surround.end());
     evidence.observations.insert(evidence.observations.end(), photo.observations.begin(),
                                  photo.observations.end());
     observed.elements.push_back(photo.observations.size());
   }
+  observed.tone_mapping =
+      FindToneMapping(evidence.observations, surround, CamerasOf(views), static_cast<int>(cameras.size()));
   {
     const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;
     ExplainedObservations explained = ExplainObservations(
@@ -163,7 +195,11 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
         CountedSharesOf(photos, views, observed.has_ambient));
     evidence.observations = std::move(explained.observations);
     evidence.photos_as_if = std::move(explained.photos_as_if);
-    evidence.states_as_if = std::move(explained.states_as_if);
+    const bool is_mapped =
+        std::any_of(observed.tone_mapping.begin(), observed.tone_mapping.end(),
+                    [](const std::optional<ToneMapping>& mapping) { return mapping && mapping->IsFound(); });
+    // Light adds, mapped tones do not: that is no mistake of the table.
+    if (!is_mapped) evidence.states_as_if = std::move(explained.states_as_if);
   }
   const std::vector<PhotoBlobs> blobs = ListBlobs(std::move(seen), evidence.photos_as_if);
   SeenLuminairesOptions seen_options;

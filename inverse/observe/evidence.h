@@ -31,6 +31,7 @@
 #include "inverse/observe/room_photos.h"
 #include "inverse/observe/seen_luminaires.h"
 #include "inverse/observe/states_as_if.h"
+#include "inverse/observe/tone_mapping.h"
 
 namespace luxfit {
 
@@ -58,7 +59,8 @@ struct ObservedPhotos {
   std::vector<size_t> elements;  // number of elements observed in each photo
   bool has_ambient = false;      // whether some photo shows ambient light alone
   std::vector<std::string> views_without_ambient;
-  std::optional<PhotoRadiometry> radiometry;  // absent where nothing was observed
+  std::optional<PhotoRadiometry> radiometry;             // absent where nothing was observed
+  std::vector<std::optional<ToneMapping>> tone_mapping;  // by camera; absent where it is not judged
 };
 
 struct ObserveOptions {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/stages/linearize/linearize.h"
 #include "apps/text/formats/csv_table.h"
+#include "calib/luminance/colour_profile.h"
 #include "calib/luminance/response.h"
 #include "calib/luminance/vignetting.h"
 
@@ -89,13 +91,54 @@ CameraResponse EstimateForCamera(const LinearizedPhotos& photos, const Session& 
   return *estimate.response;
 }
 
-void WarnOfSrgb(const SessionCamera& camera, RunContext& context) {
+// Curves that differ by less are taken to be sRGB's.
+constexpr double kLikeSrgb = 0.02;
+
+// Returns what the colour profile of a camera's files states, where that is another curve than sRGB's.
+std::optional<ColourProfile> ProfileOf(const LinearizedPhotos& photos, size_t camera) {
+  const auto differs = [](const std::string& file) {
+    std::optional<ColourProfile> profile = ReadColourProfile(file);
+    if (profile && profile->DifferenceFromSrgb() < kLikeSrgb) profile.reset();
+    return profile;
+  };
+  std::optional<ColourProfile> first;
+  std::string first_file;
+  for (const LinearizedPhoto& photo : photos.photos) {
+    for (const PhotoExposure& exposure : photo.bracket) {
+      if (static_cast<size_t>(photo.camera) != camera) continue;
+      const std::optional<ColourProfile> profile = differs(exposure.file);
+      if (first_file.empty()) first_file = exposure.file, first = profile;
+      const auto name = [](const std::optional<ColourProfile>& p) { return p ? p->name : "sRGB"; };
+      if (name(profile) == name(first)) continue;
+      throw std::runtime_error(
+          fmt::format("{}: expected the colour profile of the camera's other photos, got {} where {} has {}; "
+                      "convert them alike, or "
+                      "give them a [[camera]] of their own",
+                      exposure.file, name(profile), first_file, name(first)));
+    }
+  }
+  return first;
+}
+
+// Returns the curve that photos are taken to have where nothing tells the camera's own.
+CameraResponse AssumedResponse(const LinearizedPhotos& photos, size_t index, double full_scale_counts,
+                               RunContext& context) {
+  const std::string& id = photos.cameras[index].given.id;
+  const std::optional<ColourProfile> profile = ProfileOf(photos, index);
+  if (profile) {
+    context.choices.push_back({"response of " + id,
+                               profile->name,
+                               {"sRGB", profile->name},
+                               fmt::format("the colour profile of its files; sRGB differs by up to {:.0f} %",
+                                           100 * std::expm1(profile->DifferenceFromSrgb()))});
+  }
   context.warnings.push_back({"response_assumed",
-                              fmt::format("photos of camera {} are taken to have the curve of sRGB; most "
+                              fmt::format("photos of camera {} are taken to have the curve of {}; most "
                                           "makers bend theirs, by 5 % and more",
-                                          camera.id),
+                                          id, profile ? "their colour profile, " + profile->name : "sRGB"),
                               "take RAW, or three exposures or more of one view and state, one stop apart, "
                               "with response = \"estimate\""});
+  return profile ? profile->Response(full_scale_counts) : SrgbResponse(full_scale_counts);
 }
 
 }  // namespace
@@ -159,8 +202,7 @@ LinearizedPhotos WithResponses(LinearizedPhotos photos, const Session& session, 
       if (given.response == "estimate") {
         camera.response = EstimateForCamera(photos, session, c, context, entry);
       } else if (given.response == "srgb") {
-        camera.response = SrgbResponse(camera.full_scale_counts);
-        WarnOfSrgb(given, context);
+        camera.response = AssumedResponse(photos, c, camera.full_scale_counts, context);
       } else if (given.response != "linear") {
         camera.response = ReadResponse(given.response_path);
       }

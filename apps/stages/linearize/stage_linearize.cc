@@ -9,6 +9,7 @@
 #include "apps/stages/stages.h"
 #include "calib/luminance/bracket.h"
 #include "calib/luminance/lens_shading.h"
+#include "calib/luminance/tone_mapped.h"
 
 namespace luxfit {
 namespace {
@@ -61,6 +62,30 @@ void WarnOfLensShading(const LinearizedPhotos& photos, RunContext& context) {
   }
 }
 
+size_t FilesOf(const LinearizedPhotos& photos) {
+  size_t files = 0;
+  for (const LinearizedPhoto& photo : photos.photos) files += photo.bracket.size();
+  return files;
+}
+
+// Counts that were mapped otherwise in each part of a photo do not tell light.
+void ExpectNoToneMapping(const LinearizedPhotos& photos) {
+  std::string first, sign;
+  size_t mapped = 0;
+  for (const LinearizedPhoto& photo : photos.photos) {
+    for (const PhotoExposure& exposure : photo.bracket) {
+      const std::string found = SignOfToneMapping(exposure.file);
+      if (!found.empty() && mapped++ == 0) first = exposure.file, sign = found;
+    }
+  }
+  if (mapped == 0) return;
+  throw std::runtime_error(fmt::format(
+      "{}{}: expected counts that tell light, got local tone mapping (the camera brightened dark parts of "
+      "the picture and "
+      "darkened bright ones; the file has {}); photograph RAW (DNG, ProRAW) with automatic HDR off",
+      first, mapped > 1 ? fmt::format(" and {} more of {} files", mapped - 1, FilesOf(photos)) : "", sign));
+}
+
 void ExpectSize(const Photo& counts, const std::string& file, const SessionCamera& settings,
                 const Camera& camera) {
   if (counts.width_px() == camera.width_px && counts.height_px() == camera.height_px) return;
@@ -68,12 +93,6 @@ void ExpectSize(const Photo& counts, const std::string& file, const SessionCamer
       "{}: expected {} x {} pixels as in {}, got {} x {}; give the intrinsics of this "
       "resolution",
       file, camera.width_px, camera.height_px, settings.intrinsics, counts.width_px(), counts.height_px()));
-}
-
-size_t FilesOf(const LinearizedPhotos& photos) {
-  size_t files = 0;
-  for (const LinearizedPhoto& photo : photos.photos) files += photo.bracket.size();
-  return files;
 }
 
 void WriteArtifact(const LinearizedPhotos& photos, size_t first_warning, nlohmann::json artifact,
@@ -159,6 +178,7 @@ LinearizedPhotos LinearizePhotos(const Session& session, RunContext& context) {
   const StageTimer timer(
       context, "linearize",
       fmt::format("{} photos of {} views and states", FilesOf(photos), photos.photos.size()));
+  ExpectNoToneMapping(photos);
   photos = WithCutOffs(std::move(photos), session, context);
   photos = WithResponses(std::move(photos), session, context, artifact);
   photos = WithCorrectedExposures(std::move(photos), session, context, artifact);

@@ -1,5 +1,9 @@
 #include "apps/stages/observe/observed_words.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/observed_light.h"
 #include "apps/text/suggest.h"
@@ -20,14 +24,48 @@ void RecordAmbient(const ObservedPhotos& observed, Findings& findings) {
        "photograph these views with all luminaires off too"});
 }
 
+// Returns whether photos of some camera went through local tone mapping.
+bool RecordToneMapping(const std::vector<std::optional<ToneMapping>>& by_camera, const PhotoNames& names,
+                       Findings& findings) {
+  bool is_found = false;
+  for (size_t c = 0; c < by_camera.size(); ++c) {
+    if (!by_camera[c]) continue;
+    const ToneMapping& mapping = *by_camera[c];
+    const std::string slope =
+        fmt::format("surroundings e times as bright make the same light {:.1f} +- {:.1f} % darker",
+                    100 * (1 - std::exp(-mapping.strength)), 100 * mapping.sigma);
+    findings.choices.push_back({"local tone mapping of " + names.cameras[c],
+                                mapping.IsFound() ? "found" : "none",
+                                {"none", "found"},
+                                fmt::format("{}, by {} views", slope, mapping.views)});
+    if (!mapping.IsFound()) continue;
+    is_found = true;
+    findings.warnings.push_back(
+        {"local_tone_mapping",
+         fmt::format("photos of camera {} went through local tone mapping: {}; their counts do not tell "
+                     "light, and fluxes "
+                     "and reflectances are off beyond their sigmas",
+                     names.cameras[c], slope),
+         "photograph RAW (DNG, ProRAW) with automatic HDR off, or take another camera", true});
+  }
+  return is_found;
+}
+
 }  // namespace
 
 void RecordObserved(const ObservedPhotos& observed, const RoomPhotos& photos,
                     const std::vector<RegisteredView>& views, const PhotoNames& names, Findings& findings) {
   RecordAmbient(observed, findings);
   WarnOfPhotos(observed.evidence.photos_as_if, photos, views, names, findings);
+  const bool is_mapped = RecordToneMapping(observed.tone_mapping, names, findings);
   WarnOfStates(observed.evidence.states_as_if, findings);
-  if (observed.radiometry) RecordRadiometry(*observed.radiometry, photos, names, findings);
+  if (!observed.radiometry) return;
+  Findings radiometry;
+  RecordRadiometry(*observed.radiometry, photos, names, radiometry);
+  findings.choices.insert(findings.choices.end(), radiometry.choices.begin(), radiometry.choices.end());
+  // Mapped tones make exposures look wrong that are not.
+  if (!is_mapped)
+    findings.warnings.insert(findings.warnings.end(), radiometry.warnings.begin(), radiometry.warnings.end());
 }
 
 }  // namespace luxfit

@@ -6,14 +6,21 @@
 
 namespace luxfit {
 
-Exiv2::ExifData ReadExif(const std::string& path) {
-  // The parser of XMP packets, which files carry beside EXIF, must be set up before threads meet it; a broken
-  // tag is no reason to write on the user's terminal.
+namespace {
+
+// The parser of XMP packets must be set up before threads meet it; a broken tag is no reason to write on the user's terminal.
+void SetUp() {
   static const bool is_set_up = [] {
     Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);
     return Exiv2::XmpParser::initialize();
   }();
   static_cast<void>(is_set_up);
+}
+
+}  // namespace
+
+Exiv2::ExifData ReadExif(const std::string& path) {
+  SetUp();
   try {
     if (IsHeifName(path)) {
       // Exiv2 reads this container in some builds only.
@@ -27,6 +34,36 @@ Exiv2::ExifData ReadExif(const std::string& path) {
     return image->exifData();
   } catch (const std::exception&) {
     // The file has a format without EXIF (EXR, HDR, PFM), or is broken: it states nothing.
+    return {};
+  }
+}
+
+std::string ReadXmpPacket(const std::string& path) {
+  SetUp();
+  try {
+    const auto image = Exiv2::ImageFactory::open(path);
+    if (image->mimeType() != "image/jpeg") return "";
+    image->readMetadata();
+    return image->xmpPacket();
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+std::vector<std::uint8_t> ReadIccProfile(const std::string& path) {
+  SetUp();
+  try {
+    const auto image = Exiv2::ImageFactory::open(path);
+    image->readMetadata();
+    if (!image->iccProfileDefined()) return {};
+#if EXIV2_TEST_VERSION(0, 28, 0)
+    const Exiv2::DataBuf& profile = image->iccProfile();
+    return {profile.begin(), profile.end()};
+#else
+    const Exiv2::DataBuf& profile = *image->iccProfile();
+    return {profile.pData_, profile.pData_ + profile.size_};
+#endif
+  } catch (const std::exception&) {
     return {};
   }
 }

@@ -1,14 +1,22 @@
-// Reads the EXIF part of a file through Exiv2, from any thread.
+// Reads the EXIF, XMP and ICC parts of a file through Exiv2, from any thread.
 #ifndef LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
 #define LUXFIT_CALIB_LUMINANCE_INTERNAL_EXIF_H_
 
+#include <cstdint>
 #include <exiv2/exiv2.hpp>
 #include <string>
+#include <vector>
 
 namespace luxfit {
 
 // Returns the EXIF data; empty where the file carries none or cannot be read. Writes nothing on the terminal.
 Exiv2::ExifData ReadExif(const std::string& path);
+
+// Returns the XMP packet of a JPEG; empty where it carries none, or is another kind of file.
+std::string ReadXmpPacket(const std::string& path);
+
+// Returns the ICC profile; empty where the file carries none.
+std::vector<std::uint8_t> ReadIccProfile(const std::string& path);
 
 }  // namespace luxfit
 

@@ -113,4 +113,48 @@ std::vector<std::uint8_t> ReadHeifExifBytes(const std::string& path) {
   return block;
 }
 
+std::vector<std::string> ReadHeifAuxiliaryTypes(const std::string& path) {
+  HandlePointer primary;
+  try {
+    primary = PrimaryPicture(path);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  std::vector<heif_item_id> ids(
+      static_cast<size_t>(heif_image_handle_get_number_of_auxiliary_images(primary.get(), 0)));
+  heif_image_handle_get_list_of_auxiliary_image_IDs(primary.get(), 0, ids.data(),
+                                                    static_cast<int>(ids.size()));
+  std::vector<std::string> types;
+  for (const heif_item_id id : ids) {
+    heif_image_handle* auxiliary = nullptr;
+    if (heif_image_handle_get_auxiliary_image_handle(primary.get(), id, &auxiliary).code != heif_error_Ok)
+      continue;
+    const HandlePointer handle(auxiliary);
+    const char* type = nullptr;
+    if (heif_image_handle_get_auxiliary_type(auxiliary, &type).code != heif_error_Ok) continue;
+    types.emplace_back(type);
+    heif_image_handle_free_auxiliary_types(auxiliary, &type);
+  }
+  return types;
+}
+
+HeifProfile ReadHeifProfile(const std::string& path) {
+  HandlePointer primary;
+  try {
+    primary = PrimaryPicture(path);
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+  HeifProfile profile;
+  profile.icc.resize(heif_image_handle_get_raw_color_profile_size(primary.get()));
+  if (!profile.icc.empty() &&
+      heif_image_handle_get_raw_color_profile(primary.get(), profile.icc.data()).code != heif_error_Ok)
+    profile.icc.clear();
+  heif_color_profile_nclx* nclx = nullptr;
+  if (heif_image_handle_get_nclx_color_profile(primary.get(), &nclx).code != heif_error_Ok) return profile;
+  profile.transfer = nclx->transfer_characteristics;
+  heif_nclx_color_profile_free(nclx);
+  return profile;
+}
+
 }  // namespace luxfit

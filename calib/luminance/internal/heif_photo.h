@@ -25,6 +25,16 @@ Photo ReadHeifPhoto(const std::string& path);
 // Returns the bytes of the EXIF part, from its TIFF header on; empty where the file has none or cannot be read.
 std::vector<std::uint8_t> ReadHeifExifBytes(const std::string& path);
 
+// Returns the types of the pictures that belong to the primary one ("urn:..."), but for thumbnails; none where the file
+// cannot be read.
+std::vector<std::string> ReadHeifAuxiliaryTypes(const std::string& path);
+
+struct HeifProfile {
+  std::vector<std::uint8_t> icc;  // empty: none
+  int transfer = 2;  // transfer characteristics of the coding points (ISO/IEC 23091-2); 2: not stated
+};
+HeifProfile ReadHeifProfile(const std::string& path);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_CALIB_LUMINANCE_INTERNAL_HEIF_PHOTO_H_

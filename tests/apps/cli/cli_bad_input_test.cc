@@ -2,6 +2,7 @@
 // place and the remedy, and nothing half-written.
 #include <gmock/gmock.h>
 
+#include <exiv2/exiv2.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -131,6 +132,22 @@ TEST_F(CliBadInputTest, EightBitPhotoDeclaredLinear) {
   ASSERT_TRUE(cv::imwrite(name, eight_bit));
   EXPECT_THAT(RefusalOf(), AllOf(HasSubstr("v02_all.png"), HasSubstr("8-bit"), HasSubstr("response"),
                                  HasSubstr("linear")));
+}
+
+TEST_F(CliBadInputTest, PhotosWhoseFilesSayThatTonesWereMapped) {
+  std::string table = "file,camera,view,state,exposure_s\n";
+  for (const char* view : {"v00", "v02"}) {
+    const std::string name = std::string("photos/") + view + ".jpg";
+    ASSERT_TRUE(cv::imwrite(folder_.Path(name), cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 90, 90))));
+    const auto image = Exiv2::ImageFactory::open(folder_.Path(name));
+    image->exifData()["Exif.Image.Software"] = "HDR+ 1.0";
+    image->writeMetadata();
+    table += name + ",cam0," + view + ",all,0.08\n";
+  }
+  folder_.Write("photos.csv", table);
+  folder_.Replace("session.toml", "response = \"linear\"", "response = \"srgb\"");
+  EXPECT_THAT(RefusalOf(), AllOf(HasSubstr("v00.jpg and 1 more of 2 files"), HasSubstr("local tone mapping"),
+                                 HasSubstr("HDR+"), HasSubstr("RAW")));
 }
 
 TEST_F(CliBadInputTest, TagIdTwice) {

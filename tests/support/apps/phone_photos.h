@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tests/paths.h"
+#include "tests/support/local_tones.h"
 
 namespace luxfit::support {
 
@@ -53,7 +54,8 @@ struct PhoneShot {
   double stops = 0;  // of exposure, more than the office's photo has
   int taken_s = 0;   // after ten o'clock
   bool has_exif = true;
-  double bend = 1;  // power of the light before the curve of sRGB, as makers bend theirs
+  double bend = 1;          // power of the light before the curve of sRGB, as makers bend theirs
+  bool maps_tones = false;  // locally, WithLocalTones
 };
 
 // Names files in the ways of four makers. Each counts on with the number.
@@ -92,7 +94,8 @@ inline cv::Mat WithSrgbCurve(const cv::Mat& counts, double stops, double bend) {
 }
 
 inline void WritePhoneShot(const std::string& path, const PhoneShot& shot) {
-  const cv::Mat counts = cv::imread(shot.of.png, cv::IMREAD_UNCHANGED);
+  cv::Mat counts = cv::imread(shot.of.png, cv::IMREAD_UNCHANGED);
+  if (shot.maps_tones) WithLocalTones(counts).convertTo(counts, CV_16UC3, 65535);
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   ASSERT_TRUE(
       cv::imwrite(path, WithSrgbCurve(counts, shot.stops, shot.bend), {cv::IMWRITE_JPEG_QUALITY, 92}));

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/local_tones.h"
 #include "tests/validation/catalogue/catalogue_case.h"
 #include "tests/validation/catalogue/session_edits.h"
 
@@ -81,6 +82,14 @@ std::vector<CatalogueCase> PhotometryCases() {
        Required::kNamed,
        {"response_not_linear"},
        [](const OfficeCopy& office) { EditPhotos(office, Every, EncodeSrgb); }},
+      {kGroup,
+       "tones mapped locally",
+       Required::kNamed,
+       {"local_tone_mapping"},
+       [](const OfficeCopy& office) {
+         EditPhotos(office, Every,
+                    [](cv::Mat& counts) { counts = kFullScale * support::WithLocalTones(counts); });
+       }},
       {kGroup,
        "flicker of 3 %, photo by photo",
        Required::kSolved,

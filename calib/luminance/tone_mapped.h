@@ -1,0 +1,24 @@
+// Reads from a photo's file whether the camera mapped tones locally: then the same light counts for more in the dark parts of a
+// picture than in bright ones, and no curve leads back to light.
+//
+// JPEG, HEIC and HEIF say so by one of
+// - a map of gains for HDR displays beside the picture: an auxiliary picture of HEIC (Apple), XMP of JPEG (Ultra HDR);
+// - EXIF CustomRendered 2, 3 or 7, or the maker's notes on HDR, of Apple;
+// - a Software of "HDR+" (Google).
+// Other phones map tones and say nothing; three views of a room show it (inverse/observe/tone_mapping.h). Reading throws nothing.
+//
+// Sources: ExifTool's tables of EXIF and Apple tags (CustomRendered; HDRImageType, HDRHeadroom, HDRGain); Google, "Ultra HDR image
+// format 1.0"; ISO 21496-1.
+#ifndef LUXFIT_CALIB_LUMINANCE_TONE_MAPPED_H_
+#define LUXFIT_CALIB_LUMINANCE_TONE_MAPPED_H_
+
+#include <string>
+
+namespace luxfit {
+
+// Returns what says so, in words ("a map of gains for HDR displays"); empty: nothing does.
+std::string SignOfToneMapping(const std::string& path);
+
+}  // namespace luxfit
+
+#endif  // LUXFIT_CALIB_LUMINANCE_TONE_MAPPED_H_
