@@ -34,10 +34,11 @@ bool RecordToneMapping(const std::vector<std::optional<ToneMapping>>& by_camera,
     const std::string slope =
         fmt::format("surroundings e times as bright make the same light {:.1f} +- {:.1f} % darker",
                     100 * (1 - std::exp(-mapping.strength)), 100 * mapping.sigma);
-    findings.choices.push_back({"local tone mapping of " + names.cameras[c],
-                                mapping.IsFound() ? "found" : "none",
-                                {"none", "found"},
-                                fmt::format("{}, by {} views", slope, mapping.views)});
+    findings.choices.push_back(
+        {"local tone mapping" + (by_camera.size() > 1 ? " of " + names.cameras[c] : ""),
+         mapping.IsFound() ? "found" : "none",
+         {"none", "found"},
+         fmt::format("{}, by {} views", slope, mapping.views)});
     if (!mapping.IsFound()) continue;
     is_found = true;
     findings.warnings.push_back(
