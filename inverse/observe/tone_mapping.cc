@@ -112,6 +112,7 @@ double JackknifeSigma(const std::vector<Sums>& sums, const std::vector<int>& vie
 
 std::vector<int> ViewsOf(const std::vector<PhotoPair>& pairs) {
   std::vector<int> views;
+  views.reserve(2 * pairs.size());
   for (const PhotoPair& pair : pairs) views.push_back(pair.a), views.push_back(pair.b);
   std::sort(views.begin(), views.end());
   views.erase(std::unique(views.begin(), views.end()), views.end());
@@ -150,6 +151,7 @@ std::vector<std::optional<ToneMapping>> FindToneMapping(const std::vector<Observ
                                                         const std::vector<Surround::Values>& surround,
                                                         const std::vector<int>& camera_of_view, int cameras) {
   std::vector<std::optional<ToneMapping>> found;
+  found.reserve(static_cast<size_t>(cameras));
   for (int camera = 0; camera < cameras; ++camera)
     found.push_back(ToneMappingOf(PairsOf(observations, surround, camera_of_view, camera)));
   return found;
