@@ -9,14 +9,6 @@
 namespace luxfit {
 namespace {
 
-std::string TextOf(const Exiv2::ExifData& exif, const char* key) {
-  const auto at = exif.findKey(Exiv2::ExifKey(key));
-  if (at == exif.end()) return "";
-  const std::string text = at->toString();
-  const size_t end = text.find_last_not_of(std::string(" \0", 2));
-  return end == std::string::npos ? "" : text.substr(0, end + 1);
-}
-
 // Reads "2024:01:31 12:34:56". Cameras whose clock is not set write zeros or blanks: these are no time.
 std::optional<double> SecondsFrom(const std::string& text) {
   std::tm time = {};

@@ -1,13 +1,12 @@
 #include "calib/luminance/tone_mapped.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <vector>
 
 #include "calib/luminance/internal/exif.h"
+#include "calib/luminance/internal/file_ending.h"
 #include "calib/luminance/internal/heif_photo.h"
 
 namespace luxfit {
@@ -16,9 +15,7 @@ namespace {
 constexpr const char* kGainMap = "a map of gains for HDR displays beside it";
 
 bool IsJpegName(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = FileEnding(path);
   return ending == ".jpg" || ending == ".jpeg";
 }
 
@@ -27,11 +24,6 @@ bool HasGainMap(const std::string& path) {
   const std::vector<std::string> types = ReadHeifAuxiliaryTypes(path);
   return std::any_of(types.begin(), types.end(),
                      [](const std::string& type) { return type.find("hdrgainmap") != std::string::npos; });
-}
-
-std::string TextOf(const Exiv2::ExifData& exif, const char* key) {
-  const auto at = exif.findKey(Exiv2::ExifKey(key));
-  return at == exif.end() ? "" : at->toString();
 }
 
 std::vector<std::uint8_t> BytesOf(const Exiv2::ExifData& exif, const char* key) {

@@ -19,6 +19,14 @@ void SetUp() {
 
 }  // namespace
 
+std::string TextOf(const Exiv2::ExifData& exif, const char* key) {
+  const auto at = exif.findKey(Exiv2::ExifKey(key));
+  if (at == exif.end()) return "";
+  const std::string text = at->toString();
+  const size_t end = text.find_last_not_of(std::string(" \0", 2));
+  return end == std::string::npos ? "" : text.substr(0, end + 1);
+}
+
 Exiv2::ExifData ReadExif(const std::string& path) {
   SetUp();
   try {

@@ -12,6 +12,9 @@ namespace luxfit {
 // Returns the EXIF data; empty where the file carries none or cannot be read. Writes nothing on the terminal.
 Exiv2::ExifData ReadExif(const std::string& path);
 
+// Returns the value of a key ("Exif.Image.Make") without blanks at its end; empty where there is none.
+std::string TextOf(const Exiv2::ExifData& exif, const char* key);
+
 // Returns the XMP packet of a JPEG; empty where it carries none, or is another kind of file.
 std::string ReadXmpPacket(const std::string& path);
 

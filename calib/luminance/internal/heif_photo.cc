@@ -2,12 +2,11 @@
 
 #include <libheif/heif.h>
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <stdexcept>
+
+#include "calib/luminance/internal/file_ending.h"
 
 namespace luxfit {
 namespace {
@@ -58,10 +57,7 @@ void CopyCounts(const std::uint8_t* bytes, int stride, float scale, Photo& photo
 
 bool IsHeifName(const std::string& path) {
   static const std::set<std::string> endings{".heic", ".heif", ".hif"};
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return endings.count(ending) > 0;
+  return endings.count(FileEnding(path)) > 0;
 }
 
 Photo ReadHeifPhoto(const std::string& path) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
+
+#include "calib/luminance/internal/file_ending.h"
 
 namespace luxfit {
 namespace {
@@ -124,10 +124,7 @@ void Interpolate(const Mosaic& mosaic, int radius, Photo& photo) {
 bool IsRawName(const std::string& path) {
   static const std::set<std::string> raw{".dng", ".cr2", ".cr3", ".nef", ".nrw", ".arw", ".sr2", ".orf",
                                          ".rw2", ".raf", ".pef", ".srw", ".crw", ".iiq", ".3fr"};
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return raw.count(extension) > 0;
+  return raw.count(FileEnding(path)) > 0;
 }
 
 Photo ReadRawPhoto(const std::string& path) {

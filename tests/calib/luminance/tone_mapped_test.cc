@@ -117,7 +117,7 @@ TEST(ToneMapped, GainMapOfAHeic) {
     GTEST_SKIP() << "libheif cannot write HEIC here";
   EXPECT_EQ(SignOfToneMapping(folder.Path("a.heic")), "") << "opacity is no map of gains";
   std::string bytes = folder.Read("a.heic");
-  // Of the same length as the type of opacity: no box moves. Apple's is "urn:com:apple:photo:2020:aux:hdrgainmap".
+  // Takes a type as long as that of opacity, so that no box moves. Apple writes "urn:com:apple:photo:2020:aux:hdrgainmap".
   const std::string opacity = "urn:mpeg:hevc:2015:auxid:1", gains = "urn:x:photo:aux:hdrgainmap";
   const size_t at = bytes.find(opacity);
   ASSERT_NE(at, std::string::npos);
