@@ -13,6 +13,9 @@
 // A luminaire that is bright in one state is so in each in which it is dimmed no lower, whatever else is on: a lit wall is
 // not. So a place also has the states in which photos show it dark.
 //
+// Where three places and more have one height, one view is enough to find others there
+// (inverse/observe/internal/places_at_height.h).
+//
 // The remaining places may hold a luminaire. White things on a desk, mirror images and windows stay among them
 // where several views saw them alike. The light decides which are right (inverse/model/internal/search/first_guess.h).
 // Blobs at a photo's edge are cut: their centres are not used, but they count as seen.
@@ -49,10 +52,11 @@ struct SeenPlace {
   int views = 0;                 // views from which it was triangulated, in one state
   int missing = 0;               // photos of those states that should show it and do not
   double area_m2 = 0;
+  bool is_at_common_height = false;  // placed on the height that others of its area share: `views` may be one
 };
 
-// Returns whether enough views saw the place that chance is excluded: three.
-inline bool IsSure(const SeenPlace& place) { return place.views >= 3; }
+// Returns whether enough views saw the place that chance is excluded: three, or two at a known height.
+inline bool IsSure(const SeenPlace& place) { return place.views >= (place.is_at_common_height ? 2 : 3); }
 
 // Returns whether the place may be that of the luminaire: bright in states where it is on and in no other, and not dark in
 // one in which it is dimmed no lower. `dimming`: one vector for each state, by luminaire.

@@ -116,6 +116,7 @@ json ObservationsJson(const Evidence& observed) {
                     {"photos", p.photos},
                     {"views", p.views},
                     {"missing", p.missing},
+                    {"is_at_common_height", p.is_at_common_height},
                     {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
   json outlines = json::array();
   for (const SeenOutline& outline : observed.outlines) outlines.push_back(OutlineJson(outline));
@@ -144,6 +145,7 @@ Evidence ObservationsFromJson(const json& in) {
     place.photos = entry.at("photos");
     place.views = entry.at("views");
     place.missing = entry.at("missing");
+    place.is_at_common_height = entry.at("is_at_common_height");
     place.area_m2 = VectorFromJson(entry.at("area_m2"))[0];
     observed.seen.push_back(place);
   }

@@ -34,6 +34,7 @@ nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& pl
                     {"photos", place.photos},
                     {"views", place.views},
                     {"photos_without", place.missing},
+                    {"at_common_height", place.is_at_common_height},
                     {"area_facing_down_m2", place.area_m2}});
   }
   return list;

@@ -122,13 +122,15 @@ void RecordFirstGuess(const RoomObservations& given, const FirstGuess& guess,
     const std::string area = std::isfinite(place.area_m2)
                                  ? fmt::format(", {:.3f} m2 if it faces down", place.area_m2)
                                  : std::string();
+    const std::string from = place.is_at_common_height ? fmt::format("{} view{} at the height of like places",
+                                                                     place.views, place.views == 1 ? "" : "s")
+                                                       : fmt::format("{} views", place.views);
     findings.choices.push_back(
         {what, among[0], among,
-         fmt::format(
-             "bright in {} photos, triangulated from {} views to {:.0f} mm{}; of {} such places it {}{}",
-             place.photos, place.views, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
-             luminaire.was_searched ? "; a search anywhere gives its rivals"
-                                    : ", so that no other was searched")});
+         fmt::format("bright in {} photos, triangulated from {} to {:.0f} mm{}; of {} such places it {}{}",
+                     place.photos, from, 1000 * place.sigma_m, area, luminaire.seen_candidates, explains,
+                     luminaire.was_searched ? "; a search anywhere gives its rivals"
+                                            : ", so that no other was searched")});
   }
 }
 

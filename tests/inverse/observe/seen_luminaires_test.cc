@@ -238,6 +238,71 @@ TEST_F(SeenLuminaires, APlaceThatIsDarkWhereALuminaireIsOnIsNotIts) {
   EXPECT_TRUE(may_be(1, 0));
 }
 
+// Three lamps are seen by all views. A fourth of their kind was photographed from one: its ray and the others' height tell
+// its place.
+class LampsOfOneHeight : public SeenLuminaires {
+ protected:
+  static LuminousRectangle At(double x, double y) { return {{x, y, 2.6}, {0.1, 0.1}, 100}; }
+  std::vector<PhotoBlobs> OfOthers(int count) const {
+    const std::vector<LuminousRectangle> others = {At(2.4, 1.7), At(3.6, 1.7), At(3.0, 2.6)};
+    return SeenByAll({{others.begin(), others.begin() + count}, {}, {}}, 0);
+  }
+  static const SeenPlace* InState(const std::vector<SeenPlace>& places, int state) {
+    const auto found = std::find_if(places.begin(), places.end(), [&](const SeenPlace& place) {
+      return place.states == std::vector<int>{state};
+    });
+    return found == places.end() ? nullptr : &*found;
+  }
+};
+
+TEST_F(LampsOfOneHeight, OneViewIsEnoughForAFourth) {
+  const LuminousRectangle fourth = At(4.1, 2.5);
+  std::vector<PhotoBlobs> photos = OfOthers(3);
+  photos.push_back(Seen({{fourth}, {}, {}}, 0, 1));
+  const std::vector<SeenPlace> places = Find(photos);
+  const SeenPlace* const place = InState(places, 1);
+  ASSERT_NE(place, nullptr);
+  const double off_m = (place->position - fourth.center).norm();
+  std::printf("off by %.1f mm, sigma %.1f mm\n", 1e3 * off_m, 1e3 * place->sigma_m);
+  EXPECT_TRUE(place->is_at_common_height);
+  EXPECT_EQ(place->views, 1);
+  EXPECT_FALSE(IsSure(*place));
+  EXPECT_LT(off_m, 3 * place->sigma_m);
+  EXPECT_LT(place->sigma_m, 0.15);
+  EXPECT_EQ(place->dark_states, std::vector<int>{0});
+}
+
+TEST_F(LampsOfOneHeight, TwoViewsMakeItSure) {
+  std::vector<PhotoBlobs> photos = OfOthers(3);
+  for (const int view : {0, 2}) photos.push_back(Seen({{At(4.1, 2.5)}, {}, {}}, view, 1));
+  const std::vector<SeenPlace> places = Find(photos);
+  const SeenPlace* const place = InState(places, 1);
+  ASSERT_NE(place, nullptr);
+  EXPECT_EQ(place->views, 2);
+  EXPECT_TRUE(IsSure(*place));
+}
+
+TEST_F(LampsOfOneHeight, TwoLampsShareAHeightByChance) {
+  std::vector<PhotoBlobs> photos = OfOthers(2);
+  photos.push_back(Seen({{At(4.1, 2.5)}, {}, {}}, 0, 1));
+  EXPECT_EQ(InState(Find(photos), 1), nullptr);
+}
+
+TEST_F(LampsOfOneHeight, ALargerLampIsOfAnotherKind) {
+  std::vector<PhotoBlobs> photos = OfOthers(3);
+  photos.push_back(Seen({{{{4.1, 2.5, 2.6}, {0.2, 0.2}, 100}}, {}, {}}, 0, 1));
+  EXPECT_EQ(InState(Find(photos), 1), nullptr);
+}
+
+TEST_F(LampsOfOneHeight, NeighboursOfDifferentStatesStayApart) {
+  std::vector<PhotoBlobs> photos = OfOthers(3);
+  photos.push_back(Seen({{At(4.1, 2.5)}, {}, {}}, 0, 1));
+  photos.push_back(Seen({{At(4.3, 2.5)}, {}, {}}, 0, 2));
+  const std::vector<SeenPlace> places = Find(photos);
+  ASSERT_NE(InState(places, 1), nullptr);
+  ASSERT_NE(InState(places, 2), nullptr);
+}
+
 TEST_F(SeenLuminaires, NothingBrightIsNoPlace) {
   EXPECT_TRUE(Find(SeenByAll({})).empty());
   EXPECT_TRUE(Find({}).empty());
