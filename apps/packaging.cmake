@@ -75,7 +75,7 @@ luminaire's position, flux and distribution and every surface's reflectance,
 each with its uncertainty, checked against further readings.
 .
 Contains the program, a Python module with numpy arrays, the documentation
-and an example room in /usr/share/luxfit/office.")
+and example rooms, /usr/share/luxfit/office and openplan.")
 if(LUXFIT_PYTHON)
   math(EXPR next_minor "${LUXFIT_PYTHON_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS

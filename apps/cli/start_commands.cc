@@ -139,9 +139,11 @@ void AddDoctor(CLI::App& app, Invocation& invocation) {
 }
 
 void AddDemo(CLI::App& app, Invocation& invocation) {
-  CLI::App* const command =
-      app.add_subcommand("demo", "run the office that comes with luxfit, photos to report");
+  CLI::App* const command = app.add_subcommand("demo", "run a room that comes with luxfit, photos to report");
   const auto options = std::make_shared<DemoCommandOptions>();
+  command->add_option("room", options->room, "office: four luminaires; openplan: twenty panels in four rows")
+      ->check(CLI::IsMember(DemoRooms()))
+      ->capture_default_str();
   command->add_option("-o,--out", options->out, "folder for the results")->required();
   AddJson(*command, options->json);
   AddThreads(*command, invocation);

@@ -18,16 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string OfficeFolder() {
+std::string FolderOf(const std::string& room) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path installed = program.parent_path().parent_path() / "share/luxfit/office",
-                 source = LUXFIT_OFFICE;
+  const fs::path installed = program.parent_path().parent_path() / "share/luxfit" / room,
+                 source = fs::path(LUXFIT_ROOMS) / room;
   for (const fs::path& folder : {installed, source}) {
     if (fs::exists(folder / "session.toml")) return folder.string();
   }
-  throw std::runtime_error("demo: expected the office's photos in " + installed.string() + " or " +
-                           source.string() +
-                           ", found none; install luxfit again, or run it on fixtures/office of the source");
+  throw std::runtime_error("demo: expected the photos of " + room + " in " + installed.string() + " or " +
+                           source.string() + ", found none; install luxfit again, or run it on fixtures/" +
+                           room + " of the source");
 }
 
 std::vector<EstimatedLuminaire> FoundIn(const nlohmann::json& result) {
@@ -45,7 +45,7 @@ std::vector<EstimatedLuminaire> FoundIn(const nlohmann::json& result) {
 std::string TruthText(const nlohmann::json& result, const std::string& truth_path) {
   const FitScore score = ScoreFit(FoundIn(result), ReadTruth(truth_path), false);
   return fmt::format(
-      "\nThe office is a rendered room whose truth is known: luminaires are off by {:.1f} mm, {:.1f} at "
+      "\nThis is a rendered room whose truth is known: luminaires are off by {:.1f} mm, {:.1f} at "
       "most, fluxes by "
       "{:.2f} %, {:.2f} at most.\n",
       1e3 * score.position_error_m, 1e3 * score.worst_position_m, 100 * score.flux_error,
@@ -54,15 +54,20 @@ std::string TruthText(const nlohmann::json& result, const std::string& truth_pat
 
 }  // namespace
 
+const std::vector<std::string>& DemoRooms() {
+  static const std::vector<std::string> kRooms = {"office", "openplan"};
+  return kRooms;
+}
+
 int DemoCommand(const DemoCommandOptions& options) {
+  const std::string folder = FolderOf(options.room);
   RunCommandOptions run;
-  run.session = OfficeFolder() + "/session.toml";
+  run.session = folder + "/session.toml";
   run.out = options.out;
   run.command_line = options.command_line;
   run.json = options.json;
   const int status = RunCommand(run);
-  if (!options.json)
-    PrintText(TruthText(ReadResult(options.out + "/result.json"), OfficeFolder() + "/truth.json"));
+  if (!options.json) PrintText(TruthText(ReadResult(options.out + "/result.json"), folder + "/truth.json"));
   return status;
 }
 
