@@ -33,11 +33,11 @@ double GainOf(const std::vector<SigmaChange>& changes) {
   return gain;
 }
 
+bool IsNewlyDetermined(const SigmaChange& change) { return change.is_determined && !change.was_determined; }
+
 // Returns how many quantities become determined.
 int NewlyDetermined(const AdviceStep& step) {
-  return static_cast<int>(std::count_if(
-      step.changes.begin(), step.changes.end(),
-      [](const SigmaChange& change) { return change.is_determined && !change.was_determined; }));
+  return static_cast<int>(std::count_if(step.changes.begin(), step.changes.end(), IsNewlyDetermined));
 }
 
 // Takes candidates one by one, the best first.
@@ -85,7 +85,7 @@ class Adviser {
     step.is_photo = is_photo;
     step.candidate = candidate;
     const std::vector<double> sigmas = asked_.Sigmas(root_, InformationOf(step));
-    double best = -1;
+    std::pair<bool, double> best{false, -1};
     for (size_t q = 0; q < now_.size(); ++q) {
       SigmaChange change = now_[q];
       change.before = now_[q].after;
@@ -96,8 +96,9 @@ class Adviser {
           change.was_determined ||
           (IsKnownSigma(change.after) && (!is_place || placed_.HasStands(change.of.owner, PhotoOf(step))));
       const double reduction = change.before > 0 ? 1 - change.after / change.before : 0;
-      if (reduction > best) step.helped = change;
-      best = std::max(best, reduction);
+      const std::pair help(IsNewlyDetermined(change), reduction);
+      if (help > best) step.helped = change;
+      best = std::max(best, help);
       step.changes.push_back(change);
     }
     step.gain = GainOf(step.changes);
@@ -140,7 +141,8 @@ class Adviser {
                       [&](size_t i) { steps[i] = StepOf(steps[i].is_photo, steps[i].candidate); });
     const AdviceStep* best = nullptr;
     for (const AdviceStep& step : steps) {
-      const bool helps = step.helped.after < (1 - options_.least_gain) * step.helped.before;
+      const bool helps = IsNewlyDetermined(step.helped) ||
+                         step.helped.after < (1 - options_.least_gain) * step.helped.before;
       if ((helps || PlacesMore(step)) && (best == nullptr || RankOf(step) > RankOf(*best))) best = &step;
     }
     return best == nullptr ? std::nullopt : std::optional(*best);
@@ -166,6 +168,13 @@ class Adviser {
 };
 
 }  // namespace
+
+std::vector<AdviceQuantity> AdvicePlan::Undetermined() const {
+  std::vector<AdviceQuantity> undetermined;
+  for (const SigmaChange& change : steps.empty() ? now : steps.back().changes)
+    if (!change.is_determined) undetermined.push_back(change.of);
+  return undetermined;
+}
 
 AdvicePlan Advise(const Room& room, const AdviceGiven& given, const AdviceOptions& options) {
   return Adviser(room, given, options).Plan();

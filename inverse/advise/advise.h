@@ -69,7 +69,7 @@ struct AdviceStep {
   bool is_photo = false;
   size_t candidate = 0;  // index into photos or readings
   double gain = 0;
-  SigmaChange helped;                // what is helped most
+  SigmaChange helped;                // what becomes determined, or else is helped most
   std::vector<SigmaChange> changes;  // of all that is asked for, since the step before
 };
 
@@ -85,6 +85,9 @@ struct AdvicePlan {
   std::vector<AdviceStep> steps;
   bool is_enough = false;            // no further candidate helps
   std::vector<ParameterId> ignored;  // parameters of the fit that change light and that the room lacks
+
+  // Returns what is not determined after all steps.
+  std::vector<AdviceQuantity> Undetermined() const;
 };
 AdvicePlan Advise(const Room& room, const AdviceGiven& given, const AdviceOptions& options = {});
 

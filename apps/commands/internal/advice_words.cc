@@ -148,6 +148,9 @@ void AddAdvice(const Room& room, const SessionAdvice& advice, const AdvicePlan& 
   for (const Assumption& one : advice.assumed)
     artifact["assumed"].push_back({{"what", one.what}, {"of", one.of}, {"value", one.value}});
   artifact["enough"] = plan.is_enough;
+  artifact["undetermined"] = json::array();
+  for (const AdviceQuantity& quantity : plan.Undetermined())
+    artifact["undetermined"].push_back(OfWhat(quantity));
   artifact["least_gain_percent"] = 100 * least_gain;
   artifact["worst_now"] = NowText(plan);
   artifact["now"] = json::array();
@@ -168,10 +171,15 @@ std::string AdviceText(const json& artifact) {
   text += "worst now: " + artifact["worst_now"].get<std::string>() + "\n";
   for (const json& step : artifact["advice"])
     text += fmt::format("{}  {}\n", step["rank"].get<int>(), step["words"].get<std::string>());
-  if (artifact["enough"].get<bool>())
-    text += fmt::format("enough: no {}candidate lowers a sigma by more than {:g} %\n",
-                        artifact["advice"].empty() ? "" : "further ",
-                        artifact["least_gain_percent"].get<double>());
+  if (!artifact["enough"].get<bool>()) return text;
+  const auto undetermined = artifact["undetermined"].get<std::vector<std::string>>();
+  text +=
+      fmt::format("{}: no {}candidate lowers a sigma by more than {:g} %\n",
+                  undetermined.empty() ? "enough" : "no more to advise",
+                  artifact["advice"].empty() ? "" : "further ", artifact["least_gain_percent"].get<double>());
+  if (!undetermined.empty())
+    text += fmt::format("not determined by any of these: {}; allow other candidates, photos and readings\n",
+                        fmt::join(undetermined, ", "));
   return text;
 }
 

@@ -1,6 +1,5 @@
 #include "apps/commands/result/advise_command.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -52,11 +51,7 @@ void ExpectDerivatives(const FittedRoom& fitted) {
 }
 
 // Returns whether something asked for stays undetermined, whatever is taken.
-bool StaysUndetermined(const AdvicePlan& plan) {
-  const std::vector<SigmaChange>& last = plan.steps.empty() ? plan.now : plan.steps.back().changes;
-  return plan.is_enough && std::any_of(last.begin(), last.end(),
-                                       [](const SigmaChange& change) { return !change.is_determined; });
-}
+bool StaysUndetermined(const AdvicePlan& plan) { return plan.is_enough && !plan.Undetermined().empty(); }
 
 AdviceCandidates CandidatesOf(const AdviseCommandOptions& options) {
   return {options.only != "readings", options.only != "photos", options.photo_table, options.reading_table};

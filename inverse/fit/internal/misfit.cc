@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kUnexplained = 0.25;  // robust weight at five sigmas
 constexpr double kLargeShare = 0.15;
+constexpr double kNoShare = 0.005;  // would read as 0 %
 // Errors of single rows average out, up to kVeryLargeError; what neighbours share is light that moves luminaires.
 constexpr double kLargeError = 0.02, kLargeSharedError = 0.01, kVeryLargeError = 0.05;
 
@@ -54,6 +55,16 @@ std::string WorstMaterials(const Misfit& misfit) {
   return worst.empty() ? "all surfaces alike" : worst;
 }
 
+std::string HowWellExplained(const Misfit& misfit, double relative_sigma) {
+  if (misfit.all.Share() < kNoShare)
+    return fmt::format("the observations are explained to no better than {:.1f} % by any light on this mesh",
+                       100 * relative_sigma);
+  return fmt::format(
+      "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no better "
+      "than {:.1f} %: most on {}",
+      100 * misfit.all.Share(), 100 * relative_sigma, WorstMaterials(misfit));
+}
+
 // Returns the names of those that shine in a state.
 std::string LuminairesOn(const RoomFit& result, int state) {
   std::vector<std::string> ids;
@@ -78,11 +89,8 @@ void WarnOfMisfit(const Room& room, const RoomFit& result, Findings& findings) {
                        [](const auto& a, const auto& b) { return a.second.Share() < b.second.Share(); });
   const bool is_of_state = worst->second.Share() >= kLargeShare;
   if (!is_of_state && !IsErrorLarge(result.fit)) return;
-  std::string message = fmt::format(
-      "{:.0f} % of the observations are not explained by any light on this mesh, and the others to no better "
-      "than "
-      "{:.1f} %: most on {}; luminaires may lie far from where they are given, beyond their sigmas",
-      100 * misfit.all.Share(), 100 * result.fit.relative_sigma, WorstMaterials(misfit));
+  std::string message = HowWellExplained(misfit, result.fit.relative_sigma) +
+                        "; luminaires may lie far from where they are given, beyond their sigmas";
   if (is_of_state)
     message += fmt::format("; most where {} shine: {:.0f} %", LuminairesOn(result, worst->first),
                            100 * worst->second.Share());

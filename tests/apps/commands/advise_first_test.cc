@@ -56,7 +56,8 @@ TEST_F(AdviseFirst, PhotosAloneLeaveLumensUndetermined) {
   folder_.Write("session.toml", "[scene]\nsize = [4, 3, 2.5]\n[luminaires]\ncount = 1\n");
   const support::ProgramRun run = Advise("--only photos --of flux --top 50");
   EXPECT_EQ(run.status, 1) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("enough: no "));
+  EXPECT_THAT(run.output, HasSubstr("no more to advise: no "));
+  EXPECT_THAT(run.output, HasSubstr("not determined by any of these: flux of lamp1; allow other candidates"));
 }
 
 TEST_F(AdviseFirst, BadInputIsNamed) {
