@@ -20,7 +20,8 @@ constexpr unsigned kXTrans = 9;
 
 std::runtime_error RawError(const std::string& path, const std::string& detail) {
   return std::runtime_error(path +
-                            ": cannot read the photo, expected RAW of one sensor with a colour mosaic (" +
+                            ": cannot read the photo, expected RAW of one sensor with a colour mosaic, or a "
+                            "linear DNG of three colours (" +
                             detail + "); develop it linearly to 16-bit TIFF instead");
 }
 
@@ -119,6 +120,31 @@ void Interpolate(const Mosaic& mosaic, int radius, Photo& photo) {
   }
 }
 
+// A linear DNG has three colours a pixel, which its writer interpolated: as ProRAW and DNG converters do. The
+// three-colour files of makers (sRAW) are balanced for white, so that they are not the sensor's counts.
+bool IsLinearDng(const LibRaw& raw) {
+  const libraw_data_t& data = raw.imgdata;
+  const bool has_colours =
+      data.rawdata.color4_image || data.rawdata.color3_image || data.rawdata.float3_image;
+  return data.idata.dng_version > 0 && data.idata.colors == 3 && has_colours;
+}
+
+void ReadLinearColours(const std::string& path, LibRaw& raw, Photo& photo) {
+  ExpectDone(path, raw.raw2image());
+  const libraw_image_sizes_t& sizes = raw.imgdata.sizes;
+  const BlackLevels black(raw.imgdata.rawdata.color);
+  for (size_t c = 0; c < 3; ++c) {
+    const int colour = static_cast<int>(c);
+    ImagePlane& plane = photo.rgb_counts[c];
+    plane.resize(sizes.height, sizes.width);
+    for (int v = 0; v < sizes.height; ++v) {
+      const ushort(*const line)[4] = raw.imgdata.image + static_cast<ptrdiff_t>(v) * sizes.iwidth;
+      for (int u = 0; u < sizes.width; ++u)
+        plane(v, u) = static_cast<float>(line[u][c] - black.At(v, u, colour));
+    }
+  }
+}
+
 }  // namespace
 
 bool IsRawName(const std::string& path) {
@@ -132,7 +158,8 @@ Photo ReadRawPhoto(const std::string& path) {
   const auto raw = std::make_unique<LibRaw>();
   ExpectDone(path, raw->open_file(path.c_str()));
   ExpectDone(path, raw->unpack());
-  if (!raw->imgdata.rawdata.raw_image || raw->imgdata.idata.colors != 3) {
+  const bool is_linear = IsLinearDng(*raw);
+  if (!is_linear && (!raw->imgdata.rawdata.raw_image || raw->imgdata.idata.colors != 3)) {
     throw RawError(path, "got " + std::to_string(raw->imgdata.idata.colors) + " colours a pixel, no mosaic");
   }
   const libraw_colordata_t& color = raw->imgdata.rawdata.color;
@@ -142,7 +169,11 @@ Photo ReadRawPhoto(const std::string& path) {
   photo.bits_per_channel = 16;
   photo.is_black_subtracted = true;
   photo.full_scale_counts = photo.saturation_counts = full_scale;
-  Interpolate(ReadMosaic(*raw), raw->imgdata.idata.filters == kXTrans ? 2 : 1, photo);
+  if (is_linear) {
+    ReadLinearColours(path, *raw, photo);
+  } else {
+    Interpolate(ReadMosaic(*raw), raw->imgdata.idata.filters == kXTrans ? 2 : 1, photo);
+  }
   return photo;
 }
 

@@ -197,7 +197,7 @@ TEST_F(LinearizeTest, TimesThatTheTableLeavesOutComeFromThePhoto) {
   support::TestDng dng;
   dng.width_px = kWidth;
   dng.height_px = kHeight;
-  dng.mosaic.assign(static_cast<size_t>(kWidth) * kHeight, 3000);
+  dng.counts.assign(static_cast<size_t>(kWidth) * kHeight, 3000);
   dng.black = {500, 500, 500, 500};
   dng.white = 15500;
   dng.exposure_s = {1, 8};

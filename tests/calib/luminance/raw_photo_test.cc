@@ -31,7 +31,7 @@ support::TestDng MosaicOf(const Truth& truth) {
   dng.white = 15000;
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
-      dng.mosaic.push_back(static_cast<std::uint16_t>(truth(ChannelAt(u, v), u, v) + kBlack[Place(u, v)]));
+      dng.counts.push_back(static_cast<std::uint16_t>(truth(ChannelAt(u, v), u, v) + kBlack[Place(u, v)]));
     }
   }
   return dng;
@@ -64,6 +64,60 @@ TEST(RawPhotoTest, NoiseBelowBlackStaysNegative) {
   const Photo photo = ReadPhoto(folder.Path("a.dng"));
   EXPECT_EQ(photo.rgb_counts[0].minCoeff(), -7.0f);
   EXPECT_NEAR(photo.rgb_counts[1].mean(), 0, 0.3);
+}
+
+// Three colours a pixel, as ProRAW and DNG converters write them. `truth`: as of MosaicOf.
+template <typename Truth>
+support::TestDng LinearOf(const Truth& truth) {
+  support::TestDng dng;
+  dng.width_px = kWidth;
+  dng.height_px = kHeight;
+  dng.is_linear = true;
+  dng.black = kBlack;
+  dng.white = 15000;
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      for (size_t c = 0; c < 3; ++c)
+        dng.counts.push_back(static_cast<std::uint16_t>(truth(c, u, v) + kBlack[c]));
+    }
+  }
+  return dng;
+}
+
+TEST(RawPhotoTest, ALinearDngGivesTheCountsOfItsThreeColours) {
+  const auto truth = [](size_t c, int u, int v) { return 1000.0 * (c + 1) + 7 * (u * v % 5) - 1010; };
+  const TempFolder folder;
+  support::WriteTestDng(folder.Path("a.dng"), LinearOf(truth));
+  const Photo photo = ReadPhoto(folder.Path("a.dng"));
+  ASSERT_EQ(photo.width_px(), kWidth);
+  ASSERT_EQ(photo.height_px(), kHeight);
+  EXPECT_TRUE(photo.is_black_subtracted);
+  EXPECT_EQ(photo.bits_per_channel, 16);
+  EXPECT_EQ(photo.full_scale_counts, 15000 - 520);
+  EXPECT_EQ(photo.saturation_counts, 15000 - 520);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      for (size_t c = 0; c < 3; ++c)
+        ASSERT_EQ(photo.rgb_counts[c](v, u), truth(c, u, v)) << c << " at " << u << ", " << v;
+    }
+  }
+}
+
+// DNG 1.6: numbers beyond the table stand for its last entry. The table undoes how the file packs counts; no tone curve
+// follows it.
+TEST(RawPhotoTest, ALinearizationTableIsUndone) {
+  support::TestDng dng = LinearOf([](size_t, int u, int) { return u; });
+  for (std::uint32_t packed = 0; packed < 1000; ++packed) dng.linearization.push_back(packed * packed / 100);
+  const TempFolder folder;
+  support::WriteTestDng(folder.Path("a.dng"), dng);
+  const Photo photo = ReadPhoto(folder.Path("a.dng"));
+  for (size_t c = 0; c < 3; ++c) {
+    for (int u = 0; u < kWidth; ++u) {
+      const std::uint32_t packed = static_cast<std::uint32_t>(u) + kBlack[c];
+      EXPECT_EQ(photo.rgb_counts[c](3, u),
+                static_cast<float>(packed * packed / 100) - static_cast<float>(kBlack[c]));
+    }
+  }
 }
 
 TEST(RawPhotoTest, WhatIsNoRawIsNamed) {
@@ -142,6 +196,9 @@ TEST(RawPhoto, AMapOfTheLensShadingIsSeen) {
   const std::vector<std::uint32_t> map = {0, 0, 0, 9, 1, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0};
   dng.opcode_list_3.insert(dng.opcode_list_3.end(), map.begin(), map.end());
   EXPECT_TRUE(has_map());
+  dng.is_linear = true;
+  dng.counts.resize(3 * dng.counts.size());
+  EXPECT_TRUE(has_map()) << "a linear one";
   dng.opcode_list_3.resize(12);
   EXPECT_FALSE(has_map()) << "cut off";
   EXPECT_FALSE(HasLensShadingMap(folder.Path("none.dng")));

@@ -1,5 +1,5 @@
-// A minimal DNG: an uncompressed 16-bit Bayer mosaic (red green / green blue) with its black and white levels
-// and EXIF, written tag by tag.
+// A minimal DNG: an uncompressed 16-bit Bayer mosaic (red green / green blue), or three colours a pixel, with its black
+// and white levels and EXIF, written tag by tag.
 //
 // Source: DNG 1.4 specification, TIFF 6.0, EXIF 2.32.
 #ifndef LUXFIT_TESTS_SUPPORT_CALIB_TEST_DNG_H_
@@ -17,12 +17,14 @@ namespace luxfit::support {
 
 struct TestDng {
   int width_px = 0, height_px = 0;
-  std::vector<std::uint16_t> mosaic;     // row by row
-  std::array<std::uint32_t, 4> black{};  // of the 2 x 2 places of the mosaic
+  bool is_linear = false;                // three colours a pixel
+  std::vector<std::uint16_t> counts;     // row by row; of a linear one red, green and blue of each pixel
+  std::array<std::uint32_t, 4> black{};  // of the 2 x 2 places of the mosaic, or of red, green and blue
   std::uint32_t white = 65535;
   std::pair<std::uint32_t, std::uint32_t> exposure_s{1, 60}, f_number{28, 5};
   std::uint16_t iso = 200;
   std::uint32_t recommended_exposure_index = 0;  // 0: none
+  std::vector<std::uint32_t> linearization;      // what each count stands for; empty: itself
   std::vector<std::uint32_t> opcode_list_3;      // its bytes; empty: none
 };
 
@@ -102,28 +104,30 @@ inline TiffDirectory ExifOf(const TestDng& dng) {
 
 inline TiffDirectory MainOf(const TestDng& dng, size_t pixels_offset, size_t exif_offset) {
   const auto number = [](auto value) { return static_cast<std::uint32_t>(value); };
+  const std::uint32_t samples = dng.is_linear ? 3 : 1, places = dng.is_linear ? 1 : 2;
   TiffDirectory main;
   main.Add(254, kLong, {0});
   main.Add(256, kLong, {number(dng.width_px)});
   main.Add(257, kLong, {number(dng.height_px)});
-  main.Add(258, kShort, {16});
+  main.Add(258, kShort, std::vector<std::uint32_t>(samples, 16));
   main.Add(259, kShort, {1});
-  main.Add(262, kShort, {32803});  // colour filter array
+  main.Add(262, kShort, {dng.is_linear ? 34892U : 32803U});  // LinearRaw, or a colour filter array
   main.AddText(271, "luxfit");
   main.AddText(272, "mosaic");
   main.Add(273, kLong, {number(pixels_offset)});
   main.Add(274, kShort, {6});  // turned by a right angle: readers must not follow it
-  main.Add(277, kShort, {1});
+  main.Add(277, kShort, {samples});
   main.Add(278, kLong, {number(dng.height_px)});
-  main.Add(279, kLong, {number(2 * dng.mosaic.size())});
+  main.Add(279, kLong, {number(2 * dng.counts.size())});
   main.Add(284, kShort, {1});
-  main.Add(33421, kShort, {2, 2});
-  main.Add(33422, kByte, {0, 1, 1, 2});
+  if (!dng.is_linear) main.Add(33421, kShort, {2, 2});
+  if (!dng.is_linear) main.Add(33422, kByte, {0, 1, 1, 2});
   main.Add(34665, kLong, {number(exif_offset)});
   main.Add(50706, kByte, {1, 4, 0, 0});
   main.AddText(50708, "luxfit mosaic");
-  main.Add(50713, kShort, {2, 2});
-  main.Add(50714, kLong, {dng.black.begin(), dng.black.end()});
+  if (!dng.linearization.empty()) main.Add(50712, kShort, dng.linearization);
+  main.Add(50713, kShort, {places, places});
+  main.Add(50714, kLong, {dng.black.begin(), dng.black.begin() + (dng.is_linear ? 3 : 4)});
   main.Add(50717, kLong, {dng.white});
   main.Add(50721, kSRational, {1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1});
   main.Add(50728, kRational, {1, 2, 1, 1, 2, 3});  // a white balance, which readers must leave alone
@@ -144,7 +148,7 @@ inline void WriteTestDng(const std::string& path, const TestDng& dng) {
   internal::Append(bytes, kHeader, 4);
   bytes += internal::MainOf(dng, pixels_offset, exif_offset).At(kHeader);
   bytes += exif.At(exif_offset);
-  for (const std::uint16_t count : dng.mosaic) internal::Append(bytes, count, 2);
+  for (const std::uint16_t count : dng.counts) internal::Append(bytes, count, 2);
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
