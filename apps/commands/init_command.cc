@@ -148,13 +148,15 @@ void LookForIntrinsics(const InitCommandOptions& options, SessionDraft& draft) {
 }
 
 void ExpectNew(const std::string& folder) {
-  for (const char* name : {"session.toml", "photos.csv", "luxmeter.csv"}) {
+  for (const char* name : {"session.toml", "photos.csv"}) {
     if (fs::exists(fs::path(folder) / name))
       throw std::runtime_error(
           (fs::path(folder) / name).string() +
           ": expected a new file, found one; init writes over nothing: give another folder by -o");
   }
 }
+
+std::string ReadingsFile(const std::string& folder) { return (fs::path(folder) / "luxmeter.csv").string(); }
 
 }  // namespace
 
@@ -163,6 +165,8 @@ int InitCommand(const InitCommandOptions& options) {
     throw std::runtime_error("--photos: expected a folder, got " + Quoted(options.photos));
   ExpectNew(options.out);
   SessionDraft draft;
+  const bool has_readings = fs::exists(ReadingsFile(options.out));
+  if (has_readings) draft.readings = FilledReadings(ReadingsFile(options.out));
   LookAtRoom(options, draft);
   fs::create_directories(options.out);
   draft.name = fs::absolute(options.out).lexically_normal().filename().string();
@@ -174,7 +178,7 @@ int InitCommand(const InitCommandOptions& options) {
   LookForIntrinsics(options, draft);
   const fs::path folder(options.out);
   WriteText((folder / "photos.csv").string(), PhotoTable(draft));
-  WriteText((folder / "luxmeter.csv").string(), ReadingsTemplate());
+  if (!has_readings) WriteText(ReadingsFile(options.out), ReadingsTemplate());
   WriteText((folder / "session.toml").string(), SessionText(draft));
   const std::vector<std::string> to_do = ToDo(draft);
   std::string text =

@@ -2,10 +2,11 @@
 // tags hang.
 //
 // Writes session.toml, photos.csv and luxmeter.csv into a folder and never overwrites a file. Every guessed
-// line ends in "# GUESS: why". A value that cannot be guessed stands as a comment with an example.
+// line ends in "# GUESS: why". A value that cannot be guessed stands as a comment with an example. A luxmeter.csv that
+// lies there already is taken up as it is.
 //
-// Throws std::runtime_error for a folder without photos, a mesh that cannot be read, files that exist, and where
-// nothing tells the room.
+// Throws std::runtime_error for a folder without photos, a mesh or readings that cannot be read, a session or a
+// photo table that exists, and where nothing tells the room.
 #ifndef LUXFIT_APPS_COMMANDS_INIT_COMMAND_H_
 #define LUXFIT_APPS_COMMANDS_INIT_COMMAND_H_
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "apps/session/internal/session_luxmeter.h"
 #include "apps/text/formats/csv_text.h"
+#include "apps/text/formats/text_file.h"
 #include "apps/text/suggest.h"
 
 namespace luxfit {
@@ -120,6 +123,61 @@ std::string StatesText(const SessionDraft& draft) {
   return text + "\n";
 }
 
+// Returns the states of readings that no photo has: a session cannot take such a table.
+std::vector<std::string> StatesOfReadingsAlone(const SessionDraft& draft) {
+  std::set<std::string> states;
+  for (const SessionReading& reading : draft.readings) states.insert(reading.state);
+  for (const GuessedState& state : draft.states) states.erase(state.id);
+  return {states.begin(), states.end()};
+}
+
+// Returns id@state of the reading to propose for the scale: a measured one, where all is on if there is any.
+std::string ReadingForScale(const SessionDraft& draft) {
+  const SessionReading* best = nullptr;
+  for (const SessionReading& reading : draft.readings) {
+    const bool is_better = !best || (reading.state == "all" && best->state != "all");
+    if (reading.is_measured && is_better) best = &reading;
+  }
+  return best ? best->id + "@" + best->state : "L1@all";
+}
+
+std::string LuxmeterText(const SessionDraft& draft) {
+  const std::string opening =
+      "# Readings of a luxmeter: one fixes the absolute scale, the others check the result. ";
+  const std::string roles = fmt::format("# scale = [{}]\n# class = \"B\"\n", Quoted(ReadingForScale(draft)));
+  if (draft.readings.empty())
+    return opening + "Fill luxmeter.csv and\n# uncomment.\n# [luxmeter]\n# readings = \"luxmeter.csv\"\n" +
+           roles;
+  const std::vector<std::string> alone = StatesOfReadingsAlone(draft);
+  if (!alone.empty())
+    return opening +
+           fmt::format(
+               "luxmeter.csv has states that no\n# photo has ({}): correct them there, or add them to "
+               "[states]; "
+               "then uncomment.\n# [luxmeter]\n# readings = \"luxmeter.csv\"\n",
+               ListNames(alone)) +
+           roles;
+  return opening +
+         fmt::format(
+             "Name the one in scale, and the\n# meter's class.\n[luxmeter]\nreadings = \"luxmeter.csv\"   # "
+             "GUESS: it lies beside the session, with {} readings\n",
+             draft.readings.size()) +
+         roles;
+}
+
+// Says what is left to do about readings.
+std::string ReadingsToDo(const SessionDraft& draft) {
+  if (draft.readings.empty())
+    return "luxmeter.csv: one reading at least, for lumens and lux; more to check the result";
+  const std::vector<std::string> alone = StatesOfReadingsAlone(draft);
+  if (!alone.empty())
+    return fmt::format("luxmeter.csv: states that no photo has ({}): correct them, and uncomment [luxmeter]",
+                       ListNames(alone));
+  return fmt::format(
+      "[luxmeter]: name in scale the reading of luxmeter.csv ({} are there) that sets lumens and lux",
+      draft.readings.size());
+}
+
 std::vector<std::string> DoubtfulPhotos(const SessionDraft& draft) {
   std::vector<std::string> files;
   for (const DraftPhoto& photo : draft.photos) {
@@ -146,11 +204,8 @@ std::string SessionText(const SessionDraft& draft) {
   return text +
          "# What is known of a luminaire; all but the id may be absent. Everything else is found.\n"
          "# [[luminaire]]\n# id = \"A\"\n# photometry = \"downlight.ies\"\n# position_m = [1.5, 2.0, 2.8]\n"
-         "# position_sigma_m = 0.5\n\n"
-         "# Readings of a luxmeter: one fixes the absolute scale, the others check the result. Fill "
-         "luxmeter.csv and\n"
-         "# uncomment.\n# [luxmeter]\n# readings = \"luxmeter.csv\"\n# scale = [\"L1@all\"]\n# class = "
-         "\"B\"\n";
+         "# position_sigma_m = 0.5\n\n" +
+         LuxmeterText(draft);
 }
 
 std::string PhotoTable(const SessionDraft& draft) {
@@ -174,6 +229,12 @@ std::string PhotoTable(const SessionDraft& draft) {
 
 std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\n"; }
 
+std::vector<SessionReading> FilledReadings(const std::string& path) {
+  const std::string text = ReadTextFile(path, "a table of readings");
+  const bool is_template = text.substr(0, text.find_last_not_of(" \n") + 1) + "\n" == ReadingsTemplate();
+  return is_template ? std::vector<SessionReading>{} : ReadReadingsAlone(path);
+}
+
 std::vector<std::string> ToDo(const SessionDraft& draft) {
   std::vector<std::string> list;
   if (!draft.size_because.empty())
@@ -193,7 +254,7 @@ std::vector<std::string> ToDo(const SessionDraft& draft) {
     list.push_back("[[camera]]: intrinsics, or photos of a board: nothing calibrates the camera yet");
   if (draft.states.size() < 2)
     list.push_back("photos of each luminaire alone would tell more than one state does (not required)");
-  list.push_back("luxmeter.csv: one reading at least, for lumens and lux; more to check the result");
+  list.push_back(ReadingsToDo(draft));
   return list;
 }
 

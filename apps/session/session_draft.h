@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/session/photo_names.h"
+#include "apps/session/session.h"
 #include "calib/luminance/exposure.h"
 
 namespace luxfit {
@@ -37,11 +38,16 @@ struct SessionDraft {
   std::vector<GuessedState> states;
   std::map<int, std::string> intrinsics;  // by camera: a file that lies beside the photos
   int cameras = 1;
+  std::vector<SessionReading> readings;  // of the table that lies there already
 };
 
 std::string SessionText(const SessionDraft& draft);
 std::string PhotoTable(const SessionDraft& draft);
 std::string ReadingsTemplate();
+
+// Returns the readings of a table that a person filled in; none of a template that nobody did. Throws std::runtime_error,
+// naming file and line, for any other file.
+std::vector<SessionReading> FilledReadings(const std::string& path);
 
 // Lists what is left to do before `luxfit run`, the most important first.
 std::vector<std::string> ToDo(const SessionDraft& draft);

@@ -80,6 +80,13 @@ std::vector<SessionReading> ReadReadings(const CsvTable& table, const std::vecto
   return readings;
 }
 
+CsvTable TableOfReadings(const std::string& path) {
+  std::map<std::string, std::string> alias;
+  for (const char* name : kIlluminanceAliases) alias[name] = kIlluminance;
+  return ReadCsvTable(
+      path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", kIlluminance}, {"sensor"}, alias});
+}
+
 bool Matches(const SessionReading& reading, const std::string& pattern) {
   const size_t at = pattern.find('@');
   if (at == std::string::npos) return MatchesPattern(reading.id, pattern);
@@ -169,11 +176,14 @@ SensorResponse ReadSensitivity(const std::string& path) {
 
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder) {
   section.ExpectKeys({"readings", "scale", "fit", "sensitivity", "class", "sensor_sigma"});
-  const std::string path = FindFile(section.Require("readings", "the table of readings (CSV)"), folder);
-  std::map<std::string, std::string> alias;
-  for (const char* name : kIlluminanceAliases) alias[name] = kIlluminance;
-  return ReadCsvTable(
-      path, {{"id", "x_m", "y_m", "z_m", "nx", "ny", "nz", "state", kIlluminance}, {"sensor"}, alias});
+  return TableOfReadings(FindFile(section.Require("readings", "the table of readings (CSV)"), folder));
+}
+
+std::vector<SessionReading> ReadReadingsAlone(const std::string& path) {
+  const CsvTable table = TableOfReadings(path);
+  std::vector<SessionState> states;
+  for (const CsvRow& row : table.rows) states.push_back({CsvText(table, row, "state"), {}});
+  return ReadReadings(table, states);
 }
 
 SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,

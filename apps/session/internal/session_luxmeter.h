@@ -30,6 +30,9 @@ namespace luxfit {
 
 CsvTable ReadReadingTable(const TomlCursor& section, const std::string& folder);
 
+// Reads a table of readings without a session, which may name any states.
+std::vector<SessionReading> ReadReadingsAlone(const std::string& path);
+
 SessionLuxmeter LuxmeterOf(const TomlCursor& section, const std::string& folder, const CsvTable& table,
                            const std::vector<SessionState>& states);
 

@@ -62,6 +62,58 @@ TEST(InitPhotosTest, GoodNamesHaveNoNotes) {
   EXPECT_THAT(folder.Read("mine/session.toml"), HasSubstr("names are VIEW_STATE\n"));
 }
 
+support::ProgramRun InitOfficeIn(const TempFolder& folder) {
+  return Init(std::string(LUXFIT_FIXTURES) + "/office/photos", folder.Path(""));
+}
+
+const std::string kReadings =
+    "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\nL1,1.9,2.55,0.741,0,0,1,A,201.4\n"
+    "L1,1.9,2.55,0.741,0,0,1,all,341.7\nL2,1.0,1.0,0.021,0,0,1,all,212.0\n";
+
+// Step 5 of the tutorial writes the readings, step 6 the session.
+TEST(InitReadingsTest, ReadingsThatLieThereAreTakenUp) {
+  const TempFolder folder;
+  folder.Write("luxmeter.csv", kReadings);
+  const support::ProgramRun init = InitOfficeIn(folder);
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(init.output,
+              HasSubstr("- [luxmeter]: name in scale the reading of luxmeter.csv (3 are there)"));
+  EXPECT_EQ(folder.Read("luxmeter.csv"), kReadings);
+  EXPECT_THAT(folder.Read("session.toml"),
+              HasSubstr("\n[luxmeter]\nreadings = \"luxmeter.csv\"   # GUESS: "));
+  EXPECT_EQ(ReadSession(folder.Path("session.toml")).luxmeter.readings.size(), 3U);
+  folder.Replace("session.toml", "# scale = [\"L1@all\"]", "scale = [\"L1@all\"]");
+  EXPECT_EQ(ReadSession(folder.Path("session.toml")).luxmeter.readings[1].role, ReadingRole::kScale);
+}
+
+// The session must read nevertheless.
+TEST(InitReadingsTest, StatesThatNoPhotoHasAreNamed) {
+  const TempFolder folder;
+  folder.Write("luxmeter.csv", kReadings + "L2,1.0,1.0,0.021,0,0,1,night,2\n");
+  const support::ProgramRun init = InitOfficeIn(folder);
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(init.output, HasSubstr("- luxmeter.csv: states that no photo has (night)"));
+  EXPECT_THAT(folder.Read("session.toml"), HasSubstr("# [luxmeter]\n# readings = \"luxmeter.csv\"\n"));
+  EXPECT_TRUE(ReadSession(folder.Path("session.toml")).luxmeter.readings.empty());
+}
+
+TEST(InitReadingsTest, AnEmptyTemplateStays) {
+  const TempFolder folder;
+  folder.Write("luxmeter.csv", "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\r\n");
+  const support::ProgramRun init = InitOfficeIn(folder);
+  ASSERT_EQ(init.status, 0) << init.output;
+  EXPECT_THAT(init.output, HasSubstr("- luxmeter.csv: one reading at least"));
+}
+
+TEST(InitReadingsTest, ATableThatCannotBeReadIsNamedBeforeAnythingIsWritten) {
+  const TempFolder folder;
+  folder.Write("luxmeter.csv", kReadings + "L3,1.0,here,0.021,0,0,1,all,212.0\n");
+  const support::ProgramRun init = InitOfficeIn(folder);
+  EXPECT_EQ(init.status, 2);
+  EXPECT_THAT(init.output, HasSubstr("luxmeter.csv:5: y_m: expected"));
+  EXPECT_EQ(folder.Read("session.toml"), "");
+}
+
 TEST(InitPhotosTest, SaysWhatLiesThereInstead) {
   const TempFolder folder;
   folder.Write("phone/IMG_1.AVIF", "x");
