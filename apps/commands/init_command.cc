@@ -185,6 +185,9 @@ int InitCommand(const InitCommandOptions& options) {
       fmt::format("{}: {} photos, {} states, {} materials, tags {}\n", (folder / "session.toml").string(),
                   draft.photos.size(), draft.states.size(), draft.material_area_m2.size(),
                   draft.seen_tags.empty() ? "none seen" : fmt::format("{}", fmt::join(draft.seen_tags, " ")));
+  if (draft.tone_mapped.mapped > 0)
+    text += fmt::format("warning: {} do not tell light: {}\n         remedy: {}\n", draft.tone_mapped.Names(),
+                        ToneMappingInWords(draft.tone_mapped.sign), kToneMappingRemedy);
   text += "check the lines that end in GUESS; then:\n";
   for (const std::string& item : to_do) text += "- " + item + "\n";
   if (options.json)

@@ -199,6 +199,9 @@ std::string SessionText(const SessionDraft& draft) {
   const std::vector<std::string> doubtful = DoubtfulPhotos(draft);
   if (!doubtful.empty())
     text += fmt::format("# Doubtful, see their notes in photos.csv: {}.\n", fmt::join(doubtful, ", "));
+  if (draft.tone_mapped.mapped > 0)
+    text += fmt::format("# {} do not tell light: {}.\n# Remedy: {}.\n", draft.tone_mapped.Names(),
+                        ToneMappingInWords(draft.tone_mapped.sign), kToneMappingRemedy);
   text += "[photos]\ntable = \"photos.csv\"   # GUESS: views and states, " + draft.names_because + "\n\n";
   text += StatesText(draft);
   return text +
@@ -237,6 +240,9 @@ std::vector<SessionReading> FilledReadings(const std::string& path) {
 
 std::vector<std::string> ToDo(const SessionDraft& draft) {
   std::vector<std::string> list;
+  if (draft.tone_mapped.mapped > 0)
+    list.push_back(fmt::format("photos: take {} of {} again, in RAW: their cameras mapped tones locally",
+                               draft.tone_mapped.mapped, draft.tone_mapped.of));
   if (!draft.size_because.empty())
     list.push_back("[scene]: measure the room; its lengths are a guess from where the tags hang");
   const auto count = std::count_if(draft.photos.begin(), draft.photos.end(),

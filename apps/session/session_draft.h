@@ -10,6 +10,7 @@
 #include "apps/session/photo_names.h"
 #include "apps/session/session.h"
 #include "calib/luminance/exposure.h"
+#include "calib/luminance/tone_mapped.h"
 
 namespace luxfit {
 
@@ -38,6 +39,7 @@ struct SessionDraft {
   std::vector<GuessedState> states;
   std::map<int, std::string> intrinsics;  // by camera: a file that lies beside the photos
   int cameras = 1;
+  ToneMappedFiles tone_mapped;           // relative to the session
   std::vector<SessionReading> readings;  // of the table that lies there already
 };
 

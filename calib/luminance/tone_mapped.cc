@@ -71,4 +71,26 @@ std::string SignOfToneMapping(const std::string& path) {
   }
 }
 
+std::string ToneMappingInWords(const std::string& sign) {
+  return "local tone mapping (the camera brightened dark parts of the picture and darkened bright ones; the "
+         "file has " +
+         sign + ")";
+}
+
+std::string ToneMappedFiles::Names() const {
+  return mapped < 2
+             ? first
+             : first + " and " + std::to_string(mapped - 1) + " more of " + std::to_string(of) + " files";
+}
+
+ToneMappedFiles FindToneMapped(const std::vector<std::string>& paths) {
+  ToneMappedFiles found;
+  found.of = paths.size();
+  for (const std::string& path : paths) {
+    const std::string sign = SignOfToneMapping(path);
+    if (!sign.empty() && found.mapped++ == 0) found.first = path, found.sign = sign;
+  }
+  return found;
+}
+
 }  // namespace luxfit

@@ -12,12 +12,27 @@
 #ifndef LUXFIT_CALIB_LUMINANCE_TONE_MAPPED_H_
 #define LUXFIT_CALIB_LUMINANCE_TONE_MAPPED_H_
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace luxfit {
 
 // Returns what says so, in words ("a map of gains for HDR displays"); empty: nothing does.
 std::string SignOfToneMapping(const std::string& path);
+
+// Says it in words: "local tone mapping (the camera ...; the file has SIGN)".
+std::string ToneMappingInWords(const std::string& sign);
+
+constexpr const char* kToneMappingRemedy = "photograph RAW (DNG, ProRAW) with automatic HDR off";
+
+struct ToneMappedFiles {
+  std::string first, sign;         // the first file that says so, and by what
+  std::size_t mapped = 0, of = 0;  // number of files that say so, and of all
+
+  std::string Names() const;  // "FIRST and 3 more of 49 files"
+};
+ToneMappedFiles FindToneMapped(const std::vector<std::string>& paths);
 
 }  // namespace luxfit
 

@@ -20,6 +20,7 @@
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/exposure.h"
 #include "calib/luminance/image.h"
+#include "calib/luminance/tone_mapped.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {
@@ -126,8 +127,12 @@ LookedAt LookAt(const Session& session, const SessionPhoto& photo, const std::op
   LookedAt look;
   try {
     const Photo counts = ReadPhoto(photo.file);
+    const std::string mapped = SignOfToneMapping(photo.file);
     const SessionCamera& settings = session.cameras[static_cast<size_t>(photo.camera)];
-    if (counts.bits_per_channel == 8 && settings.response == "linear") {
+    if (!mapped.empty()) {
+      look.problem = ToneMappingInWords(mapped);
+      look.remedy = kToneMappingRemedy;
+    } else if (counts.bits_per_channel == 8 && settings.response == "linear") {
       look.problem = "has 8 bits, camera " + Quoted(settings.id) + " is declared linear";
       look.remedy =
           "give 16-bit or RAW photos, or response = \"estimate\" with brackets of three exposures, or "

@@ -110,6 +110,11 @@ void DraftPhotos(const std::string& photos, const std::string& out, SessionDraft
   } else {
     DraftByContent(photos, files, draft);
   }
+  std::vector<std::string> paths;
+  for (const DraftPhoto& photo : draft.photos) paths.push_back(PathIn(photos, photo.name.file));
+  draft.tone_mapped = FindToneMapped(paths);
+  if (draft.tone_mapped.mapped > 0)
+    draft.tone_mapped.first = fs::relative(draft.tone_mapped.first, out).string();
   int last = 0;
   for (DraftPhoto& photo : draft.photos) {
     photo.name.file = fs::relative(PathIn(photos, photo.name.file), out).string();

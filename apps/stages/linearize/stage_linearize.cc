@@ -70,20 +70,14 @@ size_t FilesOf(const LinearizedPhotos& photos) {
 
 // Counts that were mapped otherwise in each part of a photo do not tell light.
 void ExpectNoToneMapping(const LinearizedPhotos& photos) {
-  std::string first, sign;
-  size_t mapped = 0;
+  std::vector<std::string> files;
   for (const LinearizedPhoto& photo : photos.photos) {
-    for (const PhotoExposure& exposure : photo.bracket) {
-      const std::string found = SignOfToneMapping(exposure.file);
-      if (!found.empty() && mapped++ == 0) first = exposure.file, sign = found;
-    }
+    for (const PhotoExposure& exposure : photo.bracket) files.push_back(exposure.file);
   }
-  if (mapped == 0) return;
-  throw std::runtime_error(fmt::format(
-      "{}{}: expected counts that tell light, got local tone mapping (the camera brightened dark parts of "
-      "the picture and "
-      "darkened bright ones; the file has {}); photograph RAW (DNG, ProRAW) with automatic HDR off",
-      first, mapped > 1 ? fmt::format(" and {} more of {} files", mapped - 1, FilesOf(photos)) : "", sign));
+  const ToneMappedFiles found = FindToneMapped(files);
+  if (found.mapped == 0) return;
+  throw std::runtime_error(fmt::format("{}: expected counts that tell light, got {}; {}", found.Names(),
+                                       ToneMappingInWords(found.sign), kToneMappingRemedy));
 }
 
 void ExpectSize(const Photo& counts, const std::string& file, const SessionCamera& settings,

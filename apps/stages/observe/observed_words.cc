@@ -7,6 +7,7 @@
 #include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/observed_light.h"
 #include "apps/text/suggest.h"
+#include "calib/luminance/tone_mapped.h"
 
 namespace luxfit {
 namespace {
@@ -47,7 +48,7 @@ bool RecordToneMapping(const std::vector<std::optional<ToneMapping>>& by_camera,
                      "light, and fluxes "
                      "and reflectances are off beyond their sigmas",
                      names.cameras[c], slope),
-         "photograph RAW (DNG, ProRAW) with automatic HDR off, or take another camera", true});
+         std::string(kToneMappingRemedy) + ", or take another camera", true});
   }
   return is_found;
 }

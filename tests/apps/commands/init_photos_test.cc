@@ -62,6 +62,34 @@ TEST(InitPhotosTest, GoodNamesHaveNoNotes) {
   EXPECT_THAT(folder.Read("mine/session.toml"), HasSubstr("names are VIEW_STATE\n"));
 }
 
+// `run` refuses such photos. They are named before.
+TEST(InitPhotosTest, PhotosThatSayThatTonesWereMappedAreWarnedOf) {
+  const TempFolder folder;
+  for (const support::OfficePhoto& photo : support::OfficePhotos()) {
+    if (photo.view != "v00" && photo.view != "v04") continue;
+    const std::string path = folder.Path("photos/" + photo.view + "_" + photo.state + ".jpg");
+    support::WritePhoneShot(path, {photo});
+    if (photo.state != "A" && photo.state != "B") continue;
+    const auto image = Exiv2::ImageFactory::open(path);
+    image->readMetadata();
+    image->exifData()["Exif.Image.Software"] = "HDR+ 1.0";
+    image->writeMetadata();
+  }
+  const support::ProgramRun init = Init(folder.Path("photos"), folder.Path("mine"));
+  EXPECT_EQ(init.status, 0) << init.output;
+  const std::string said = "photos/v00_A.jpg and 3 more of 12 files do not tell light: local tone mapping (";
+  EXPECT_THAT(init.output, AllOf(HasSubstr("\nwarning: ../" + said), HasSubstr("the file has \"HDR+\""),
+                                 HasSubstr("remedy: photograph RAW (DNG, ProRAW) with automatic HDR off\n"),
+                                 HasSubstr("- photos: take 4 of 12 again, in RAW")));
+  EXPECT_THAT(folder.Read("mine/session.toml"),
+              AllOf(HasSubstr("\n# ../" + said), HasSubstr("\n# Remedy: photograph RAW (DNG, ProRAW)")));
+  const support::ProgramRun doctor = support::RunProgram("doctor " + folder.Path("mine/session.toml"));
+  EXPECT_EQ(doctor.status, 1);
+  EXPECT_THAT(doctor.output,
+              AllOf(HasSubstr("8 of 12 photos can be used"), HasSubstr("v00_A.jpg, v00_B.jpg, v04_A.jpg"),
+                    HasSubstr(": local tone mapping (the camera"), Not(HasSubstr("more of 12 files"))));
+}
+
 support::ProgramRun InitOfficeIn(const TempFolder& folder) {
   return Init(std::string(LUXFIT_FIXTURES) + "/office/photos", folder.Path(""));
 }
