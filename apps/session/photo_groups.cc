@@ -171,17 +171,57 @@ GroupedPhotos GroupInOrder(const std::vector<PhotoLook>& photos) {
 }
 
 // Names views and states by folders. States named so keep what is on in them.
-void NameByFolders(GroupedPhotos& grouped) {
+void NameByFolders(GroupedPhotos& grouped, const std::vector<PhotoLook>& photos) {
   if (AdoptFolders(grouped.names.photos, &NamedPhoto::view)) {
     grouped.names.because += "; the folders name the views";
     return;
   }
   if (!AdoptFolders(grouped.names.photos, &NamedPhoto::state)) return;
   grouped.names.because += "; the folders name the states";
-  grouped.states = GuessStates(grouped.names);
+  grouped.states = StatesByNamesAndLight(grouped.names, photos);
+}
+
+struct NamedGroups {
+  std::vector<LightGroup> groups;
+  std::vector<int> state;  // of each group, as an index of the states
+};
+
+// Groups photos by the views and states of their names. Only photos of one size, and of stated exposure, can be compared.
+NamedGroups GroupsByName(const PhotoNames& names, const std::vector<PhotoLook>& photos,
+                         const std::vector<GuessedState>& states) {
+  std::map<std::string, size_t> first_of_view;
+  std::map<std::pair<std::string, std::string>, LightGroup> groups;
+  for (size_t i = 0; i < photos.size(); ++i) {
+    const NamedPhoto& name = names.photos[i];
+    const size_t first = first_of_view.emplace(name.view, i).first->second;
+    LightGroup& group = groups[{name.view, name.state}];
+    group.view = static_cast<int>(first);
+    group.photos.push_back(i);
+    const bool is_alike = photos[i].pattern.rows() == photos[first].pattern.rows() &&
+                          photos[i].pattern.cols() == photos[first].pattern.cols();
+    group.is_absolute = group.is_absolute && is_alike && photos[i].RelativeExposure().has_value();
+  }
+  NamedGroups named;
+  for (auto& [name, group] : groups) {
+    const auto state = std::find_if(states.begin(), states.end(),
+                                    [&, id = name.second](const GuessedState& one) { return one.id == id; });
+    named.state.push_back(static_cast<int>(state - states.begin()));
+    named.groups.push_back(std::move(group));
+  }
+  return named;
 }
 
 }  // namespace
+
+std::vector<GuessedState> StatesByNamesAndLight(const PhotoNames& names,
+                                                const std::vector<PhotoLook>& photos) {
+  if (photos.size() != names.photos.size())
+    throw std::invalid_argument("StatesByNamesAndLight: expected one photo a name, got " +
+                                std::to_string(photos.size()) + " of " + std::to_string(names.photos.size()));
+  const std::vector<GuessedState> states = GuessStates(names);
+  const NamedGroups named = GroupsByName(names, photos, states);
+  return WithMixesOfOccasions(states, photos, named.groups, named.state);
+}
 
 GroupedPhotos GroupPhotos(const std::vector<PhotoLook>& photos) {
   if (photos.empty()) throw std::invalid_argument("GroupPhotos: expected photos, got none");
@@ -190,7 +230,7 @@ GroupedPhotos GroupPhotos(const std::vector<PhotoLook>& photos) {
   in_order.reserve(photos.size());
   for (const size_t i : order) in_order.push_back(photos[i]);
   GroupedPhotos sorted = GroupInOrder(in_order);
-  NameByFolders(sorted);
+  NameByFolders(sorted, in_order);
   GroupedPhotos result = sorted;
   for (size_t k = 0; k < order.size(); ++k) {
     result.names.photos[order[k]] = sorted.names.photos[k];

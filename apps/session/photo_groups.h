@@ -24,6 +24,11 @@ struct GroupedPhotos {
   std::vector<int> camera;  // of each photo, numbered in their order
 };
 
+// Guesses what is on in the states that names tell: from the name of a luminaire, or all; by the light of the photos where
+// the name is that of an occasion (evening). `photos` are those of the names, in their order.
+std::vector<GuessedState> StatesByNamesAndLight(const PhotoNames& names,
+                                                const std::vector<PhotoLook>& photos);
+
 // Throws std::invalid_argument for no photos.
 GroupedPhotos GroupPhotos(const std::vector<PhotoLook>& photos);
 

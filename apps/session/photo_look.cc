@@ -65,6 +65,24 @@ Eigen::ArrayXf EdgesOf(const ImagePlane& light) {
   return Eigen::Map<const Eigen::ArrayXf>(limited.data(), limited.size()) / std::max(length, 1e-6f);
 }
 
+std::string PathOf(const std::string& folder, const std::string& file) {
+  return (std::filesystem::path(folder) / file).string();
+}
+
+PhotoLook LightLook(const std::string& path, const std::string& file, const Photo& photo,
+                    const ImagePlane& light) {
+  PhotoLook look;
+  look.file = file;
+  look.exposure = ReadExposureMetadata(path);
+  look.capture = ReadCaptureMetadata(path);
+  look.width_px = photo.width_px();
+  look.height_px = photo.height_px();
+  look.bits_per_channel = photo.bits_per_channel;
+  look.light = Reduced(light, kLightWidthPx);
+  look.pattern = Reduced(look.light, kPatternWidthPx);
+  return look;
+}
+
 }  // namespace
 
 std::optional<double> PhotoLook::RelativeExposure() const {
@@ -73,24 +91,22 @@ std::optional<double> PhotoLook::RelativeExposure() const {
   return *exposure.exposure_s * exposure.iso.value_or(100) / 100 / (f_number * f_number);
 }
 
-PhotoLook LookAtPhoto(const std::string& folder, const std::string& file, const std::string& family) {
-  const std::string path = (std::filesystem::path(folder) / file).string();
+PhotoLook LookAtLight(const std::string& folder, const std::string& file) {
+  const std::string path = PathOf(folder, file);
   const Photo photo = ReadPhoto(path);
-  PhotoLook look;
-  look.file = file;
-  look.exposure = ReadExposureMetadata(path);
-  look.capture = ReadCaptureMetadata(path);
-  look.width_px = photo.width_px();
-  look.height_px = photo.height_px();
-  look.bits_per_channel = photo.bits_per_channel;
+  return LightLook(path, file, photo, LightOf(photo));
+}
+
+PhotoLook LookAtPhoto(const std::string& folder, const std::string& file, const std::string& family) {
+  const std::string path = PathOf(folder, file);
+  const Photo photo = ReadPhoto(path);
+  const ImagePlane light = LightOf(photo);
+  PhotoLook look = LightLook(path, file, photo, light);
   DetectTagsOptions detect;
   detect.family = family;
   detect.decimate = std::max(1, photo.width_px() / 1500);
   look.tags = DetectTags(photo.rgb_counts[1], detect);
-  const ImagePlane light = LightOf(photo);
-  look.light = Reduced(light, kLightWidthPx);
-  look.pattern = Reduced(look.light, kPatternWidthPx);
-  look.edges = EdgesOf(Reduced(look.light, kEdgesWidthPx));
+  look.edges = EdgesOf(Reduced(light, kEdgesWidthPx));
   return look;
 }
 

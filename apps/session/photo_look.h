@@ -37,7 +37,10 @@ struct PhotoLook {
   std::optional<double> RelativeExposure() const;
 };
 
-// `folder` of the photos, `file` relative to it, `family` of the tags.
+// Looks at the light alone: neither at tags nor at edges. `folder` of the photos, `file` relative to it.
+PhotoLook LookAtLight(const std::string& folder, const std::string& file);
+
+// `family` of the tags.
 PhotoLook LookAtPhoto(const std::string& folder, const std::string& file, const std::string& family);
 
 }  // namespace luxfit

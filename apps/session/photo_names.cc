@@ -165,6 +165,7 @@ std::vector<GuessedState> GuessStates(const PhotoNames& names) {
       states.push_back({id, {}});
     } else {
       states.push_back({id, {luminaires.begin(), luminaires.end()}});
+      states.back().is_occasion = !IsEverything(id);
     }
   }
   return states;

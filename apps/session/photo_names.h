@@ -38,13 +38,14 @@ PhotoNames GuessViewsAndStates(const std::vector<std::string>& files);
 
 // Guesses from its name what is on in a state. Names such as off, dark, ambient and none mean nothing; the
 // name of a luminaire (A, B2, lamp1) means that one. All other names (all, on, full, and occasions such as
-// evening, whose dimming cannot be guessed) mean everything. Where no name looks like a luminaire's, every
+// evening, of which a name does not tell what is on) mean everything. Where no name looks like a luminaire's, every
 // other name is taken for one.
 struct GuessedState {
   std::string id;
   std::vector<std::string> luminaires;
   std::vector<double> dimming = {};  // of each luminaire; empty: all 1
   std::string because = "by its name";
+  bool is_occasion = false;  // its light may tell more (StatesByNamesAndLight)
 };
 std::vector<GuessedState> GuessStates(const PhotoNames& names);
 

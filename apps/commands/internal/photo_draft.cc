@@ -47,14 +47,15 @@ void FindFamily(const std::vector<std::string>& paths, SessionDraft& draft) {
 // Photos of one size are of one camera.
 void DraftByNames(const std::string& folder, const PhotoNames& names, SessionDraft& draft) {
   draft.names_because = names.because;
-  draft.states = GuessStates(names);
   draft.photos.resize(names.photos.size());
+  std::vector<PhotoLook> looks(names.photos.size());
   tbb::parallel_for(size_t{0}, names.photos.size(), [&](size_t i) {
-    const std::string path = PathIn(folder, names.photos[i].file);
-    const Photo photo = ReadPhoto(path);
-    draft.photos[i] = {names.photos[i],   ReadExposureMetadata(path), photo.width_px(),
-                       photo.height_px(), photo.bits_per_channel,     0};
+    looks[i] = LookAtLight(folder, names.photos[i].file);
+    const PhotoLook& look = looks[i];
+    draft.photos[i] = {names.photos[i], look.exposure,         look.width_px,
+                       look.height_px,  look.bits_per_channel, 0};
   });
+  draft.states = StatesByNamesAndLight(names, looks);
   std::vector<std::pair<int, int>> sizes;
   for (DraftPhoto& photo : draft.photos) {
     const std::pair<int, int> size(photo.width_px, photo.height_px);

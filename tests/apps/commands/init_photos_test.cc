@@ -59,7 +59,11 @@ TEST(InitPhotosTest, GoodNamesHaveNoNotes) {
   ASSERT_EQ(Init(folder.Path("photos"), folder.Path("mine")).status, 0);
   EXPECT_THAT(folder.Read("mine/photos.csv"),
               AllOf(HasSubstr("aperture,iso\n"), HasSubstr("cam0,v04,evening,")));
-  EXPECT_THAT(folder.Read("mine/session.toml"), HasSubstr("names are VIEW_STATE\n"));
+  EXPECT_THAT(
+      folder.Read("mine/session.toml"),
+      AllOf(HasSubstr("names are VIEW_STATE\n"),
+            HasSubstr("\"A\" = { \"A\" = 1.0 }   # GUESS: by its name\n"),
+            HasSubstr("\"evening\" = { \"A\" = 0.30, \"C\" = 1.0, \"D\" = 1.0 }   # GUESS: its light")));
 }
 
 // `run` refuses such photos. They are named before.

@@ -189,7 +189,48 @@ TEST(PhotoGroupsTest, FoldersNameViewsOrStates) {
   for (size_t i = 0; i < shots.size(); ++i) looks[i].file = shots[i].of.state + "/" + support::PhoneName(i);
   const GroupedPhotos by_state = GroupPhotos(looks);
   EXPECT_EQ(by_state.names.photos[1].state, "B");
-  EXPECT_EQ(StateNamed("evening", by_state).because, "by its name");
+  EXPECT_EQ(StateNamed("A", by_state).because, "by its name");
+  EXPECT_THAT(StateNamed("evening", by_state).luminaires, ElementsAre("A", "C", "D"));
+}
+
+PhotoNames NamesOf(const std::vector<PhoneShot>& shots) {
+  std::vector<std::string> files;
+  for (const PhoneShot& shot : shots) files.push_back(shot.of.view + "_" + shot.of.state + ".jpg");
+  return GuessViewsAndStates(files);
+}
+
+GuessedState Evening(const std::vector<GuessedState>& states) {
+  return *std::find_if(states.begin(), states.end(), [](const GuessedState& s) { return s.id == "evening"; });
+}
+
+// Names tell which luminaires there are, and the light what is on of an evening.
+TEST(PhotoGroupsTest, LightTellsWhatIsOnInAnOccasion) {
+  const std::vector<PhoneShot> shots = TwoViews();
+  std::vector<PhotoLook> looks = LooksOf(shots, "tag36h11");
+  const GuessedState evening = Evening(StatesByNamesAndLight(NamesOf(shots), looks));
+  EXPECT_THAT(evening.luminaires, ElementsAre("A", "C", "D"));
+  EXPECT_THAT(evening.dimming, ElementsAre(::testing::DoubleNear(0.3, 1e-9), 1, 1));
+  EXPECT_THAT(evening.because, HasSubstr("its light is this sum of other states, to "));
+  // Photos of one view that differ in size cannot be compared: the other view tells.
+  ASSERT_EQ(shots[0].of.view, "v00");
+  looks[0].pattern = looks[0].pattern.leftCols(20).eval();
+  EXPECT_THAT(Evening(StatesByNamesAndLight(NamesOf(shots), looks)).luminaires, ElementsAre("A", "C", "D"));
+  for (PhotoLook& look : looks) look.exposure.exposure_s.reset();
+  const GuessedState unknown = Evening(StatesByNamesAndLight(NamesOf(shots), looks));
+  EXPECT_THAT(unknown.luminaires, ElementsAre("A", "B", "C", "D"));
+  EXPECT_THAT(unknown.because, HasSubstr("by its name; its photos state no exposure"));
+}
+
+TEST(PhotoGroupsTest, AnOccasionThatIsNoSumSaysSo) {
+  std::vector<PhoneShot> shots = TwoViews();
+  const PhotoNames names = NamesOf(shots);
+  std::vector<PhotoLook> looks = LooksOf(shots, "tag36h11");
+  for (size_t i = 0; i < shots.size(); ++i) {
+    if (shots[i].of.state == "evening") looks[i].pattern = looks[i].pattern.rowwise().reverse().eval();
+  }
+  const GuessedState evening = Evening(StatesByNamesAndLight(names, looks));
+  EXPECT_THAT(evening.luminaires, ElementsAre("A", "B", "C", "D"));
+  EXPECT_THAT(evening.because, HasSubstr("by its name; its light is no sum of the others'"));
 }
 
 // Photos of another camera are of other views, whatever they show.

@@ -144,19 +144,21 @@ double RoundedDimming(double dimming) {
 }
 
 // Says what is on in a mix of `singles`, the names of the states of one luminaire each.
-GuessedState MixedState(const Mix& mix, const std::vector<std::string>& singles, int& mixes) {
+GuessedState MixedState(const Mix& mix, const std::vector<std::string>& singles) {
   GuessedState state;
-  bool is_full = mix.dimming.size() > 0;
   for (Eigen::Index k = 0; k < mix.dimming.size(); ++k) {
     const double dimming = RoundedDimming(mix.dimming[k]);
-    is_full = is_full && dimming == 1;
     if (dimming < kLeastDimming) continue;
     state.luminaires.push_back(singles[static_cast<size_t>(k)]);
     state.dimming.push_back(dimming);
   }
-  state.id = is_full ? "all" : "mix" + std::to_string(++mixes);
   state.because = fmt::format("its light is this sum of other states, to {:.0f} %", 100 * mix.relative_error);
   return state;
+}
+
+bool IsEverythingOn(const GuessedState& state, const std::vector<std::string>& singles) {
+  return !singles.empty() && state.luminaires.size() == singles.size() &&
+         std::all_of(state.dimming.begin(), state.dimming.end(), [](double d) { return d == 1; });
 }
 
 }  // namespace
@@ -185,7 +187,38 @@ std::vector<GuessedState> NameStates(const std::vector<PhotoLook>& photos,
   if (singles.size() == 1) states[single_states[0]].id = "all";
   int mixes = 0;
   for (size_t s = 0; s < states.size(); ++s) {
-    if (is_mix[s]) states[s] = MixedState(MixOf(s, single_states, pictures), singles, mixes);
+    if (!is_mix[s]) continue;
+    states[s] = MixedState(MixOf(s, single_states, pictures), singles);
+    states[s].id = IsEverythingOn(states[s], singles) ? "all" : "mix" + std::to_string(++mixes);
+  }
+  return states;
+}
+
+std::vector<GuessedState> WithMixesOfOccasions(std::vector<GuessedState> states,
+                                               const std::vector<PhotoLook>& photos,
+                                               const std::vector<LightGroup>& groups,
+                                               const std::vector<int>& state_of_group) {
+  const std::vector<Pictures> pictures = PicturesOfStates(photos, groups, state_of_group);
+  std::vector<size_t> single_states;
+  std::vector<std::string> singles;
+  for (size_t s = 0; s < states.size(); ++s) {
+    if (states[s].luminaires != std::vector<std::string>{states[s].id}) continue;
+    single_states.push_back(s);
+    singles.push_back(states[s].id);
+  }
+  for (size_t s = 0; s < states.size(); ++s) {
+    GuessedState& state = states[s];
+    if (!state.is_occasion) continue;
+    const Mix mix = pictures[s].empty() ? Mix{} : MixOf(s, single_states, pictures);
+    if (IsMix(mix)) {
+      const std::string id = state.id;
+      state = MixedState(mix, singles);
+      state.id = id;
+    } else {
+      state.because += pictures[s].empty()
+                           ? "; its photos state no exposure, so that their light does not tell"
+                           : "; its light is no sum of the others', or no view shows them all";
+    }
   }
   return states;
 }

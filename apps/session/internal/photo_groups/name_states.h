@@ -25,6 +25,13 @@ std::vector<GuessedState> NameStates(const std::vector<PhotoLook>& photos,
                                      const std::vector<LightGroup>& groups,
                                      const std::vector<int>& state_of_group);
 
+// Returns the states, known by their names, with what the light tells of occasions: the mix of the states of one
+// luminaire each that they are. An occasion whose light is no such mix stays as it is, and says so.
+std::vector<GuessedState> WithMixesOfOccasions(std::vector<GuessedState> states,
+                                               const std::vector<PhotoLook>& photos,
+                                               const std::vector<LightGroup>& groups,
+                                               const std::vector<int>& state_of_group);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_APPS_SESSION_INTERNAL_PHOTO_GROUPS_NAME_STATES_H_
