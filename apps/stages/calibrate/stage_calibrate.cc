@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "apps/stages/calibrate/calibration_files.h"
 #include "apps/stages/calibrate/calibration_images.h"
@@ -86,13 +90,27 @@ std::vector<CalibratedGroup> Calibrate(const Session& session, const Calibration
   return alone;
 }
 
+// Warns once of what is wrong with several images alike: a misspelt board makes all of them so.
+void WarnOfIncompleteImages(const CalibrationGroup& group, RunContext& context) {
+  constexpr std::size_t kNamed = 3;
+  std::map<std::string, std::vector<std::string>> files_of_message;
+  for (const auto& [image, message] : group.messages)
+    files_of_message[message].push_back(FileName(group.input.images[static_cast<std::size_t>(image)].name));
+  for (const auto& [message, files] : files_of_message) {
+    const std::string first =
+        fmt::format("{}", fmt::join(files.begin(), files.begin() + std::min(kNamed, files.size()), ", "));
+    const std::string names =
+        files.size() == 1 ? first
+                          : fmt::format("{} of {} images ({}{})", files.size(), group.input.images.size(),
+                                        first, files.size() > kNamed ? ", ..." : "");
+    context.warnings.push_back({"image_incomplete", fmt::format("{}: {}", names, message),
+                                "leave such images out, or photograph them again"});
+  }
+}
+
 void Report(const CalibratedGroup& calibrated, RunContext& context) {
   const Calibration& c = calibrated.calibration;
-  for (const auto& [image, message] : calibrated.group.messages)
-    context.warnings.push_back(
-        {"image_incomplete",
-         FileName(calibrated.group.input.images[static_cast<std::size_t>(image)].name) + ": " + message,
-         "leave such images out, or photograph them again"});
+  WarnOfIncompleteImages(calibrated.group, context);
   for (const CalibrationNote& note : c.notes)
     context.warnings.push_back({note.code, note.message, note.remedy, note.fails});
   for (Choice& grouping : GroupingChoices(calibrated.group)) context.choices.push_back(std::move(grouping));

@@ -175,6 +175,17 @@ TEST(DoctorTest, SaysWhatASessionLacks) {
                                 HasSubstr("nothing fixes the absolute scale")));
 }
 
+// A misspelt board, or the wrong folder: what is wrong with all images is said once.
+TEST(CalibrateTest, ImagesWithoutABoardAreOneWarning) {
+  const TempFolder folder;
+  const std::string out =
+      support::RunProgram("calibrate " + kOffice + "/photos/v00_*.png --board chessboard:9x6:0.025 -o " +
+                          folder.Path("out"))
+          .output;
+  EXPECT_THAT(out, HasSubstr("warning: 6 of 6 images (v00_A.png, v00_B.png, v00_C.png, ...): no chessboard"));
+  EXPECT_EQ(out.find("warning: "), out.rfind("warning: ")) << out;
+}
+
 // Codes that the sources give to warnings, by the ways in which they do.
 std::set<std::string> WarningCodesOfSources() {
   const std::regex after_push(
