@@ -9,6 +9,8 @@
 
 #include <string>
 
+#include "calib/targets/board.h"
+
 namespace luxfit {
 
 struct BoardCommandOptions {
@@ -23,7 +25,7 @@ struct BoardCommandOptions {
   int first_id = 0;
   std::string ids = "0-3";  // tags: "0-11,20"
   std::string family = "tag36h11";
-  std::string dictionary = "DICT_5X5_100";
+  std::string dictionary = Board().dictionary;  // as boards that do not name one
   bool has_corner_squares = false;
   int border_bits = 1;
 };

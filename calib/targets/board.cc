@@ -28,11 +28,13 @@ void ExpectSize(const std::string& member, double size, const std::string& expec
   if (!(size > 0) || !std::isfinite(size)) throw BadMember(member, expected, size);
 }
 
-void ExpectIds(const Board& board, int tags, int known, const std::string& of) {
+// `remedy` follows the counts where the board has too many tags.
+void ExpectIds(const Board& board, int tags, int known, const std::string& of,
+               const std::string& remedy = "") {
   if (board.first_id >= 0 && board.first_id <= known - tags) return;
   const std::string counts =
       "the board has " + std::to_string(tags) + " tags, " + of + " " + std::to_string(known);
-  if (tags > known) throw std::invalid_argument("columns, rows: expected fewer tags: " + counts);
+  if (tags > known) throw std::invalid_argument("columns, rows: expected fewer tags: " + counts + remedy);
   throw BadMember("first_id", "0 to " + std::to_string(known - tags) + " (" + counts + ")", board.first_id);
 }
 
@@ -60,7 +62,10 @@ void CheckCharuco(const Board& board) {
     throw BadMember("tag_size_m", "a marker smaller than its square", board.tag_size_m);
   const cv::Ptr<cv::aruco::Dictionary> dictionary = ArucoDictionary(board.dictionary);
   // Every second square holds a marker. Which half does depends on OpenCV's version, by one marker.
-  ExpectIds(board, (board.columns * board.rows + 1) / 2, dictionary->bytesList.rows, board.dictionary);
+  const int tags = (board.columns * board.rows + 1) / 2;
+  const std::string larger = SmallestArucoDictionary(board.dictionary, tags - 1);
+  ExpectIds(board, tags, dictionary->bytesList.rows, board.dictionary,
+            larger == board.dictionary ? "" : "; " + larger + " has enough");
 }
 
 void CheckBoard(const Board& board) {

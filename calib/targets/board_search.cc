@@ -4,6 +4,7 @@
 #include <array>
 
 #include "calib/targets/internal/boards/april_grid.h"
+#include "calib/targets/internal/boards/aruco_dictionary.h"
 #include "calib/targets/internal/boards/charuco_board.h"
 #include "calib/targets/internal/boards/chessboard.h"
 
@@ -53,6 +54,10 @@ std::optional<Board> SearchBoard(const ImagePlane& grey, const Board& expected) 
     if (auto board = SearchKind(grey, AsKind(expected, kind))) return board;
   }
   return {};
+}
+
+std::vector<std::string> DictionariesAlike(const std::string& dictionary) {
+  return LargerArucoDictionaries(dictionary);
 }
 
 std::optional<ShownBoard> MostShown(const std::vector<std::optional<Board>>& found) {

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calib/targets/board.h"
@@ -23,6 +24,10 @@ constexpr double kPrintedTagGap = 0.3;       // gap between an aprilgrid's tags,
 // Returns the board that the photo shows, the expected one included; nothing where it shows none. Throws
 // std::invalid_argument as BoardCorners does.
 std::optional<Board> SearchBoard(const ImagePlane& grey, const Board& expected);
+
+// Returns the larger ones of OpenCV's dictionaries that begin with the markers of this one: photos of these markers do not
+// tell which of them drew the board.
+std::vector<std::string> DictionariesAlike(const std::string& dictionary);
 
 struct ShownBoard {
   Board board;

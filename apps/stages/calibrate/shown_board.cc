@@ -9,6 +9,7 @@
 
 #include "apps/stages/calibrate/board_text.h"
 #include "apps/text/input_error.h"
+#include "apps/text/suggest.h"
 #include "calib/luminance/image.h"
 #include "calib/targets/board_search.h"
 
@@ -43,13 +44,20 @@ std::vector<std::optional<Board>> BoardsOf(const std::vector<std::string>& image
   return found;
 }
 
+// Names the dictionary, and the larger ones that begin with its markers: the one that drew the board is among them.
+std::string DictionaryInWords(const std::string& dictionary) {
+  const std::vector<std::string> alike = DictionariesAlike(dictionary);
+  if (alike.empty()) return dictionary;
+  return fmt::format("{} ({} may have drawn it too)", dictionary, ListNames(alike));
+}
+
 std::string InWords(const Board& board) {
   switch (board.type) {
     case BoardType::kChessboard:
       return fmt::format("a chessboard of {}x{} inner corners", board.columns, board.rows);
     case BoardType::kCharuco:
       return fmt::format("a ChArUco board of {}x{} squares with markers of {}", board.columns, board.rows,
-                         board.dictionary);
+                         DictionaryInWords(board.dictionary));
     case BoardType::kAprilGrid:
       break;
   }

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "apps/session/session.h"
+#include "apps/stages/calibrate/board_text.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 #include "tests/support/apps/program.h"
@@ -97,6 +98,14 @@ TEST_F(BoardCommandTest, WhatItDrawsIsDetectedAtTheSizeThatItSays) {
       EXPECT_LT((corner.pixel - first - place_px).norm(), 0.3) << arguments << " " << corner.index;
     }
   }
+}
+
+TEST_F(BoardCommandTest, ItsCharucoIsThatOfCalibrateWithoutADictionary) {
+  const support::ProgramRun run = Run("charuco --columns 8 --rows 6", "board.svg");
+  ASSERT_EQ(run.status, 0) << run.output;
+  EXPECT_EQ(BoardOf(run.output).dictionary, BoardFromArgument("charuco:8x6:0.02").dictionary);
+  EXPECT_THAT(Refusal("charuco --columns 12 --rows 9"),
+              HasSubstr("the board has 54 tags, DICT_4X4_50 50; DICT_4X4_100 has enough"));
 }
 
 TEST_F(BoardCommandTest, LibapriltagSeesGridsWithoutCornerSquaresAndRoomTags) {

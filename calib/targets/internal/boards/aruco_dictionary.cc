@@ -50,6 +50,16 @@ std::vector<std::string> LargestArucoDictionaries() {
   return largest;
 }
 
+std::vector<std::string> LargerArucoDictionaries(const std::string& than) {
+  const int markers = ArucoDictionary(than)->bytesList.rows;
+  std::vector<std::string> larger;
+  for (const auto& [name, dictionary] : kDictionaries) {
+    if (KindOf(name) == KindOf(than) && ArucoDictionary(name)->bytesList.rows > markers)
+      larger.emplace_back(name);
+  }
+  return larger;
+}
+
 std::string SmallestArucoDictionary(const std::string& of_kind, int id) {
   for (const auto& [name, dictionary] : kDictionaries) {
     if (KindOf(name) == KindOf(of_kind) && ArucoDictionary(name)->bytesList.rows > id) return name;

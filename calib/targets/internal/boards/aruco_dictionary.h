@@ -14,6 +14,9 @@ cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name);
 // Returns the largest dictionary of each kind of marker. The smaller ones begin with the same markers.
 std::vector<std::string> LargestArucoDictionaries();
 
+// Returns the larger dictionaries of the same kind of marker, smallest first. They begin with the same markers.
+std::vector<std::string> LargerArucoDictionaries(const std::string& than);
+
 // Returns the smallest dictionary of the same kind of marker that has the id.
 std::string SmallestArucoDictionary(const std::string& of_kind, int id);
 
