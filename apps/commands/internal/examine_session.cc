@@ -11,6 +11,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "apps/stages/calibrate/board_text.h"
+#include "apps/stages/calibrate/calibration_images.h"
+#include "apps/stages/calibrate/shown_board.h"
 #include "apps/stages/session_check.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/simulate/given_luminaire.h"
@@ -228,6 +231,54 @@ void ExaminePhotos(const Session& session, RunContext& context, DoctorFindings& 
   }
 }
 
+// Says how many of a camera's calibration images show the target. `is_of_another`: another board was found in them, which is
+// said beside it.
+DoctorFinding ImagesThatShow(const CalibrationGroup& group, std::size_t camera, bool is_of_another) {
+  const CalibrationInput& input = group.input;
+  std::size_t images = 0, showing = 0;
+  for (std::size_t i = 0; i < input.images.size(); ++i) {
+    if (input.images[i].camera != static_cast<int>(camera)) continue;
+    ++images;
+    if (!input.images[i].corners.empty() && group.messages.count(static_cast<int>(i)) == 0) ++showing;
+  }
+  const std::string what =
+      fmt::format("{}: {} of {} calibration images show {}", input.cameras[camera].id, showing, images,
+                  group.board ? "the board, " + BoardArgument(*group.board) : "surveyed tags");
+  if (showing == images) return {Health::kGood, what, ""};
+  if (is_of_another) return {Health::kNote, what, ""};
+  if (showing == 0) return {Health::kBad, what, "compare them with what was photographed"};
+  return {Health::kNote, what, "leave the others out, or photograph again"};
+}
+
+// Names another board that the images show in the words of `luxfit calibrate`.
+void ExamineCalibrationGroup(const Session& session, const CalibrationGroup& group,
+                             DoctorFindings& findings) {
+  std::string another;
+  try {
+    ExpectBoardShown(session, group);
+  } catch (const std::runtime_error& e) {
+    another = e.what();
+  }
+  for (std::size_t c = 0; c < group.input.cameras.size(); ++c)
+    findings.push_back(ImagesThatShow(group, c, !another.empty()));
+  if (!another.empty()) findings.push_back({Health::kBad, another, ""});
+}
+
+void ExamineCalibration(const Session& session, DoctorFindings& findings) {
+  std::vector<int> cameras;
+  for (std::size_t c = 0; c < session.cameras.size(); ++c) {
+    const SessionCamera& camera = session.cameras[c];
+    const bool has_own = !camera.calibration_images.empty() || !camera.calibration_corners.empty();
+    if (has_own && CanBeCalibrated(session, camera)) cameras.push_back(static_cast<int>(c));
+  }
+  try {
+    for (const CalibrationGroup& group : ReadCalibrationImages(session, {}, cameras))
+      ExamineCalibrationGroup(session, group, findings);
+  } catch (const std::runtime_error& e) {
+    findings.push_back({Health::kBad, e.what(), ""});
+  }
+}
+
 // Checks that the states tell luminaires apart, which takes as many independent states as there are
 // luminaires.
 void ExamineStates(const Session& session, DoctorFindings& findings) {
@@ -278,6 +329,7 @@ std::vector<DoctorFinding> ExamineSession(const Session& session) {
   TrialFolder folder;
   ExamineRoom(session, folder.context(), findings);
   ExaminePhotometry(session, findings);
+  ExamineCalibration(session, findings);
   ExaminePhotos(session, folder.context(), findings);
   if (!session.lights) {
     ExamineStates(session, findings);

@@ -187,6 +187,27 @@ TEST_F(CalibratePhotosTest, EveryDictionaryThatMayHaveDrawnTheBoardIsNamed) {
                         "DICT_5X5_250 or DICT_5X5_1000 may have drawn it too) in "));
 }
 
+// `luxfit doctor` looks at the same photos, in the same words.
+TEST_F(CalibratePhotosTest, DoctorLooksForTheBoard) {
+  const auto doctor = [&](const std::string& columns) {
+    folder_->Write("doctor.toml",
+                   "[[camera]]\nid = \"cam0\"\ncalibration_images = \"left/left0[1-4].png\"\n"
+                   "board = { type = \"chessboard\", columns = " +
+                       columns + ", rows = 5, square_size_m = 0.03 }\n");
+    return support::RunProgram("doctor " + Path("doctor.toml"));
+  };
+  EXPECT_THAT(doctor("8").output,
+              HasSubstr("good  cam0: 4 of 4 calibration images show the board, chessboard:8x5:0.03\n"));
+  const support::ProgramRun wrong = doctor("7");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_THAT(wrong.output,
+              HasSubstr("note  cam0: 0 of 4 calibration images show the board, chessboard:7x5:0.03\n"));
+  EXPECT_THAT(wrong.output,
+              HasSubstr("doctor.toml:1: camera[0].board: expected photos of chessboard:7x5:0.03, "
+                        "got a chessboard of 8x5 inner corners in "));
+  EXPECT_THAT(wrong.output, HasSubstr("write board = { type = \"chessboard\", columns = 8, rows = 5"));
+}
+
 TEST_F(CalibratePhotosTest, LostCornersAreNoReasonForAdviceButAMissingBoardIs) {
   std::mt19937_64 rng(2);
   Board board = ShownBoard();
