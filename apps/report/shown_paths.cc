@@ -19,6 +19,17 @@ std::string WithoutFolders(const std::string& text, const std::vector<std::strin
   return std::regex_replace(shown, within, "$1$2");
 }
 
+std::string CommonFolder(const std::vector<std::string>& files) {
+  if (files.empty()) return "";
+  const auto folder_of = [](const std::string& path) { return path.substr(0, path.find_last_of('/') + 1); };
+  std::string common = folder_of(files.front());
+  for (const std::string& file : files) {
+    while (file.compare(0, common.size(), common) != 0)
+      common = folder_of(common.substr(0, common.size() - 1));
+  }
+  return common.substr(0, common.empty() ? 0 : common.size() - 1);
+}
+
 json JsonWithoutFolders(const json& data, const std::vector<std::string>& folders) {
   if (data.is_string()) return WithoutFolders(data.get<std::string>(), folders);
   if (!data.is_structured()) return data;

@@ -15,6 +15,9 @@ namespace luxfit {
 // `folders`: absolute paths without a '/' at their end.
 std::string WithoutFolders(const std::string& text, const std::vector<std::string>& folders);
 
+// Returns the deepest folder that holds all of the files, without a '/' at its end; empty where only the root does.
+std::string CommonFolder(const std::vector<std::string>& files);
+
 // Returns the same of every text and key of `data`, which holds no binary data as text.
 nlohmann::json JsonWithoutFolders(const nlohmann::json& data, const std::vector<std::string>& folders);
 

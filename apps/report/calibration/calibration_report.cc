@@ -11,6 +11,7 @@
 #include "apps/report/calibration/calibration_pictures.h"
 #include "apps/report/html.h"
 #include "apps/report/report_page.h"
+#include "apps/report/shown_paths.h"
 #include "apps/text/formats/json_vectors.h"
 #include "apps/version.h"
 
@@ -93,20 +94,28 @@ std::string ChoiceSection(const json& artifact) {
   return HtmlSection("choices", "Choices and why", "", html + "</dl>\n");
 }
 
+// Returns the folders below which the page names files.
+std::vector<std::string> FoldersOf(const CalibrationRecord& record) {
+  std::vector<std::string> inputs;
+  for (const auto& [file, hash] : record.artifact->at("inputs").items()) inputs.push_back(file);
+  return {CommonFolder(inputs), record.out};
+}
+
 std::string ProvenanceSection(const CalibrationRecord& record, const std::string& command_line) {
   const json& artifact = *record.artifact;
+  const std::vector<std::string> folders = FoldersOf(record);
   std::string files;
   for (const json& file : artifact.at("files"))
     files += (files.empty() ? "" : ", ") + file.get<std::string>();
   std::string hashes;
   for (const auto& [file, hash] : artifact.at("inputs").items())
-    hashes += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n", XmlEscaped(file),
-                          XmlEscaped(hash.get<std::string>()));
+    hashes += fmt::format("<tr><td>{}</td><td><code>{}</code></td></tr>\n",
+                          XmlEscaped(WithoutFolders(file, folders)), XmlEscaped(hash.get<std::string>()));
   return HtmlSection("provenance", "Provenance", "",
                      HtmlPairs({{"Session", artifact.at("session")},
                                 {"Made by", "luxfit " + artifact.at("luxfit_version").get<std::string>()},
-                                {"Command", artifact.at("command")},
-                                {"Report", command_line},
+                                {"Command", WithoutFolders(artifact.at("command"), folders)},
+                                {"Report", WithoutFolders(command_line, folders)},
                                 {"Report written", NowUtc()},
                                 {"Files of the cameras", files}}) +
                          HtmlDetails(fmt::format("{} input files with their hashes (XXH3, 128 bit)",
@@ -137,7 +146,9 @@ json CameraSummary(const RecordedCamera& camera) {
 }  // namespace
 
 std::string CalibrationPage(const CalibrationRecord& record, const std::string& command_line) {
-  std::vector<Part> parts = {{"answer", "Answer", AnswerSection(record)}};
+  CalibrationRecord shown = record;
+  shown.artifact = std::make_shared<json>(JsonWithoutFolders(*record.artifact, FoldersOf(record)));
+  std::vector<Part> parts = {{"answer", "Answer", AnswerSection(shown)}};
   if (HasCameras(record)) {
     parts.push_back({"residuals", "Residuals", ResidualSection(record)});
     parts.push_back({"coverage", "Coverage", CoverageSection(record)});
@@ -145,7 +156,7 @@ std::string CalibrationPage(const CalibrationRecord& record, const std::string& 
     parts.push_back({"rig", "Cameras and boards", RigSection(record)});
   }
   parts.push_back({"photos", "Photos", PhotoSection(record)});
-  parts.push_back({"choices", "Choices", ChoiceSection(*record.artifact)});
+  parts.push_back({"choices", "Choices", ChoiceSection(*shown.artifact)});
   parts.push_back({"provenance", "Provenance", ProvenanceSection(record, command_line)});
   std::string html = Header(record) + Navigation(parts) + "<main>\n";
   for (const Part& part : parts) html += part.html;

@@ -147,6 +147,14 @@ TEST_F(CalibrationReportTest, ShowsTheNumbersOfTheArtifact) {
   has(fmt::format("points {:.0f} mm away", 1000 * second["uncertainty"]["maps"][1]["range_m"].get<double>()));
 }
 
+// The page is handed on, and its readers have other folders.
+TEST_F(CalibrationReportTest, ShowsNoFolderOfThisMachine) {
+  EXPECT_THAT(page_, Not(HasSubstr(folder_->Path(""))));
+  EXPECT_THAT(page_, Not(HasSubstr(fs::path(LUXFIT_PROGRAM).parent_path().string())));
+  EXPECT_THAT(page_, HasSubstr("<td>cam0.vnl</td><td><code>"));
+  EXPECT_THAT(page_, HasSubstr("<td>luxfit report "));
+}
+
 TEST_F(CalibrationReportTest, NamesWhatWasLeftOutAndWhy) {
   ASSERT_EQ(artifact_["groups"][0]["images_left_out"].size(), 1U);
   EXPECT_EQ(artifact_["groups"][0]["images_left_out"][0]["file"], "cam0_0.png");

@@ -33,5 +33,12 @@ TEST(ShownPathsTest, KeysAndNestedTextsAreShown) {
             (json{{"inputs", {{"a.csv", "0f"}}}, {"list", {"b.ies", 1, nullptr}}}));
 }
 
+TEST(ShownPathsTest, TheCommonFolderHoldsAllFiles) {
+  EXPECT_EQ(CommonFolder({"/a/rig/left/01.png", "/a/rig/left/02.png"}), "/a/rig/left");
+  EXPECT_EQ(CommonFolder({"/a/rig/left/01.png", "/a/rig/leftover/01.png"}), "/a/rig");
+  EXPECT_EQ(CommonFolder({"/a/01.png", "/b/01.png"}), "");
+  EXPECT_EQ(CommonFolder({}), "");
+}
+
 }  // namespace
 }  // namespace luxfit
