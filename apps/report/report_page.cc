@@ -1,10 +1,14 @@
 #include "apps/report/report_page.h"
 
+#include <fmt/format.h>
+
+#include <cctype>
 #include <ctime>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/charts/svg.h"
+#include "apps/version.h"
 
 namespace luxfit {
 namespace {
@@ -22,6 +26,30 @@ std::string Filled(std::string_view text, const std::map<std::string, std::strin
     at = close + 3;
   }
   return filled + html.substr(at);
+}
+
+// Writes a text as a string of CSS: letters and digits as they are, other ASCII as the numbers of its characters, so that
+// no name ends the string or the style.
+std::string CssString(const std::string& text) {
+  std::string css = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    css += byte >= 0x80 || std::isalnum(byte) != 0 ? std::string(1, c) : fmt::format("\\{:x} ", byte);
+  }
+  return css + '"';
+}
+
+// Prints title, version, date and page number on every sheet.
+std::string SheetHeads(const std::string& title) {
+  const std::string font = "font: 8pt system-ui, sans-serif; color: #667";
+  return fmt::format("@page {{ @top-left {{ content: {}; {} }} @top-right {{ content: {}; {} }} ",
+                     CssString(title), font, CssString(fmt::format("luxfit {}, {}", kVersion, NowUtc())),
+                     font) +
+         fmt::format("@bottom-right {{ content: counter(page) \" / \" counter(pages); {} }} }}\n", font);
+}
+
+std::string StyleOf(const std::string& title) {
+  return std::string(GetReportAssets().css) + SheetHeads(title);
 }
 
 }  // namespace
@@ -56,15 +84,14 @@ std::string ReportPage(const std::string& title, const nlohmann::json& data) {
   const std::string program =
       Filled(assets.program, {{"DATA", JsonForHtml(data)}, {"SCRIPT", std::string(assets.script)}});
   return Filled(assets.html, {{"TITLE", XmlEscaped(title)},
-                              {"STYLE", std::string(assets.css)},
+                              {"STYLE", StyleOf(title)},
                               {"SCRIPT_POLICY", "script-src 'unsafe-inline'; "},
                               {"PROGRAM", program}});
 }
 
 std::string ReportPageWithoutProgram(const std::string& title, const std::string& body) {
   const ReportAssets assets = GetReportAssets();
-  return Filled(assets.html,
-                {{"TITLE", XmlEscaped(title)}, {"STYLE", std::string(assets.css)}, {"BODY", body}});
+  return Filled(assets.html, {{"TITLE", XmlEscaped(title)}, {"STYLE", StyleOf(title)}, {"BODY", body}});
 }
 
 }  // namespace luxfit

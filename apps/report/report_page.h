@@ -5,6 +5,8 @@
 // Every '<', '>' and '&' in it is written as \u003c, \u003e, \u0026, so that no text of the user can end the
 // element.
 //
+// Printed sheets have the title, version and date at their head, and their number at the foot.
+//
 // Source: HTML Living Standard, sec. 4.12.1.3 (restrictions for contents of script elements).
 #ifndef LUXFIT_APPS_REPORT_REPORT_PAGE_H_
 #define LUXFIT_APPS_REPORT_REPORT_PAGE_H_

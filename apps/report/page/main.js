@@ -73,15 +73,6 @@ function openForPrint() {
   window.addEventListener('afterprint', () => { for (const d of opened) d.open = false; });
 }
 
-// Prints session, date and page number on every sheet. A name is written in CSS as the numbers of its characters.
-function headSheets(data) {
-  const quoted = (text) => '"' + Array.from(text, (c) => '\\' + c.codePointAt(0).toString(16) + ' ').join('') + '"';
-  const font = 'font: 8pt system-ui, sans-serif; color: #667';
-  document.head.append(h('style', null, `@page { @top-left { content: ${quoted(data.session)}; ${font} } @top-right { content: ${quoted('luxfit ' + data.luxfit_version + ', ' + data.date)}; ${font} } ` +
-    `@bottom-right { content: counter(page) " / " counter(pages); ${font} } }`));
-}
-
 const page = build(readData());
-headSheets(page.data);
 openForPrint();
 if (window.location.hash === '#selftest') selfTest(page);

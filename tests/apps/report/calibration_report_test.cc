@@ -155,6 +155,12 @@ TEST_F(CalibrationReportTest, ShowsNoFolderOfThisMachine) {
   EXPECT_THAT(page_, HasSubstr("<td>luxfit report "));
 }
 
+TEST_F(CalibrationReportTest, PrintedSheetsHaveAHeadAndANumber) {
+  EXPECT_THAT(page_, HasSubstr("@page { @top-left { content: \"\\3c script\\3e alert"))
+      << "no name ends the string or the style";
+  EXPECT_THAT(page_, HasSubstr("@bottom-right { content: counter(page) \" / \" counter(pages);"));
+}
+
 TEST_F(CalibrationReportTest, NamesWhatWasLeftOutAndWhy) {
   ASSERT_EQ(artifact_["groups"][0]["images_left_out"].size(), 1U);
   EXPECT_EQ(artifact_["groups"][0]["images_left_out"][0]["file"], "cam0_0.png");
