@@ -48,6 +48,7 @@ luxfit_test(calib/calibrate calibration_accuracy_test SLOW LINK luxfit::calib op
 luxfit_test(calib/calibrate calibration_coverage_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/calibrate calibration_fit_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/calibrate calibration_solvers_test LINK luxfit::calib opencv_core opencv_calib3d)
+luxfit_test(calib/calibrate image_circle_test LINK luxfit::calib)
 luxfit_test(calib/calibrate rig_pose_test LINK luxfit::calib)
 luxfit_test(calib/calibrate rig_strain_test LINK luxfit::calib opencv_core opencv_calib3d)
 luxfit_test(calib/lens projection_uncertainty_test SLOW LINK luxfit::calib opencv_core opencv_calib3d)

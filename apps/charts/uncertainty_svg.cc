@@ -35,9 +35,13 @@ std::string HeatMap(const UncertaintyMap& map, double top) {
   const double scale = map.drawn_px / map.width_px;
   const double width = map.drawn_px / static_cast<double>(map.sigma_px.cols());
   const double height = map.height_px * scale / static_cast<double>(map.sigma_px.rows());
-  std::string body;
+  const ImageRaster raster{map.width_px, map.height_px, map.sigma_px.rows(), map.sigma_px.cols()};
+  std::string body =
+      fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#f4f4f4\"/>\n",
+                  kMarginPx, top, map.drawn_px, map.height_px * scale);
   for (Eigen::Index row = 0; row < map.sigma_px.rows(); ++row) {
     for (Eigen::Index column = 0; column < map.sigma_px.cols(); ++column) {
+      if (!map.circle.Holds(raster.MiddleOf(row, column))) continue;
       // Slightly wider than the cell, so that no seams show.
       body += fmt::format(
           "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",

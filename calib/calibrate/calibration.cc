@@ -13,44 +13,17 @@
 #include "calib/calibrate/internal/calibration_seed.h"
 #include "calib/calibrate/internal/calibration_state.h"
 #include "calib/calibrate/internal/lens_choice.h"
+#include "calib/calibrate/internal/uncertain_places.h"
 #include "calib/lens/lens_family.h"
-#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
 
-constexpr int kMapColumns = 24, kMapRows = 18;
 constexpr std::size_t kLeastCornersOfImage = 6;
 constexpr int kSetsOfBend = 4;  // fewer views of a board cannot tell its bend from the lens
 constexpr char kRejectedRemedy[] =
     "check that it shows this board, sharp and unmirrored; leave it out otherwise";
 constexpr double kWideFieldDeg = 90;  // beyond it a fisheye lens is a candidate
-
-double ShareAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
-  // A sigma that is not known (NaN) counts as above the limit.
-  return 1 - (sigma_px.array() <= limit_px).cast<double>().mean();
-}
-
-// Returns the median of the sigmas, px. One that is not known (NaN) counts as above all others.
-double MedianSigmaPx(const Eigen::MatrixXd& sigma_px) {
-  std::vector<double> sigmas(sigma_px.data(), sigma_px.data() + sigma_px.size());
-  for (double& sigma : sigmas) {
-    if (std::isnan(sigma)) sigma = std::numeric_limits<double>::infinity();
-  }
-  return Quantile(std::move(sigmas), 0.5);
-}
-
-std::string PlacesAbove(const Eigen::MatrixXd& sigma_px, double limit_px) {
-  Eigen::Array<bool, 3, 3> marked;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      const auto ninth =
-          sigma_px.block(row * kMapRows / 3, column * kMapColumns / 3, kMapRows / 3, kMapColumns / 3);
-      marked(row, column) = !(ninth.array() <= limit_px).all();
-    }
-  }
-  return ThirdsInWords(marked);
-}
 
 void CheckOptions(const CalibrateCamerasOptions& options) {
   if (options.folds < 2 || !(options.outlier_sigmas > 0) || !(options.focal_start_px >= 0))
@@ -126,6 +99,14 @@ void NoteLeftOut(const CalibrationInput& input, Calibration& out) {
   }
 }
 
+std::vector<Eigen::Vector2d> PixelsOf(const std::vector<CoveringImage>& images) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (const CoveringImage& image : images) {
+    for (const BoardCorner& corner : image.corners) pixels.push_back(corner.pixel);
+  }
+  return pixels;
+}
+
 class ResultWriter {
  public:
   ResultWriter(const CalibrationProblem& problem, const LensCandidate& chosen, bool warp,
@@ -189,12 +170,10 @@ class ResultWriter {
     camera.cam_from_rig = fit_.state.cam_from_rig[c];
     camera.cam_from_rig_covariance = covariance.cam_from_rig[c];
     camera.uncertainty = covariance.cameras[c];
-    camera.coverage = CoverageOf(problem_.input->target, given, CoveringImages(static_cast<int>(c)));
-    const Eigen::MatrixXd sigma_px = ProjectionSigmaMap(camera.camera, camera.uncertainty, kMapColumns,
-                                                        kMapRows, std::numeric_limits<double>::infinity());
-    camera.uncertain_share = ShareAbove(sigma_px, options_.gates.max_sigma_px);
-    camera.median_sigma_px = MedianSigmaPx(sigma_px);
-    camera.uncertain_places = PlacesAbove(sigma_px, options_.gates.max_sigma_px);
+    const std::vector<CoveringImage> images = CoveringImages(static_cast<int>(c));
+    camera.circle = CircleOf(camera.camera, PixelsOf(images), given.brightest);
+    camera.coverage = CoverageOf(problem_.input->target, given, camera.circle, images);
+    WriteUncertainPlaces(options_.gates.max_sigma_px, camera);
     out.cameras.push_back(std::move(camera));
   }
 
@@ -266,22 +245,26 @@ void WriteResult(const CalibrationProblem& problem, const LensCandidate& chosen,
 
 void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates,
                  std::vector<CalibrationNote>& notes) {
-  const std::string photograph =
-      "photograph the target so that its corners reach every part of the image, tilted and at two distances";
+  // Outside its circle nothing can be seen, nor photographed.
+  const std::string whole = camera.circle.IsWholePicture() ? "image" : "image circle";
+  const std::string photograph = fmt::format(
+      "photograph the target so that its corners reach every part of the {}, tilted and at two distances",
+      whole);
   if (camera.uncertain_share > gates.max_uncertain_share) {
-    notes.push_back(
-        {"uncertain_projection", true,
-         fmt::format("{}: projections are uncertain by more than {:g} px over {:.0f} % of the image "
-                     "(median {:.2g} px), in {}",
-                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.median_sigma_px,
-                     camera.uncertain_places),
-         photograph});
+    notes.push_back({"uncertain_projection", true,
+                     fmt::format("{}: projections are uncertain by more than {:g} px over {:.0f} % of the {} "
+                                 "(median {:.2g} px), in {}",
+                                 camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, whole,
+                                 camera.median_sigma_px, camera.uncertain_places),
+                     photograph});
   } else if (camera.uncertain_share > 0) {
     notes.push_back(
         {"uncertain_corners", false,
-         fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the image, in {}",
-                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, camera.uncertain_places),
-         "do not rely on these parts of the image (see the uncertainty map), or " + photograph});
+         fmt::format("{}: projections are uncertain by more than {:g} px over {:.1f} % of the {}, in {}",
+                     camera.id, gates.max_sigma_px, 100 * camera.uncertain_share, whole,
+                     camera.uncertain_places),
+         fmt::format("do not rely on these parts of the {} (see the uncertainty map), or {}", whole,
+                     photograph)});
   }
   const bool is_covered = camera.coverage.covered_share >= gates.min_covered_share;
   const bool is_tilted = !camera.coverage.is_flat || camera.coverage.max_tilt_deg >= gates.min_tilt_deg;
@@ -293,8 +276,8 @@ void JudgeCamera(const CalibratedCamera& camera, const CalibrationGates& gates,
   }
   if (!is_covered && camera.coverage.lacks.empty())
     notes.push_back({"coverage", true,
-                     fmt::format("{}: only {:.0f} % of the image's 36 cells hold a corner", camera.id,
-                                 100 * camera.coverage.covered_share),
+                     fmt::format("{}: only {:.0f} % of the {}'s cells hold a corner", camera.id,
+                                 100 * camera.coverage.covered_share, whole),
                      photograph});
 }
 

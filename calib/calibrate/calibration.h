@@ -18,7 +18,8 @@
 // projection uncertainty at the corners.
 //
 // A small residual alone proves nothing: boards in the middle of the image fit any lens. Held-out error,
-// uncertainty of projections and coverage therefore have gates. A camera that fails a gate is returned but
+// uncertainty of projections and coverage therefore have gates. Both are judged within the image circle of a wide camera
+// (calib/calibrate/image_circle.h): beyond it, nothing can be seen. A camera that fails a gate is returned but
 // not usable, with a note that says why and names the remedy.
 //
 // Residuals: predicted - seen, px. "per axis": sqrt(sum |r|^2 / 2 n); "2-D": sqrt(sum |r|^2 / n).
@@ -34,6 +35,7 @@
 #include <vector>
 
 #include "calib/calibrate/calibration_input.h"
+#include "calib/calibrate/image_circle.h"
 #include "calib/lens/camera.h"
 #include "calib/lens/lens_family.h"
 #include "calib/lens/projection_uncertainty.h"
@@ -46,8 +48,8 @@ struct CalibrationGates {
   double max_held_out_px = 1.0;       // per axis: sharp corners and a good lens stay well below
   double max_held_out_ratio = 1.5;    // to the fit's noise: more means too many parameters
   double max_sigma_px = 1.0;          // for the projection of a direction ...
-  double max_uncertain_share = 0.2;   // ... over more than this part of the image
-  double min_covered_share = 0.5;     // cells of the image (CalibrationCoverage)
+  double max_uncertain_share = 0.2;   // ... over more than this part of the image circle
+  double min_covered_share = 0.5;     // cells of the image circle (CalibrationCoverage)
   double min_tilt_deg = 10;           // tilt of a flat board, at least once: the focal length needs it
   double questioned_outliers = 0.03;  // share of corners; more is a warning
   double max_outliers = 0.2;          // and more than this a failure
@@ -74,7 +76,7 @@ struct CalibrationNote {
 // Reports where a camera's images hold corners. Lens parameters are determined only there.
 struct CalibrationCoverage {
   Eigen::MatrixXi corner_counts;  // 6 x 6 cells, rows from the top
-  double covered_share = 0;       // share of the cells with a corner
+  double covered_share = 0;       // share of the image circle's cells with a corner
   int images = 0;
   // Angle between a flat target's normal and the optical axis; 0 for a room's tags, which do not lie in a
   // plane.
@@ -92,9 +94,10 @@ struct CalibratedCamera {
   // first camera; NaN where unknowns are undetermined.
   Eigen::Matrix<double, 6, 6> cam_from_rig_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   ProjectionCovariance uncertainty;
+  ImageCircle circle;
   CalibrationCoverage coverage;
-  double uncertain_share = 1;    // share of the image where the sigma of a direction exceeds the gate
-  double median_sigma_px = 0;    // median over the image, for directions
+  double uncertain_share = 1;    // share of the circle where the sigma of a direction exceeds the gate
+  double median_sigma_px = 0;    // median over the circle, for directions
   std::string uncertain_places;  // names in words the ninths of the image with such places
 };
 

@@ -34,6 +34,8 @@ CalibrationTarget TargetOf(const std::vector<SurveyedTag>& survey);
 struct CalibrationCamera {
   std::string id;
   int width_px = 0, height_px = 0;
+  // Largest display value of all its photos in cells over the image (calib/calibrate/image_circle.h); empty: not known.
+  Eigen::MatrixXd brightest = {};
 };
 
 struct CalibrationImage {

@@ -81,12 +81,19 @@ std::string LensTable(const RecordedGroup& group) {
   rows.push_back({"image, px"});
   rows.push_back({"sigma in the middle*, px"});
   rows.push_back({"median sigma*, px"});
-  rows.push_back({"above the limit*, % of the image"});
+  const bool has_circle = std::any_of(group.cameras.begin(), group.cameras.end(),
+                                      [](const RecordedCamera& c) { return !c.circle.IsWholePicture(); });
+  rows.push_back({std::string("above the limit*, % of the image") + (has_circle ? " circle" : "")});
+  if (has_circle) rows.push_back({"radius of the image circle, px"});
   for (const RecordedCamera& camera : group.cameras) {
     rows[names.size()].push_back(fmt::format("{} × {}", camera.width_px, camera.height_px));
     rows[names.size() + 1].push_back(fmt::format("{:.2g}", camera.middle_sigma_px));
     rows[names.size() + 2].push_back(fmt::format("{:.2g}", camera.median_sigma_px));
     rows[names.size() + 3].push_back(fmt::format("{:.1f}", 100 * camera.uncertain_share));
+    if (has_circle)
+      rows[names.size() + 4].push_back(camera.circle.IsWholePicture()
+                                           ? "all of the image"
+                                           : fmt::format("{:.0f}", camera.circle.radius_px));
   }
   return HtmlTable(columns, rows);
 }

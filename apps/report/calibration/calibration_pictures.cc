@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "apps/charts/coverage_svg.h"
@@ -68,20 +69,41 @@ std::string Coverage(const RecordedCamera& camera) {
   std::string lacks;
   for (const std::string& lack : camera.lacks) lacks += (lacks.empty() ? "" : "; ") + lack;
   std::string caption = fmt::format(
-      "{}: corners in {:.0f} % of the cells; the number of each cell is in it. Boards from {:.0f} to {:.0f} "
+      "{}: corners in {:.0f} % of the cells{}; the number of each cell is in it. Boards from {:.0f} to "
+      "{:.0f} "
       "mm "
       "away",
-      camera.id, 100 * camera.covered_share, 1000 * camera.nearest_m, 1000 * camera.farthest_m);
+      camera.id, 100 * camera.covered_share, camera.circle.IsWholePicture() ? "" : " within the image circle",
+      1000 * camera.nearest_m, 1000 * camera.farthest_m);
   if (std::isfinite(camera.max_tilt_deg))
     caption += fmt::format(", tilted up to {:.0f} degrees", camera.max_tilt_deg);
   caption += lacks.empty() ? ". No third of the image is without corners." : ". Lacks: " + lacks + ".";
-  return HtmlFigure(CoverageSvg({camera.width_px, camera.height_px}, camera.corner_counts, corners), caption);
+  return HtmlFigure(
+      CoverageSvg({camera.width_px, camera.height_px}, camera.corner_counts, camera.circle, corners),
+      caption);
 }
 
 std::string RangeText(double range_m) {
   return std::isfinite(range_m)
              ? fmt::format("points {:.0f} mm away, the usual distance of the target", 1000 * range_m)
              : "directions, points far away";
+}
+
+// Returns the least and the largest sigma within the image circle.
+std::string SigmasText(const UncertaintyMap& map) {
+  const Eigen::MatrixXd& sigma_px = map.sigma_px;
+  const ImageRaster raster{map.width_px, map.height_px, sigma_px.rows(), sigma_px.cols()};
+  double least_px = std::numeric_limits<double>::infinity(), most_px = 0;
+  for (Eigen::Index row = 0; row < raster.rows; ++row) {
+    for (Eigen::Index column = 0; column < raster.columns; ++column) {
+      if (!map.circle.Holds(raster.MiddleOf(row, column))) continue;
+      if (!std::isfinite(sigma_px(row, column))) return "; hatched where it is not determined";
+      least_px = std::min(least_px, sigma_px(row, column));
+      most_px = std::max(most_px, sigma_px(row, column));
+    }
+  }
+  return fmt::format(": {:.2g} to {:.2g} px", least_px, most_px) +
+         (map.circle.IsWholePicture() ? "" : " within the image circle");
 }
 
 std::string Uncertainty(const RecordedCamera& camera) {
@@ -91,16 +113,13 @@ std::string Uncertainty(const RecordedCamera& camera) {
     map.width_px = camera.width_px;
     map.height_px = camera.height_px;
     map.sigma_px = recorded.sigma_px;
+    map.circle = camera.circle;
     map.drawn_px = kFrameWidthPx;
     std::vector<MappedCorner> corners;
     for (const SeenCorner& corner : camera.corners) corners.push_back({corner.pixel, corner.is_outlier});
-    const Eigen::MatrixXd& sigma_px = recorded.sigma_px;
-    const std::string range =
-        sigma_px.allFinite() ? fmt::format(": {:.2g} to {:.2g} px", sigma_px.minCoeff(), sigma_px.maxCoeff())
-                             : "; hatched where it is not determined";
-    figures += HtmlFigure(
-        UncertaintySvg(map, corners),
-        fmt::format("{}: sigma of the pixel, {}{}.", camera.id, RangeText(recorded.range_m), range));
+    figures +=
+        HtmlFigure(UncertaintySvg(map, corners), fmt::format("{}: sigma of the pixel, {}{}.", camera.id,
+                                                             RangeText(recorded.range_m), SigmasText(map)));
   }
   return figures;
 }
@@ -160,7 +179,7 @@ std::string CoverageSection(const CalibrationRecord& record) {
   return HtmlSection(
       "coverage", "Coverage",
       "Where the corners in use fell in the images. A lens is known only there: cells without a corner are "
-      "hatched in red.",
+      "hatched in red, where the lens gives an image.",
       HtmlSideBySide(figures));
 }
 

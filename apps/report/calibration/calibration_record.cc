@@ -82,6 +82,14 @@ void ReadCoverage(const json& entry, RecordedCamera& camera) {
   camera.lacks = entry.at("lacks").get<std::vector<std::string>>();
 }
 
+// Results of earlier versions have no circle.
+ImageCircle CircleOf(const json& circle) {
+  if (circle.is_null()) return {};
+  const Eigen::VectorXd centre = VectorFromJson(circle.at("centre_px"));
+  Expect(centre.size() == 2, "the centre of an image circle");
+  return {centre, circle.at("radius_px")};
+}
+
 void ReadUncertainty(const json& entry, RecordedCamera& camera) {
   camera.middle_sigma_px = NumberOf(entry.at("middle_px"));
   camera.median_sigma_px = NumberOf(entry.at("median_px"));
@@ -106,6 +114,7 @@ RecordedCamera CameraOf(const json& entry) {
   camera.rotation_sigma_deg = NumberOf(entry.at("rotation_sigma_deg"));
   for (std::size_t k = 0; k < camera.corner_directions.size(); ++k)
     camera.corner_directions[k] = Vector3Of(entry.at("corner_directions").at(k));
+  camera.circle = CircleOf(entry.value("image_circle", json()));
   ReadUncertainty(entry.at("uncertainty"), camera);
   ReadCoverage(entry.at("coverage"), camera);
   return camera;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "apps/charts/residual_svg.h"
+#include "calib/calibrate/image_circle.h"
 
 namespace luxfit {
 
@@ -34,6 +35,7 @@ struct RecordedCamera {
   Eigen::Vector3d rotation_sigma_rad, translation_sigma_m;
   double baseline_m = 0, baseline_sigma_m = 0, rotation_deg = 0, rotation_sigma_deg = 0;
   std::array<Eigen::Vector3d, 4> corner_directions;
+  ImageCircle circle;
   double middle_sigma_px = 0, median_sigma_px = 0, uncertain_share = 0;
   std::vector<RecordedMap> maps;
   Eigen::MatrixXi corner_counts;

@@ -61,11 +61,13 @@ UncertaintyMap MapOf(const CalibratedCamera& camera) {
   const int rows = std::max(1, static_cast<int>(std::lround(1.0 * kColumns * c.height_px / c.width_px)));
   UncertaintyMap map;
   map.title = fmt::format("{}: how uncertain a direction's pixel is (1 sigma)", camera.id);
-  map.subtitle = fmt::format("{} x {} px, {}; median {:.2g} px; above the limit over {:.1f} % of the image",
-                             c.width_px, c.height_px, ToString(camera.uncertainty.kind),
-                             camera.median_sigma_px, 100 * camera.uncertain_share);
+  map.subtitle =
+      fmt::format("{} x {} px, {}; median {:.2g} px; above the limit over {:.1f} % of the image{}",
+                  c.width_px, c.height_px, ToString(camera.uncertainty.kind), camera.median_sigma_px,
+                  100 * camera.uncertain_share, camera.circle.IsWholePicture() ? "" : " circle");
   map.width_px = c.width_px;
   map.height_px = c.height_px;
+  map.circle = camera.circle;
   map.sigma_px =
       ProjectionSigmaMap(c, camera.uncertainty, kColumns, rows, std::numeric_limits<double>::infinity());
   return map;

@@ -20,11 +20,14 @@ namespace luxfit {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr int kGammaBits = 8;  // photos of 8 bits are encoded for displays
+
 // Holds one camera's images with their corners.
 struct CameraImages {
   std::vector<std::string> files;
   std::vector<BoardDetection> found;
   Eigen::Array2i size_px{0, 0};
+  Eigen::MatrixXd brightest;  // CalibrationCamera
 };
 
 bool IsOfTags(const SessionCamera& camera) { return !camera.board; }
@@ -84,10 +87,12 @@ CameraImages Detect(const Session& session, const SessionCamera& camera, std::ve
   images.files = std::move(files);
   images.found.resize(images.files.size());
   std::vector<Eigen::Array2i> sizes(images.files.size());
+  std::vector<Eigen::MatrixXd> values(images.files.size());
   tbb::parallel_for(std::size_t{0}, images.files.size(), [&](std::size_t i) {
     const Photo photo = ReadPhoto(images.files[i]);
     sizes[i] = {photo.width_px(), photo.height_px()};
     const ImagePlane grey = GreyOf(photo, camera.luminance_weights);
+    values[i] = DisplayValues(grey, photo.full_scale_counts, photo.bits_per_channel > kGammaBits);
     images.found[i] = IsOfTags(camera) ? SurveyedCorners(DetectTagsOf(grey, session.tags), session.tags)
                                        : DetectBoard(grey, *camera.board);
   });
@@ -100,6 +105,8 @@ CameraImages Detect(const Session& session, const SessionCamera& camera, std::ve
                       sizes[i].x(), sizes[i].y()));
   }
   if (!sizes.empty()) images.size_px = sizes.front();
+  for (const Eigen::MatrixXd& of_photo : values)
+    images.brightest = images.brightest.size() == 0 ? of_photo : images.brightest.cwiseMax(of_photo).eval();
   return images;
 }
 
@@ -164,7 +171,8 @@ CalibrationGroup GroupOf(const Session& session, const std::vector<int>& cameras
   group.input.target = TargetFor(session, first);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const SessionCamera& camera = session.cameras[static_cast<std::size_t>(cameras[c])];
-    group.input.cameras.push_back({camera.id, images[c].size_px.x(), images[c].size_px.y()});
+    group.input.cameras.push_back(
+        {camera.id, images[c].size_px.x(), images[c].size_px.y(), images[c].brightest});
     for (std::size_t i = 0; i < images[c].files.size(); ++i) {
       const BoardDetection& found = images[c].found[i];
       if (IsPoor(found, group.input.target.points.size()))
@@ -231,7 +239,6 @@ CalibrationGroup WithRefinedTags(const Session& session, CalibrationGroup group,
   std::vector<CalibrationImage>& images = group.input.images;
   tbb::parallel_for(std::size_t{0}, images.size(), [&](std::size_t i) {
     const Photo photo = ReadPhoto(images[i].name);
-    constexpr int kGammaBits = 8;
     if (images[i].corners.empty() || photo.bits_per_channel == kGammaBits) return;
     images[i].corners = DetectRefined(photo, camera, session.tags, lens).corners;
   });

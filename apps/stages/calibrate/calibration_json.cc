@@ -105,10 +105,18 @@ json SigmaMapJson(const CalibratedCamera& camera, double range_m) {
   const Camera& c = camera.camera;
   const int rows = std::max(1, static_cast<int>(std::lround(1.0 * kMapColumns * c.height_px / c.width_px)));
   const Eigen::MatrixXd sigma_px =
-      ProjectionSigmaMap(c, camera.uncertainty, kMapColumns, rows, range_m).unaryExpr([](double sigma) {
-        return std::isfinite(sigma) ? std::stod(fmt::format("{:.3g}", sigma)) : sigma;
-      });
+      WithinCircle(camera.circle, c.width_px, c.height_px,
+                   ProjectionSigmaMap(c, camera.uncertainty, kMapColumns, rows, range_m))
+          .unaryExpr([](double sigma) {
+            return std::isfinite(sigma) ? std::stod(fmt::format("{:.3g}", sigma)) : sigma;
+          });
   return {{"range_m", NumberOrNull(range_m)}, {"sigma_px", MatrixJson(sigma_px)}};
+}
+
+// Returns null where all of the picture is seen.
+json CircleJson(const ImageCircle& circle) {
+  if (circle.IsWholePicture()) return nullptr;
+  return {{"centre_px", VectorJson(circle.centre_px)}, {"radius_px", circle.radius_px}};
 }
 
 json UncertaintyJson(const CalibratedCamera& camera, double usual_range_m) {
@@ -151,6 +159,7 @@ json CameraJson(const CalibratedCamera& camera, double usual_range_m) {
   out["baseline_sigma_m"] = NumberOrNull(pose.baseline_sigma_m);
   out["rotation_deg"] = kDegPerRad * pose.angle_rad;
   out["rotation_sigma_deg"] = NumberOrNull(kDegPerRad * pose.angle_sigma_rad);
+  out["image_circle"] = CircleJson(camera.circle);
   out["uncertainty"] = UncertaintyJson(camera, usual_range_m);
   out["coverage"] = CoverageJson(camera.coverage);
   return out;

@@ -27,20 +27,35 @@ std::string Joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-// Marks the ninths of the image without a corner.
-Eigen::Array<bool, kThirds, kThirds> EmptyThirds(const Eigen::MatrixXi& counts) {
+using Cells = Eigen::Array<bool, kCells, kCells>;
+
+// Marks the cells that can hold a corner: those of the circle, and those that do.
+Cells CellsThatSee(const CalibrationCamera& camera, const ImageCircle& circle,
+                   const Eigen::MatrixXi& counts) {
+  const ImageRaster raster{camera.width_px, camera.height_px, kCells, kCells};
+  Cells cells;
+  for (int row = 0; row < kCells; ++row) {
+    for (int column = 0; column < kCells; ++column)
+      cells(row, column) = counts(row, column) > 0 || circle.Holds(raster.MiddleOf(row, column));
+  }
+  return cells;
+}
+
+// Marks the ninths of the image that can hold a corner, and hold none.
+Eigen::Array<bool, kThirds, kThirds> EmptyThirds(const Eigen::MatrixXi& counts, const Cells& cells) {
   Eigen::Array<bool, kThirds, kThirds> empty;
   constexpr Eigen::Index kSide = kCells / kThirds;
   for (Eigen::Index row = 0; row < kThirds; ++row) {
     for (Eigen::Index column = 0; column < kThirds; ++column)
-      empty(row, column) = counts.block(kSide * row, kSide * column, kSide, kSide).sum() == 0;
+      empty(row, column) = counts.block(kSide * row, kSide * column, kSide, kSide).sum() == 0 &&
+                           cells.block(kSide * row, kSide * column, kSide, kSide).any();
   }
   return empty;
 }
 
-std::vector<std::string> Lacks(const CalibrationCoverage& coverage) {
+std::vector<std::string> Lacks(const CalibrationCoverage& coverage, const Cells& cells) {
   std::vector<std::string> lacks;
-  const std::string empty = ThirdsInWords(EmptyThirds(coverage.corner_counts));
+  const std::string empty = ThirdsInWords(EmptyThirds(coverage.corner_counts, cells));
   if (!empty.empty()) lacks.push_back("no corner in " + empty + " of the image");
   if (coverage.is_flat && coverage.max_tilt_deg < kLeastTiltDeg)
     lacks.push_back(
@@ -77,7 +92,7 @@ std::string ThirdsInWords(const Eigen::Array<bool, 3, 3>& marked) {
 }
 
 CalibrationCoverage CoverageOf(const CalibrationTarget& target, const CalibrationCamera& camera,
-                               const std::vector<CoveringImage>& images) {
+                               const ImageCircle& circle, const std::vector<CoveringImage>& images) {
   CalibrationCoverage coverage;
   coverage.corner_counts.setZero(kCells, kCells);
   coverage.is_flat = std::all_of(target.points.begin(), target.points.end(),
@@ -101,8 +116,11 @@ CalibrationCoverage CoverageOf(const CalibrationTarget& target, const Calibratio
       coverage.max_tilt_deg = std::max(coverage.max_tilt_deg, kDegPerRad * std::acos(std::min(1.0, cosine)));
   }
   if (coverage.images == 0) coverage.nearest_m = 0;
-  coverage.covered_share = (coverage.corner_counts.array() > 0).cast<double>().mean();
-  coverage.lacks = Lacks(coverage);
+  const Cells cells = CellsThatSee(camera, circle, coverage.corner_counts);
+  if (cells.any())
+    coverage.covered_share = static_cast<double>((coverage.corner_counts.array() > 0).count()) /
+                             static_cast<double>(cells.count());
+  coverage.lacks = Lacks(coverage, cells);
   return coverage;
 }
 

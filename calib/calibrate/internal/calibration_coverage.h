@@ -1,6 +1,7 @@
 // Reports where a camera's calibration images hold corners, and names in words what they lack.
 //
-// Lens parameters are determined only where corners were seen: the image is divided into 6 x 6 cells. The
+// Lens parameters are determined only where corners were seen: the image is divided into 6 x 6 cells. Cells whose middle
+// lies outside the image circle count where they hold a corner, and are not lacking where they hold none. The
 // focal length is determined by foreshortening, so a flat board has to be tilted. Boards at one distance
 // leave it to the tilt alone.
 #ifndef LUXFIT_CALIB_CALIBRATE_INTERNAL_CALIBRATION_COVERAGE_H_
@@ -27,7 +28,7 @@ std::string ThirdsInWords(const Eigen::Array<bool, 3, 3>& marked);
 
 // Returns the coverage of one camera by its images.
 CalibrationCoverage CoverageOf(const CalibrationTarget& target, const CalibrationCamera& camera,
-                               const std::vector<CoveringImage>& images);
+                               const ImageCircle& circle, const std::vector<CoveringImage>& images);
 
 }  // namespace luxfit
 

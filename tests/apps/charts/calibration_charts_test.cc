@@ -8,6 +8,7 @@
 #include "apps/charts/coverage_svg.h"
 #include "apps/charts/residual_svg.h"
 #include "apps/charts/rig_svg.h"
+#include "apps/charts/uncertainty_svg.h"
 
 namespace luxfit {
 namespace {
@@ -43,9 +44,33 @@ TEST(ResidualSvg, OutliersWithoutAResidualAreCrossesAlone) {
 TEST(CoverageSvg, HatchesCellsWithoutCorners) {
   Eigen::MatrixXi counts(1, 2);
   counts << 0, 7;
-  const std::string svg = CoverageSvg({640, 480}, counts, {{500, 200}});
+  const std::string svg = CoverageSvg({640, 480}, counts, {}, {{500, 200}});
   EXPECT_THAT(svg, HasSubstr("fill=\"url(#no-corner)\""));
   EXPECT_THAT(svg, HasSubstr(">7</text>"));
+}
+
+TEST(CoverageSvg, NothingLacksOutsideTheImageCircle) {
+  Eigen::MatrixXi counts(1, 2);
+  counts << 0, 7;
+  const std::string svg = CoverageSvg({640, 480}, counts, {{480, 240}, 200}, {{500, 200}});
+  EXPECT_THAT(svg, Not(HasSubstr("fill=\"url(#no-corner)\"")));
+}
+
+TEST(UncertaintySvg, LeavesBlankWhatLiesOutsideTheImageCircle) {
+  UncertaintyMap map;
+  map.width_px = 640;
+  map.height_px = 480;
+  map.sigma_px = Eigen::MatrixXd::Constant(1, 2, kNan);
+  const auto hatched = [&] {
+    const std::string svg = UncertaintySvg(map, {});
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = svg.find("fill=\"url(#unknown)\"", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(hatched(), 2U);
+  map.circle = {{480, 240}, 200};
+  EXPECT_EQ(hatched(), 1U);
 }
 
 DrawnCamera CameraAt(const std::string& name, double x_m) {

@@ -32,7 +32,7 @@ const CalibrationCamera kCamera = {"cam0", 600, 600};
 TEST(CalibrationCoverage, SaysWhatIsMissingWhere) {
   const CalibrationTarget target = support::GridTarget(10, 10);
   const auto lacks = [&](const std::vector<CoveringImage>& images) {
-    return CoverageOf(target, kCamera, images).lacks;
+    return CoverageOf(target, kCamera, {}, images).lacks;
   };
   EXPECT_THAT(lacks({{Corners(0, 0, 599, 599), Pose(20, 0.5)}, {Corners(0, 0, 599, 599), Pose(30, 1)}}),
               IsEmpty());
@@ -45,9 +45,22 @@ TEST(CalibrationCoverage, SaysWhatIsMissingWhere) {
       ElementsAre("the board was never tilted more than 5 degrees", "all boards are at one distance"));
 }
 
+TEST(CalibrationCoverage, NothingLacksOutsideTheImageCircle) {
+  const ImageCircle circle{{299.5, 299.5}, 200};
+  const CalibrationCoverage coverage =
+      CoverageOf(support::GridTarget(10, 10), kCamera, circle,
+                 {{Corners(110, 110, 490, 490), Pose(20, 0.5)}, {Corners(110, 110, 490, 490), Pose(30, 1)}});
+  EXPECT_THAT(coverage.lacks, IsEmpty());
+  EXPECT_DOUBLE_EQ(coverage.covered_share, 1);
+  const CalibrationCoverage half = CoverageOf(support::GridTarget(10, 10), kCamera, circle,
+                                              {{Corners(110, 110, 290, 490), Pose(20, 0.5)}});
+  EXPECT_THAT(half.lacks, testing::Contains("no corner in the middle right third of the image"));
+  EXPECT_LT(half.covered_share, 0.7);
+}
+
 TEST(CalibrationCoverage, CountsCellsAndCorners) {
   const CalibrationCoverage coverage = CoverageOf(
-      support::GridTarget(10, 10), kCamera, {{Corners(0, 0, 299, 299), Pose(25, 0.5)}, {{}, Pose(0, 9)}});
+      support::GridTarget(10, 10), kCamera, {}, {{Corners(0, 0, 299, 299), Pose(25, 0.5)}, {{}, Pose(0, 9)}});
   EXPECT_EQ(coverage.corner_counts.sum(), 100);
   EXPECT_DOUBLE_EQ(coverage.covered_share, 0.25);
   EXPECT_EQ(coverage.images, 1);

@@ -366,5 +366,29 @@ TEST(Calibration, ProgrammersErrorsAreThrown) {
   EXPECT_THROW(CalibrateCameras(input), std::invalid_argument);
 }
 
+// The circle of a lens of 180 degrees takes less than half of this picture. Nothing can be seen in the rest.
+TEST(Calibration, AWideCameraIsJudgedWithinItsImageCircle) {
+  auto rng = TestRng();
+  Camera truth;
+  truth.lens = LensModel::kFisheye;
+  truth.width_px = 1600;
+  truth.height_px = 1000;
+  truth.fx_px = truth.fy_px = 480 / (M_PI / 2);
+  truth.cx_px = 799.5;
+  truth.cy_px = 499.5;
+  BoardViewsOptions views = WideViews(60);
+  views.reach = 1.6;
+  const Calibration result = CalibrateCameras(ViewsOf(truth, views, rng), Only("fisheye"));
+  ASSERT_TRUE(result.converged) << result.message;
+  const CalibratedCamera& camera = result.cameras.front();
+  std::printf("circle %.1f px, uncertain %.3f, covered %.2f\n", camera.circle.radius_px,
+              camera.uncertain_share, camera.coverage.covered_share);
+  EXPECT_NEAR(camera.circle.radius_px, 480, 5);
+  EXPECT_LT(camera.uncertain_share, 0.02);
+  EXPECT_EQ(NoteOf(result, "uncertain_projection"), nullptr);
+  EXPECT_EQ(NoteOf(result, "coverage"), nullptr);
+  EXPECT_TRUE(result.IsUsable());
+}
+
 }  // namespace
 }  // namespace luxfit
