@@ -114,6 +114,28 @@ TEST_F(AdviseOffice, APhotoAsAdvisedTellsWhatWasPredicted) {
   EXPECT_LT(after.position_error_m, 0.5 * before.position_error_m);
 }
 
+// The tutorial's way (docs/tutorial.md): ten photos, run, ask, two more.
+TEST_F(AdviseOffice, TenPhotosAndTheTwoThatAreAdvised) {
+  std::set<Photo> photos;
+  for (const char* view : {"v00", "v03"}) {
+    for (const char* state : {"A", "B", "C", "D", "all"}) photos.insert({view, state});
+  }
+  const Outcome ten = Fit(photos);
+  WritePlaces(photos);
+  const json advice = Advise("--only photos --photos '" + office_.Path("places.csv") + "' --top 2");
+  ASSERT_EQ(advice["advice"].size(), 2u);
+  for (const json& step : advice["advice"]) {
+    std::printf("%s\n", step["words"].get<std::string>().c_str());
+    photos.emplace(step["id"].get<std::string>(), step["state"].get<std::string>());
+  }
+  const Outcome twelve = Fit(photos);
+  std::printf("positions: %.1f mm off, sigma %.1f mm; then %.1f mm off, sigma %.1f mm\n",
+              1e3 * ten.position_error_m, 1e3 * ten.position_sigma_m, 1e3 * twelve.position_error_m,
+              1e3 * twelve.position_sigma_m);
+  EXPECT_LT(twelve.position_error_m, 0.5 * ten.position_error_m);
+  EXPECT_LT(twelve.position_sigma_m, 0.7 * ten.position_sigma_m);
+}
+
 // The first eight photos, advised with no run and of views that register: each luminaire alone from two of them. Each is
 // found; of random draws of eight, two in five lose one (docs/advise.md).
 TEST_F(AdviseOffice, TheFirstPhotosAsAdvisedFindEveryLuminaire) {
