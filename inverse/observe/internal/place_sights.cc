@@ -90,24 +90,32 @@ bool PlaceSights::Shows(const PhotoBlobs& photo, const BrightBlob& blob, const S
          blob.extent_px.exteriorDistance(pixel) <= TolerancePx(camera, place, in_cam.norm());
 }
 
+bool PlaceSights::ShowsAny(const PhotoBlobs& photo, const SeenPlace& place) const {
+  return std::any_of(photo.blobs.begin(), photo.blobs.end(),
+                     [&](const BrightBlob& b) { return Shows(photo, b, place); });
+}
+
+bool PlaceSights::Lacks(const PhotoBlobs& photo, const SeenPlace& place) const {
+  const RegisteredView& view = View(photo);
+  const Camera& camera = CameraOf(view);
+  const Eigen::Vector3d in_cam = view.cam_from_world * place.position;
+  const Eigen::Vector2d pixel = Project(camera, in_cam);
+  if (!pixel.allFinite() || ShowsAny(photo, place)) return false;
+  const double tolerance_px = TolerancePx(camera, place, in_cam.norm());
+  const Eigen::AlignedBox2d inside(
+      Eigen::Vector2d::Constant(tolerance_px),
+      Eigen::Vector2d(camera.width_px - 1 - tolerance_px, camera.height_px - 1 - tolerance_px));
+  return inside.contains(pixel) && IsFreeFrom(photo.view, place);
+}
+
 void PlaceSights::CountPhotos(int state, SeenPlace& place) const {
   for (const PhotoBlobs& photo : photos_) {
     if (photo.state != state) continue;
-    const RegisteredView& view = View(photo);
-    const Camera& camera = CameraOf(view);
-    const Eigen::Vector3d in_cam = view.cam_from_world * place.position;
-    const Eigen::Vector2d pixel = Project(camera, in_cam);
-    if (!pixel.allFinite()) continue;
-    if (std::any_of(photo.blobs.begin(), photo.blobs.end(),
-                    [&](const BrightBlob& b) { return Shows(photo, b, place); })) {
+    if (ShowsAny(photo, place)) {
       ++place.photos;
-      continue;
+    } else if (Lacks(photo, place)) {
+      ++place.missing;
     }
-    const double tolerance_px = TolerancePx(camera, place, in_cam.norm());
-    const Eigen::AlignedBox2d inside(
-        Eigen::Vector2d::Constant(tolerance_px),
-        Eigen::Vector2d(camera.width_px - 1 - tolerance_px, camera.height_px - 1 - tolerance_px));
-    if (inside.contains(pixel) && IsFreeFrom(photo.view, place)) ++place.missing;
   }
 }
 

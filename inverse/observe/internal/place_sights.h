@@ -39,6 +39,9 @@ class PlaceSights {
   // Returns whether the place's image lies in the blob, up to its sigma.
   bool Shows(const PhotoBlobs& photo, const BrightBlob& blob, const SeenPlace& place) const;
 
+  // Returns whether the photo should show the place, in the picture and in free sight, and does not.
+  bool Lacks(const PhotoBlobs& photo, const SeenPlace& place) const;
+
   // Counts the photos of the state that show the place, and those that should and do not.
   void CountPhotos(int state, SeenPlace& place) const;
 
@@ -59,6 +62,7 @@ class PlaceSights {
   const Camera& CameraOf(const RegisteredView& view) const {
     return cameras_[static_cast<size_t>(view.camera)];
   }
+  bool ShowsAny(const PhotoBlobs& photo, const SeenPlace& place) const;
   double TolerancePx(const Camera& camera, const SeenPlace& place, double distance_m) const;
 
   const Room& room_;

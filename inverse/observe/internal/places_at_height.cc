@@ -136,6 +136,7 @@ class PlacesAtHeight {
   std::vector<Crossing> Crossings() const {
     std::vector<Crossing> crossings;
     for (const PhotoBlobs& photo : sights_.photos()) {
+      if (IsDistrusted(photo.view)) continue;
       for (const BrightBlob& blob : photo.blobs) {
         if (blob.touches_edge || BelongsToSurePlace(photo, blob)) continue;
         Crossing crossing = CrossingOf(photo, blob);
@@ -166,6 +167,17 @@ class PlacesAtHeight {
     const double t = (height_.z_m - sight.origin.z()) / sight.direction.z();
     return t > 0 ? Eigen::Vector3d(sight.origin + t * sight.direction)
                  : Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  }
+
+  // The pose of such a view is worse than it says, or something stands before it: its rays would place others wrongly.
+  bool IsDistrusted(int view) const {
+    return std::any_of(sights_.photos().begin(), sights_.photos().end(), [&](const PhotoBlobs& photo) {
+      return photo.view == view && std::any_of(known_.begin(), known_.end(), [&](const SeenPlace& place) {
+               return IsSure(place) &&
+                      std::count(place.states.begin(), place.states.end(), photo.state) > 0 &&
+                      sights_.Lacks(photo, place);
+             });
+    });
   }
 
   bool BelongsToSurePlace(const PhotoBlobs& photo, const BrightBlob& blob) const {
