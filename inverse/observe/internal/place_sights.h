@@ -1,4 +1,4 @@
-// What photos show of a place: rays of bright blobs, photos that show it bright or should and do not, free sight.
+// Tells what photos show of a place: which show it bright, which should and do not, and where the rays of bright blobs run.
 //
 // Keeps references to everything it is given. Units: m, rad; world frame.
 #ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_PLACE_SIGHTS_H_

@@ -21,14 +21,20 @@ size_t Place(int u, int v) { return static_cast<size_t>(2 * (v % 2) + u % 2); }
 // Of the mosaic red green / green blue.
 size_t ChannelAt(int u, int v) { return std::array<size_t, 4>{0, 1, 1, 2}[Place(u, v)]; }
 
-// `truth`: counts above black of a channel at a place.
-template <typename Truth>
-support::TestDng MosaicOf(const Truth& truth) {
+// Returns a file without counts yet.
+support::TestDng EmptyDng() {
   support::TestDng dng;
   dng.width_px = kWidth;
   dng.height_px = kHeight;
   dng.black = kBlack;
   dng.white = 15000;
+  return dng;
+}
+
+// `truth`: counts above black of a channel at a place.
+template <typename Truth>
+support::TestDng MosaicOf(const Truth& truth) {
+  support::TestDng dng = EmptyDng();
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       dng.counts.push_back(static_cast<std::uint16_t>(truth(ChannelAt(u, v), u, v) + kBlack[Place(u, v)]));
@@ -69,12 +75,8 @@ TEST(RawPhotoTest, NoiseBelowBlackStaysNegative) {
 // Three colours a pixel, as ProRAW and DNG converters write them. `truth`: as of MosaicOf.
 template <typename Truth>
 support::TestDng LinearOf(const Truth& truth) {
-  support::TestDng dng;
-  dng.width_px = kWidth;
-  dng.height_px = kHeight;
+  support::TestDng dng = EmptyDng();
   dng.is_linear = true;
-  dng.black = kBlack;
-  dng.white = 15000;
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       for (size_t c = 0; c < 3; ++c)
