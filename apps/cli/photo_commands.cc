@@ -45,10 +45,10 @@ void AddSpot(CLI::App& app, Invocation& invocation) {
   const auto options = std::make_shared<SpotCommandOptions>();
   AddPhotoInput(*command, *options);
   command
-      ->add_option(
-          "SPOT", options->spots,
-          "PHOTO:X,Y (the photo as VIEW_STATE; its pixel, 0,0 being the centre of the top-left one), or "
-          "one table .csv: photo,x_px,y_px[,radius_px]")
+      ->add_option("SPOT", options->spots,
+                   "PHOTO:X,Y (the photo as VIEW_STATE or by its file; its pixel, 0,0 being the centre of "
+                   "the top-left one), or "
+                   "one table .csv: photo,x_px,y_px[,radius_px]")
       ->required();
   command->add_option("--radius", options->radius_px, "radius of the circles, px")
       ->capture_default_str()
@@ -65,7 +65,7 @@ void AddGlare(CLI::App& app, Invocation& invocation) {
       "glare", "glare that photos show: vertical illuminance at the lens, UGR, DGP, glare sources");
   const auto options = std::make_shared<GlareCommandOptions>();
   AddPhotoInput(*command, *options);
-  command->add_option("PHOTO", options->names, "photos as VIEW_STATE (default: all)");
+  command->add_option("PHOTO", options->names, "photos as VIEW_STATE or by their files (default: all)");
   command
       ->add_option("--ev", options->vertical_lx,
                    "vertical illuminance at the lens of the one photo, lx, for photos that show less than a "

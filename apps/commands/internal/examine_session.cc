@@ -100,7 +100,7 @@ void ExaminePhotometry(const Session& session, DoctorFindings& findings) {
   AddWarnings(said.warnings, findings);
 }
 
-// Linearizes and registers as `run` does, but for COLMAP, which takes minutes.
+// Linearizes, calibrates and registers as `run` does, but for COLMAP, which takes minutes.
 void ExamineRegistration(const Session& session, RunContext& context, DoctorFindings& findings) {
   Session by_tags = session;
   by_tags.registration.method = "tags";
@@ -188,6 +188,12 @@ void ExamineTags(const Session& session, const std::map<std::string, std::vector
                         "survey them too"});
 }
 
+// Its photos of the room show surveyed tags, and nothing else says what its lens is. That takes seconds.
+bool IsCalibratedFromOwnPhotos(const Session& session, const SessionCamera& camera) {
+  return camera.intrinsics.empty() && camera.calibration_images.empty() &&
+         camera.calibration_corners.empty() && CanBeCalibrated(session, camera);
+}
+
 void ExaminePhotos(const Session& session, RunContext& context, DoctorFindings& findings) {
   if (session.photos.empty()) {
     findings.push_back({Health::kNote, "no [photos]: the fit is to readings alone", ""});
@@ -220,8 +226,9 @@ void ExaminePhotos(const Session& session, RunContext& context, DoctorFindings& 
                       fmt::format("{} of {} photos can be used, {} views", looks.size() - problems,
                                   looks.size(), views.size()),
                       ""});
-  const bool has_intrinsics =
-      std::all_of(cameras.begin(), cameras.end(), [](const auto& c) { return c.has_value(); });
+  const bool has_intrinsics = std::all_of(
+      session.cameras.begin(), session.cameras.end(),
+      [&](const SessionCamera& c) { return !c.intrinsics.empty() || IsCalibratedFromOwnPhotos(session, c); });
   const bool has_tags = std::any_of(tags_of_view.begin(), tags_of_view.end(),
                                     [](const auto& view) { return !view.second.empty(); });
   if (has_intrinsics && has_tags && problems == 0 && !session.lights) {

@@ -1,5 +1,7 @@
 #include "apps/commands/internal/measured_photos.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -93,12 +95,30 @@ Camera WithOwnSize(Camera camera, const std::string& file) {
   return camera;
 }
 
+// Returns whether one of the photo's files has this name, with or without its folders and its ending.
+bool IsOfFile(const LinearizedPhoto& photo, const std::string& name) {
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  const std::filesystem::path asked(name);
+  return std::any_of(photo.bracket.begin(), photo.bracket.end(), [&](const PhotoExposure& exposure) {
+    const std::filesystem::path file(exposure.file);
+    return asked == file.filename() || asked == file.stem() || whole(asked) == whole(file);
+  });
+}
+
 }  // namespace
 
 size_t MeasuredPhotos::IndexOf(const std::string& name, const std::string& where) const {
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end()) throw std::runtime_error(where + ": " + ExpectedOneOf(names, name));
-  return static_cast<size_t>(at - names.begin());
+  if (at != names.end()) return static_cast<size_t>(at - names.begin());
+  std::vector<size_t> of_file;
+  for (size_t i = 0; i < photos.photos.size(); ++i)
+    if (IsOfFile(photos.photos[i], name)) of_file.push_back(i);
+  if (of_file.size() == 1) return of_file.front();
+  if (of_file.empty()) throw std::runtime_error(where + ": " + ExpectedOneOf(names, name));
+  throw std::runtime_error(fmt::format("{}: expected a file of one photo, got one of {} and {}; name it so",
+                                       where, names[of_file[0]], names[of_file[1]]));
 }
 
 const std::optional<LuminanceScale>& MeasuredPhotos::ScaleOf(size_t photo) const {

@@ -42,7 +42,8 @@ struct MeasuredPhotos {
   PhotoCorrections corrections;
   std::vector<std::optional<LuminanceScale>> scale;  // by camera; empty: relative
 
-  // Returns the index of a photo by its name. Throws std::runtime_error that begins with `where`.
+  // Returns the index of a photo by its name, or by that of one of its files, with or without the ending. Throws
+  // std::runtime_error that begins with `where`.
   size_t IndexOf(const std::string& name, const std::string& where) const;
   const std::optional<LuminanceScale>& ScaleOf(size_t photo) const;
   // Returns the rotation that turns directions of the photo's camera so that z is up: by its pose, or, where that is

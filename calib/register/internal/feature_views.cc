@@ -45,6 +45,7 @@ std::vector<bool> TakePoses(const BundleContext& context, const FeatureModel& in
       continue;
     }
     DropStartNotes(view.name, notes);
+    if (view.active && by_tags >= 2) view.by_tags = {view.used, view.pose};
     view.active = true;
     view.used = agrees;
     view.SetCamFromWorld(cam_from_world);

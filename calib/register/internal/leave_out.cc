@@ -68,11 +68,27 @@ BundleView* WorstView(const BundleContext& context, BundleAdjustment& adjustment
   return worst;
 }
 
-// Returns a view with most of its points rejected: the features place it elsewhere than its tags and the
-// other views do.
-BundleView* AstrayView(BundleAdjustment& adjustment) {
+// Returns whether corners of tags that agree by themselves are rejected where the points have placed the view, more than those
+// of one tag that was moved. Features of repeated things (desks in a row) agree with one another in a wrong place.
+bool ContradictsItsTags(const BundleContext& context, const BundleAdjustment& adjustment,
+                        const BundleView& view) {
+  if (!view.by_tags) return false;
+  constexpr int kCornersOfOneTag = 4;
+  int rejected = 0;
+  for (std::size_t i = 0; i < view.tags.size(); ++i) {
+    if (!view.by_tags->used[i]) continue;
+    for (const BundleCornerError& error : BundleTagErrors(context, adjustment, view, i))
+      rejected += error.sigmas <= kBundleRejectedSigmas * adjustment.scale ? 0 : 1;
+  }
+  return rejected > kCornersOfOneTag;
+}
+
+// Returns a view with most of its points, or more than one of its tags, rejected: the features place it elsewhere than its
+// tags and the other views do.
+BundleView* AstrayView(const BundleContext& context, BundleAdjustment& adjustment) {
   for (BundleView& view : adjustment.views) {
     if (!view.active || view.points.empty()) continue;
+    if (ContradictsItsTags(context, adjustment, view)) return &view;
     const std::ptrdiff_t used = CountUsed(view.points);
     const bool has_tags = view.TagsUsed() > 0;
     if (used > 0 && 2 * used < static_cast<std::ptrdiff_t>(view.points.size())) return &view;
@@ -84,6 +100,10 @@ BundleView* AstrayView(BundleAdjustment& adjustment) {
 // Leaves out the view's points; its tags keep the view if it has any.
 void LeaveOutPoints(BundleView& view, std::vector<RegistrationNote>& notes) {
   view.points.clear();
+  if (view.by_tags) {
+    view.used = view.by_tags->used;
+    view.pose = view.by_tags->pose;
+  }
   view.active = view.TagsUsed() > 0;
   notes.push_back({view.name, -1, "features_disagree",
                    "Most feature points of view " + view.name + " contradict its tags and the other views; " +
@@ -130,7 +150,9 @@ void SolveWithPoints(const BundleContext& context, BundleAdjustment& adjustment)
 void LeaveOutTag(int id, BundleAdjustment& adjustment, std::vector<RegistrationNote>& notes) {
   for (BundleView& view : adjustment.views) {
     for (std::size_t i = 0; i < view.tags.size(); ++i) {
-      if (view.tags[i].id == id) view.used[i] = false;
+      if (view.tags[i].id != id) continue;
+      view.used[i] = false;
+      if (view.by_tags) view.by_tags->used[i] = false;
     }
   }
   notes.push_back(TagDisagrees(id));
@@ -155,7 +177,7 @@ void SolveLeavingOut(const BundleContext& context, BundleAdjustment& adjustment,
       LeaveOutTag(tag, adjustment, notes);
       continue;
     }
-    if (BundleView* const astray = AstrayView(adjustment)) {
+    if (BundleView* const astray = AstrayView(context, adjustment)) {
       LeaveOutPoints(*astray, notes);
       continue;
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -72,6 +73,22 @@ TEST_F(Spot, ATableOfSpotsIsRead) {
   EXPECT_EQ(Artifact().at("spots").at(0).at("pixels"), 29);
   EXPECT_EQ(Artifact().at("spots").at(1).at("pixels"), 2);
   EXPECT_THAT(run.output, HasSubstr("leave out the error of the camera's scale"));
+}
+
+// As a phone named it: the same photo as v00_all.
+TEST_F(Spot, APhotoIsKnownByItsFile) {
+  std::filesystem::copy_file(office_.Path("office/photos/v00_all.png"),
+                             office_.Path("office/photos/IMG_1238.png"));
+  office_.Write("office/photos.csv",
+                "file,camera,view,state,exposure_s\nphotos/IMG_1238.png,cam0,v00,all,0.0848\n"
+                "photos/v01_A.png,cam0,v01,A,0.115\n");
+  const support::ProgramRun run = Run("v00_all:400,300 IMG_1238:400,300 IMG_1238.png:400,300 " +
+                                      office_.Path("office/photos/IMG_1238.png") + ":400,300");
+  ASSERT_EQ(run.status, 0) << run.output;
+  const json spots = Artifact().at("spots");
+  ASSERT_EQ(spots.size(), 4u);
+  for (const json& spot : spots) EXPECT_EQ(spot, spots[0]);
+  EXPECT_THAT(Run("IMG_1239:400,300").output, HasSubstr("expected v00_all or v01_A"));
 }
 
 // A luminaire shines there.

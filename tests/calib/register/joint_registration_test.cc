@@ -163,6 +163,25 @@ TEST(JointRegistrationTest, AViewThatFeaturesMisplaceKeepsItsTags) {
     EXPECT_LT(support::PoseError(registration.views[v], room.poses[v]).tail<3>().norm(), 0.005) << v;
 }
 
+// Repeated things (desks in a row) put a view farther back or nearer, where some of its tags still seem to fit.
+TEST(JointRegistrationTest, AViewIsNotWhereSomeOfItsTagsContradictIt) {
+  std::mt19937_64 rng = support::TestRng();
+  const FeatureRoom room = support::MakeFeatureRoom(8, 24, 300, rng);
+  const std::vector<ViewDetections> detections = DetectAll(room, 0.1, rng);
+  ASSERT_GE(detections[5].tags.size(), 4u);
+  RegisterViewsOptions options;
+  options.survey_sigma_m = 0.001;
+  for (const double shift_m : {-0.1, 0.1, 0.2}) {
+    FeatureRoom wrong = room;
+    wrong.poses[5].translation() += Eigen::Vector3d(0.1 * shift_m, 0, shift_m);
+    const Registration registration =
+        RegisterViews({room.camera}, room.tags, detections,
+                      support::FeaturesOfRoom(wrong, {0.3, 0, 0.005}, AnySimilarity(), rng), options);
+    ASSERT_EQ(registration.views.size(), 8u) << shift_m;
+    EXPECT_LT(support::PoseError(registration.views[5], room.poses[5]).tail<3>().norm(), 0.02) << shift_m;
+  }
+}
+
 // The reconstruction of another room: it fits the tags nowhere, and tags alone go on.
 TEST(JointRegistrationTest, FeaturesOfAnotherRoomAreRefusedByName) {
   std::mt19937_64 rng = support::TestRng();

@@ -28,6 +28,12 @@ struct PointObservation {
   bool used = true;
 };
 
+// Holds where its tags alone place a view, and those among them that agree with one another.
+struct TagStart {
+  std::vector<bool> used;  // by tag
+  Eigen::Matrix<double, 7, 1> pose;
+};
+
 // Holds one view during the adjustment.
 struct BundleView {
   std::string name;
@@ -38,6 +44,7 @@ struct BundleView {
   bool active = false;
   // world_from_cam rotation (x y z w), centre in world: the solver's form.
   Eigen::Matrix<double, 7, 1> pose = Eigen::Matrix<double, 7, 1>::Unit(3);
+  std::optional<TagStart> by_tags;  // of a view that features placed otherwise, where two tags and more do
 
   int TagsUsed() const { return static_cast<int>(std::count(used.begin(), used.end(), true)); }
   Eigen::Isometry3d CamFromWorld() const;

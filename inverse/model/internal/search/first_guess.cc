@@ -41,11 +41,11 @@ Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p)
 
 struct SeenPositions {
   std::vector<int> index;
-  std::vector<SeenPosition> places;
+  std::vector<SeenPlace> places;  // inside the room
 
   std::optional<int> IndexAt(const Eigen::Vector3d& p) const {
     const auto at = std::find_if(places.begin(), places.end(),
-                                 [&](const SeenPosition& place) { return place.position == p; });
+                                 [&](const SeenPlace& place) { return place.position == p; });
     return at == places.end() ? std::nullopt : std::optional(index[static_cast<size_t>(at - places.begin())]);
   }
 };
@@ -137,8 +137,8 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
     const LuminaireGroup& group = light.groups[g];
     SeenPositions own{SeenOf(group, data, seen), {}};
     for (const int i : own.index) {
-      const SeenPlace& place = seen[static_cast<size_t>(i)];
-      own.places.push_back({Inside(room.scene.Bounds(), place.position), IsSure(place)});
+      own.places.push_back(seen[static_cast<size_t>(i)]);
+      own.places.back().position = Inside(room.scene.Bounds(), own.places.back().position);
     }
     const SparseLuminaires found =
         search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),

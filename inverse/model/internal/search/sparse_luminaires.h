@@ -31,6 +31,7 @@
 
 #include "inverse/model/internal/search/grouped_light.h"
 #include "inverse/model/internal/search/lit_places.h"
+#include "inverse/observe/seen_luminaires.h"
 
 namespace luxfit {
 
@@ -53,12 +54,6 @@ struct SparseLuminaires {
   bool is_aimed = false;         // true: lobes of any aim
 };
 
-// A place that photos show.
-struct SeenPosition {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  bool is_sure = false;  // enough views saw it that it is not there by chance
-};
-
 class SparseSearch {
  public:
   // Traces the grid's light once for all groups, when it is first needed. Keeps references. Not to be shared
@@ -79,7 +74,7 @@ class SparseSearch {
   // thirds of the squares. `searches_on` is asked before anything but the seen places is tried: false leaves it at
   // them.
   SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
-                        const std::vector<SeenPosition>& seen = {},
+                        const std::vector<SeenPlace>& seen = {},
                         const std::function<bool()>& searches_on = {}) const;
 
  private:
