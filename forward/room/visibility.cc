@@ -1,7 +1,5 @@
 #include "forward/room/visibility.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "forward/room/internal/embree_queries.h"
 #include "forward/room/internal/expect_valid.h"
 #include "forward/room/internal/facet_corners.h"
 
@@ -136,9 +135,7 @@ RayHit RayScene::Trace(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
   RTCRayHit query{};
   query.ray = MakeRay(origin, direction, std::numeric_limits<float>::infinity());
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(state_->scene, &context, &query);
+  Intersect(state_->scene, query);
   RayHit hit;
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.facet = state_->FacetOf(query.hit.geomID, query.hit.primID);
@@ -157,9 +154,7 @@ bool RayScene::Occluded(const Eigen::Vector3d& from, const Eigen::Vector3d& to) 
   const double length = direction.norm();
   if (length <= 1e-5) return false;
   RTCRay ray = MakeRay(from, direction, static_cast<float>(1.0 - 1e-5 / length));
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(state_->scene, &context, &ray);
+  Occlude(state_->scene, ray);
   return ray.tfar < 0;
 }
 
@@ -171,9 +166,7 @@ PacketHits RayScene::Trace(const RayPacket& packet) const {
     query.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect8(valid, state_->scene, &context, &query);
+  Intersect(state_->scene, valid, query);
   PacketHits hits;
   for (int k = 0; k < packet.count; ++k) {
     hits.facet[k] = -1;
@@ -200,9 +193,7 @@ unsigned RayScene::Occluded(const RayPacket& packet) const {
                                    query.dir_z[k] * query.dir_z[k]);
     query.tfar[k] = 1.0f - 1e-5f / std::max(length, 1e-5f);
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded8(valid, state_->scene, &context, &query);
+  Occlude(state_->scene, valid, query);
   unsigned blocked = 0;
   for (int k = 0; k < packet.count; ++k) {
     if (query.tfar[k] < 0) blocked |= 1u << k;

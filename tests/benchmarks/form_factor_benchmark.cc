@@ -7,7 +7,6 @@
 // over the elements; `row_sum_error` largest |1 - sum|; `before` its root mean square before closure is
 // enforced.
 #include <benchmark/benchmark.h>
-#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "forward/factors/form_factors.h"
+#include "forward/room/internal/embree_queries.h"
 #include "forward/room/scene.h"
 #include "tests/paths.h"
 #include "tests/support/scenes.h"
@@ -88,11 +88,9 @@ class BareEmbree {
                       [&](const tbb::blocked_range<size_t>& range) {
                         alignas(32) int valid[8];
                         std::fill(valid, valid + 8, -1);
-                        RTCIntersectContext context;
                         for (size_t k = range.begin(); k < range.end(); ++k) {
-                          rtcInitIntersectContext(&context);
                           RTCRayHit8 query = packets_[k];
-                          rtcIntersect8(valid, scene_, &context, &query);
+                          Intersect(scene_, valid, query);
                           benchmark::DoNotOptimize(query.hit.primID[0]);
                         }
                       });

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/aruco.hpp>
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "calib/targets/internal/boards/aruco_dictionary.h"
 #include "calib/targets/internal/boards/grid_corners.h"
 #include "calib/targets/internal/boards/homography.h"
 #include "calib/targets/internal/boards/plane_lens.h"
@@ -31,10 +31,10 @@ constexpr int kMostColumns = 20;
 
 // Returns OpenCV's dictionary of a family; empty where OpenCV has none.
 cv::Ptr<cv::aruco::Dictionary> DictionaryOf(const std::string& family) {
-  if (family == "tag36h11") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
-  if (family == "tag36h10") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h10);
-  if (family == "tag25h9") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_25h9);
-  if (family == "tag16h5") return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_16h5);
+  if (family == "tag36h11") return PredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
+  if (family == "tag36h10") return PredefinedDictionary(cv::aruco::DICT_APRILTAG_36h10);
+  if (family == "tag25h9") return PredefinedDictionary(cv::aruco::DICT_APRILTAG_25h9);
+  if (family == "tag16h5") return PredefinedDictionary(cv::aruco::DICT_APRILTAG_16h5);
   return {};
 }
 

@@ -2,12 +2,13 @@
 
 #include <array>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace luxfit {
 namespace {
 
-constexpr std::array<std::pair<const char*, cv::aruco::PREDEFINED_DICTIONARY_NAME>, 17> kDictionaries = {{
+constexpr std::array<std::pair<const char*, int>, 17> kDictionaries = {{
     {"DICT_4X4_50", cv::aruco::DICT_4X4_50},
     {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
     {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
@@ -27,15 +28,27 @@ constexpr std::array<std::pair<const char*, cv::aruco::PREDEFINED_DICTIONARY_NAM
     {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL},
 }};
 
+template <typename Dictionary>
+cv::Ptr<cv::aruco::Dictionary> PointerTo(const Dictionary& dictionary) {
+  if constexpr (std::is_same_v<Dictionary, cv::aruco::Dictionary>)
+    return cv::makePtr<cv::aruco::Dictionary>(dictionary);
+  else
+    return dictionary;
+}
+
 // "DICT_4X4" of "DICT_4X4_50".
 std::string KindOf(const std::string& name) { return name.substr(0, name.find_last_of('_')); }
 
 }  // namespace
 
+cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number) {
+  return PointerTo(cv::aruco::getPredefinedDictionary(number));
+}
+
 cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name) {
   std::string known;
   for (const auto& [its_name, dictionary] : kDictionaries) {
-    if (name == its_name) return cv::aruco::getPredefinedDictionary(dictionary);
+    if (name == its_name) return PredefinedDictionary(dictionary);
     known += (known.empty() ? "" : ", ") + std::string(its_name);
   }
   throw std::invalid_argument("dictionary: expected one of " + known + ", got \"" + name + "\"");

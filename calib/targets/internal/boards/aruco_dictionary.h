@@ -2,11 +2,14 @@
 #ifndef LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_ARUCO_DICTIONARY_H_
 #define LUXFIT_CALIB_TARGETS_INTERNAL_BOARDS_ARUCO_DICTIONARY_H_
 
-#include <opencv2/aruco/dictionary.hpp>
+#include <opencv2/aruco.hpp>
 #include <string>
 #include <vector>
 
 namespace luxfit {
+
+// Returns the dictionary of a number (cv::aruco::DICT_4X4_50). OpenCV returns a pointer before 4.7, a value since.
+cv::Ptr<cv::aruco::Dictionary> PredefinedDictionary(int number);
 
 // Throws std::invalid_argument, naming the known dictionaries, for an unknown name.
 cv::Ptr<cv::aruco::Dictionary> ArucoDictionary(const std::string& name);

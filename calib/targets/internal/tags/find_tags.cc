@@ -1,7 +1,6 @@
 #include "calib/targets/internal/tags/find_tags.h"
 
 #include <algorithm>
-#include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "calib/luminance/internal/display_image.h"
@@ -43,7 +42,7 @@ std::vector<FoundTag> FindTags(const ReducedPhoto& photo, const cv::Ptr<cv::aruc
                                int border_bits) {
   std::vector<FoundTag> tags;
   if (std::min(photo.grey.rows, photo.grey.cols) < kLeastSide_px) return tags;
-  const cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
+  const auto parameters = cv::makePtr<cv::aruco::DetectorParameters>();
   parameters->markerBorderBits = border_bits;
   parameters->minMarkerPerimeterRate = kLeastPerimeter;
   std::vector<std::vector<cv::Point2f>> corners;

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <opencv2/aruco/dictionary.hpp>
+#include <opencv2/aruco.hpp>
 #include <opencv2/core.hpp>
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include <apriltag/apriltag.h>
 
 #include <Eigen/Core>
-#include <opencv2/aruco/dictionary.hpp>
+#include <opencv2/aruco.hpp>
 #include <vector>
 
 #include "calib/luminance/image.h"
