@@ -3,24 +3,25 @@
 # then an outside project built against the libraries. Prints how many packages came along and the seconds of each step.
 #   fresh_debian.sh FOLDER_WITH_DEBS | SOURCE [WORK_FOLDER]
 # SOURCE, a clone of the repository: the packages are built first, on another fresh Debian 12. Both are the steps of
-# apps/Dockerfile. Not a ctest: it needs root, the package debootstrap, a network and 4 GB (8 GB to build). CCACHE_DIR, where
+# apps/Dockerfile. SUITE=trixie takes Debian 13. Not a ctest: it needs root, the package debootstrap, a network and 4 GB (8 GB to build). CCACHE_DIR, where
 # it is set, is lent to the build.
 set -eu
 given=$(realpath "$1")
 here=$(dirname "$(realpath "$0")")
 work=$(realpath -m "${2:-${TMPDIR:-/tmp}/fresh_debian}")
 mkdir -p "$work"
+suite=${SUITE:-bookworm}
 root=
 leave() { [ -z "$root" ] || for mounted in "$root/ccache" "$root/proc"; do ! mountpoint -q "$mounted" || umount "$mounted"; done; }
 trap leave EXIT
 
 # fresh NAME: a minimal system of that name to work in from then on.
 fresh() {
-  [ -d "$work/bookworm" ] || debootstrap --variant=minbase bookworm "$work/bookworm" http://deb.debian.org/debian >"$work/log"
+  [ -d "$work/$suite" ] || debootstrap --variant=minbase "$suite" "$work/$suite" http://deb.debian.org/debian >"$work/log"
   leave
   root=
   rm -rf "${work:?}/$1"
-  cp -a "$work/bookworm" "$work/$1"
+  cp -a "$work/$suite" "$work/$1"
   root=$work/$1
   mount -t proc proc "$root/proc"
   : >"$work/log"
@@ -76,5 +77,6 @@ step 'luxfit run, with COLMAP for views without tags'
 printf 'with recommendations: %d packages came along\n' $(($(count) - before - 1))
 last=$(date +%s)
 inside 'apt-get -q install -y --no-install-recommends /root/debs/libluxfit-dev_*.deb g++ cmake ninja-build'
+# shellcheck disable=SC2016
 inside 'cmake -S /root/consumer -B /root/build -G Ninja && cmake --build /root/build && for c in /root/build/consumer_*; do $c; done'
 step 'find_package(luxfit) from libluxfit-dev'
