@@ -67,7 +67,8 @@ std::vector<PixelMap> MapsOfViews(const Room& room, const std::vector<Camera>& c
 struct SeenPhoto {
   std::vector<Observation> observations;
   std::vector<Surround::Values> surround;  // of each observation
-  std::optional<PhotoBlobs> blobs;         // absent: the photo was not used
+  PictureMean mean;
+  std::optional<PhotoBlobs> blobs;  // absent: the photo was not used
 };
 
 // Returns what surrounds the pixels of each observation, in the mean.
@@ -105,6 +106,7 @@ std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPh
     seen[i].blobs = {index, photo.state, FindBrightBlobs(*image)};
     seen[i].observations = ObservePhoto(maps[static_cast<size_t>(index)], *image, index, photo.state);
     seen[i].surround = SurroundOf(maps[static_cast<size_t>(index)], *image, seen[i].observations);
+    seen[i].mean = PictureMeanOf(*image);
   });
   return seen;
 }
@@ -130,6 +132,27 @@ std::vector<int> CamerasOf(const std::vector<RegisteredView>& views) {
   cameras.reserve(views.size());
   for (const RegisteredView& view : views) cameras.push_back(view.camera);
   return cameras;
+}
+
+// Returns the observations of all photos without the veil of their lens, and notes what was found of both. Tones
+// that were mapped tell no veil.
+std::vector<Observation> WithoutVeilsOf(const std::vector<SeenPhoto>& seen,
+                                        const std::vector<int>& cameras_of, int cameras,
+                                        ObservedPhotos& observed) {
+  std::vector<Observation> observations;
+  std::vector<Surround::Values> surround;
+  PictureMeans means;
+  for (const SeenPhoto& photo : seen) {
+    surround.insert(surround.end(), photo.surround.begin(), photo.surround.end());
+    observations.insert(observations.end(), photo.observations.begin(), photo.observations.end());
+    observed.elements.push_back(photo.observations.size());
+    if (photo.blobs) means[{photo.blobs->view, photo.blobs->state}] = photo.mean;
+  }
+  observed.tone_mapping = FindToneMapping(observations, surround, cameras_of, cameras);
+  observed.veiling_glare = FindVeilingGlare(observations, means, cameras_of, cameras);
+  for (size_t c = 0; c < observed.tone_mapping.size(); ++c)
+    if (observed.tone_mapping[c] && observed.tone_mapping[c]->IsFound()) observed.veiling_glare[c].reset();
+  return WithoutVeils(std::move(observations), means, cameras_of, observed.veiling_glare);
 }
 
 // Lists the blobs of all photos but those left out.
@@ -173,15 +196,7 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
   if (observed.has_ambient) observed.views_without_ambient = ViewsWithout(photos, ambient);
   std::vector<SeenPhoto> seen = SeePhotos(MapsOfViews(room, cameras, views, options.tags), photos, views,
                                           observed.has_ambient, ambient, options.on_photo);
-  std::vector<Surround::Values> surround;
-  for (const SeenPhoto& photo : seen) {
-    surround.insert(surround.end(), photo.surround.begin(), photo.surround.end());
-    evidence.observations.insert(evidence.observations.end(), photo.observations.begin(),
-                                 photo.observations.end());
-    observed.elements.push_back(photo.observations.size());
-  }
-  observed.tone_mapping =
-      FindToneMapping(evidence.observations, surround, CamerasOf(views), static_cast<int>(cameras.size()));
+  evidence.observations = WithoutVeilsOf(seen, CamerasOf(views), static_cast<int>(cameras.size()), observed);
   {
     const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;
     ExplainedObservations explained = ExplainObservations(

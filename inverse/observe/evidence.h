@@ -1,6 +1,7 @@
 // Turns photos of registered views into the evidence that a fit starts from.
 //
 //   photos, poses -> luminance of every element, without ambient light, in one camera's unit
+//                 -> without the veil of a lens (inverse/observe/veiling_glare.h)
 //                 -> photos of another state, or encoded, left out -> states explained -> exposures, vignetting, response corrected
 //                 -> places and outlines where luminaires show
 //
@@ -32,6 +33,7 @@
 #include "inverse/observe/seen_luminaires.h"
 #include "inverse/observe/states_as_if.h"
 #include "inverse/observe/tone_mapping.h"
+#include "inverse/observe/veiling_glare.h"
 
 namespace luxfit {
 
@@ -61,6 +63,8 @@ struct ObservedPhotos {
   std::vector<std::string> views_without_ambient;
   std::optional<PhotoRadiometry> radiometry;             // absent where nothing was observed
   std::vector<std::optional<ToneMapping>> tone_mapping;  // by camera; absent where it is not judged
+  // By camera; absent where it is not judged, as with tones mapped. Where it is found, observations are without it.
+  std::vector<std::optional<VeilingGlare>> veiling_glare;
 };
 
 struct ObserveOptions {

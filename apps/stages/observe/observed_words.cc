@@ -53,6 +53,24 @@ bool RecordToneMapping(const std::vector<std::optional<ToneMapping>>& by_camera,
   return is_found;
 }
 
+void RecordVeilingGlare(const std::vector<std::optional<VeilingGlare>>& by_camera, const PhotoNames& names,
+                        Findings& findings) {
+  for (size_t c = 0; c < by_camera.size(); ++c) {
+    if (!by_camera[c]) continue;
+    const VeilingGlare& veil = *by_camera[c];
+    std::string because =
+        fmt::format("the lens adds {:.2f} +- {:.2f} % of a picture's mean to every pixel, by {} views",
+                    100 * veil.share, 100 * veil.sigma, veil.views);
+    if (veil.IsFound())
+      because += fmt::format("; they differ by {:.2f} % with it and {:.2f} % without", 100 * veil.difference,
+                             100 * veil.difference_without);
+    findings.choices.push_back({"veiling glare" + (by_camera.size() > 1 ? " of " + names.cameras[c] : ""),
+                                veil.IsFound() ? "taken out" : "none",
+                                {"none", "taken out"},
+                                because});
+  }
+}
+
 }  // namespace
 
 void RecordObserved(const ObservedPhotos& observed, const RoomPhotos& photos,
@@ -60,6 +78,7 @@ void RecordObserved(const ObservedPhotos& observed, const RoomPhotos& photos,
   RecordAmbient(observed, findings);
   WarnOfPhotos(observed.evidence.photos_as_if, photos, views, names, findings);
   const bool is_mapped = RecordToneMapping(observed.tone_mapping, names, findings);
+  RecordVeilingGlare(observed.veiling_glare, names, findings);
   WarnOfStates(observed.evidence.states_as_if, findings);
   if (!observed.radiometry) return;
   Findings radiometry;
