@@ -46,7 +46,8 @@ struct OfficeError {
 
 inline OfficeError WorstOfOffice(const std::vector<EstimatedLuminaire>& found) {
   OfficeError worst;
-  for (const nlohmann::json& truth : OfficeTruth().at("lamps")) {
+  const nlohmann::json office = OfficeTruth();
+  for (const nlohmann::json& truth : office.at("lamps")) {
     const auto at = std::find_if(found.begin(), found.end(), [&](const EstimatedLuminaire& l) {
       return l.id == truth.at("id").get<std::string>();
     });
