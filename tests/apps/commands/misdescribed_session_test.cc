@@ -36,7 +36,8 @@ TEST_F(MisdescribedSession, ExchangedPhotosAreLeftOutAndTheRestIsRight) {
   const std::string warnings = result["warnings"].dump();
   EXPECT_THAT(warnings, HasSubstr("(v03_A.png) look exchanged"));
   EXPECT_THAT(warnings, Not(HasSubstr("exposure_metadata")));
-  for (const json& lamp : support::OfficeTruth()["lamps"]) {
+  const json office = support::OfficeTruth();
+  for (const json& lamp : office["lamps"]) {
     for (const json& found : result["luminaires"]) {
       if (found["id"] != lamp["id"]) continue;
       const double flux_lm = lamp["flux_lm"];

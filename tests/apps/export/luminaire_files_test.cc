@@ -142,7 +142,8 @@ TEST_F(LuminaireFilesOfAFit, AreOnlyOfWhatIsDetermined) {
   EXPECT_NEAR(ReadPhotometry(folder_.Path("out/luminaires/A_1.ies")).luminaire_flux_lm, 1000, 20);
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("out/luminaires/lamp_B.ies")));
   EXPECT_FALSE(std::filesystem::exists(folder_.Path("out/luminaires/lamp_B.ldt")));
-  for (const json& luminaire : Result()["luminaires"])
+  const json result = Result();
+  for (const json& luminaire : result["luminaires"])
     EXPECT_EQ(luminaire.contains("files"), luminaire["id"] == "A/1") << luminaire;
 }
 

@@ -32,7 +32,8 @@ bool WarnsOfStop(const json& result) {
 
 double WorstPositionError(const json& result) {
   double worst = 0;
-  for (const json& truth : support::OfficeTruth().at("lamps")) {
+  const json office = support::OfficeTruth();
+  for (const json& truth : office.at("lamps")) {
     for (const json& found : result.at("luminaires")) {
       if (found["id"] != truth["id"]) continue;
       worst = std::max(
