@@ -11,7 +11,7 @@ namespace {
 constexpr double kTolerance = 1e-4;  // of k
 
 // Returns the differences of ln surroundings of one size, an index into kSurroundSigmas.
-std::vector<double> SurroundDifferences(const ViewPair& pair, const std::vector<Surround::Values>& surround,
+std::vector<double> SurroundDifferences(const PhotoPair& pair, const std::vector<Surround::Values>& surround,
                                         size_t size) {
   std::vector<double> differences;
   differences.reserve(pair.shared.size());
@@ -20,12 +20,12 @@ std::vector<double> SurroundDifferences(const ViewPair& pair, const std::vector<
   return differences;
 }
 
-std::optional<ToneMapping> BySurround(const std::vector<ViewPair>& pairs,
+std::optional<ToneMapping> BySurround(const std::vector<PhotoPair>& pairs,
                                       const std::vector<std::vector<double>>& log_ratios,
                                       const std::vector<Surround::Values>& surround, size_t size) {
   std::vector<std::vector<double>> differences;
   differences.reserve(pairs.size());
-  for (const ViewPair& pair : pairs) differences.push_back(SurroundDifferences(pair, surround, size));
+  for (const PhotoPair& pair : pairs) differences.push_back(SurroundDifferences(pair, surround, size));
   const auto found = SlopeOverViews(pairs, log_ratios, std::move(differences), kTolerance);
   if (!found) return std::nullopt;
   return ToneMapping{-found->slope, found->sigma, found->views, found->spread, found->spread_without};
@@ -33,10 +33,10 @@ std::optional<ToneMapping> BySurround(const std::vector<ViewPair>& pairs,
 
 std::optional<ToneMapping> ToneMappingOf(const std::vector<Observation>& observations,
                                          const std::vector<Surround::Values>& surround,
-                                         const std::vector<ViewPair>& pairs) {
+                                         const std::vector<PhotoPair>& pairs) {
   std::vector<std::vector<double>> log_ratios;
   log_ratios.reserve(pairs.size());
-  for (const ViewPair& pair : pairs) log_ratios.push_back(LogRatios(pair, observations));
+  for (const PhotoPair& pair : pairs) log_ratios.push_back(LogRatios(pair, observations));
   const auto near = BySurround(pairs, log_ratios, surround, 0),
              far = BySurround(pairs, log_ratios, surround, 1);
   if (!near || !far) return std::nullopt;

@@ -9,10 +9,10 @@
 namespace luxfit {
 namespace {
 
-constexpr int kRounds = 3;
-constexpr double kTolerance = 1e-5;   // of g
-constexpr double kLeastLeft = 0.5;    // share of an observation that is no veil
-constexpr double kLargestVeil = 0.3;  // beyond it, the first order in g tells nothing
+constexpr int kVeilRounds = 3;
+constexpr double kVeilTolerance = 1e-5;  // of g
+constexpr double kLeastLeft = 0.5;       // share of an observation that is no veil
+constexpr double kLargestVeil = 0.3;     // beyond it, the first order in g tells nothing
 
 double MeanOf(const ImagePlane& plane) {
   const auto is_finite = plane.isFinite();
@@ -43,7 +43,7 @@ std::vector<Observation> Without(const std::vector<Observation>& observations, c
 }
 
 // Returns what a veil of all of the mean would add to ln of the ratios of a pair.
-std::vector<double> PerShare(const ViewPair& pair, const std::vector<Observation>& observations,
+std::vector<double> PerShare(const PhotoPair& pair, const std::vector<Observation>& observations,
                              const PictureMeans& means, double log_ratio) {
   const double of_a = means.at({pair.a, pair.state}).relative_luminance * std::exp(-log_ratio / 2);
   const double of_b = means.at({pair.b, pair.state}).relative_luminance * std::exp(log_ratio / 2);
@@ -57,22 +57,22 @@ std::vector<double> PerShare(const ViewPair& pair, const std::vector<Observation
 
 std::optional<ViewSlope> ShareLeft(const std::vector<Observation>& observations, const PictureMeans& means,
                                    const std::vector<int>& camera_of_view, int camera) {
-  const std::vector<ViewPair> pairs = PairViews(observations, camera_of_view, camera);
+  const std::vector<PhotoPair> pairs = PairViews(observations, camera_of_view, camera);
   std::vector<std::vector<double>> log_ratios, per_share;
   log_ratios.reserve(pairs.size());
   per_share.reserve(pairs.size());
-  for (const ViewPair& pair : pairs) {
+  for (const PhotoPair& pair : pairs) {
     log_ratios.push_back(LogRatios(pair, observations));
     per_share.push_back(PerShare(pair, observations, means, Median(log_ratios.back())));
   }
-  return SlopeOverViews(pairs, std::move(log_ratios), std::move(per_share), kTolerance);
+  return SlopeOverViews(pairs, std::move(log_ratios), std::move(per_share), kVeilTolerance);
 }
 
 std::optional<VeilingGlare> VeilOf(const std::vector<Observation>& observations, const PictureMeans& means,
                                    const std::vector<int>& camera_of_view, int camera) {
   VeilingGlare veil;
   std::vector<Observation> left = observations;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kVeilRounds; ++round) {
     const auto found = ShareLeft(left, means, camera_of_view, camera);
     if (!found) return std::nullopt;
     if (round == 0) veil.difference = found->spread;

@@ -27,7 +27,7 @@ struct Sums {
 };
 
 struct Differences {
-  const std::vector<ViewPair>& pairs;
+  const std::vector<PhotoPair>& pairs;
   std::vector<std::vector<double>> y, x;
 };
 
@@ -75,10 +75,10 @@ double JackknifeSigma(const std::vector<Sums>& sums, const std::vector<int>& vie
   return std::sqrt((n - 1) / n * squares);
 }
 
-std::vector<int> ViewsOf(const std::vector<ViewPair>& pairs) {
+std::vector<int> ViewsOf(const std::vector<PhotoPair>& pairs) {
   std::vector<int> views;
   views.reserve(2 * pairs.size());
-  for (const ViewPair& pair : pairs) views.push_back(pair.a), views.push_back(pair.b);
+  for (const PhotoPair& pair : pairs) views.push_back(pair.a), views.push_back(pair.b);
   std::sort(views.begin(), views.end());
   views.erase(std::unique(views.begin(), views.end()), views.end());
   return views;
@@ -86,31 +86,31 @@ std::vector<int> ViewsOf(const std::vector<ViewPair>& pairs) {
 
 }  // namespace
 
-std::vector<ViewPair> PairViews(const std::vector<Observation>& observations,
-                                const std::vector<int>& camera_of_view, int camera) {
+std::vector<PhotoPair> PairViews(const std::vector<Observation>& observations,
+                                 const std::vector<int>& camera_of_view, int camera) {
   ElementViews views;
   for (size_t i = 0; i < observations.size(); ++i) {
     const Observation& o = observations[i];
     if (camera_of_view[static_cast<size_t>(o.view)] == camera) views[{o.state, o.element}].push_back(i);
   }
-  std::map<std::tuple<int, int, int>, ViewPair> pairs;
+  std::map<std::tuple<int, int, int>, PhotoPair> pairs;
   for (const auto& [place, seen] : views) {
     for (size_t m = 0; m < seen.size(); ++m) {
       for (size_t n = m + 1; n < seen.size(); ++n) {
         const int a = observations[seen[m]].view, b = observations[seen[n]].view;
-        ViewPair& pair = pairs[{place.first, a, b}];
+        PhotoPair& pair = pairs[{place.first, a, b}];
         pair.a = a, pair.b = b, pair.state = place.first;
         pair.shared.emplace_back(seen[m], seen[n]);
       }
     }
   }
-  std::vector<ViewPair> list;
+  std::vector<PhotoPair> list;
   for (auto& [key, pair] : pairs)
     if (pair.shared.size() >= kLeastElements) list.push_back(std::move(pair));
   return list;
 }
 
-std::vector<double> LogRatios(const ViewPair& pair, const std::vector<Observation>& observations) {
+std::vector<double> LogRatios(const PhotoPair& pair, const std::vector<Observation>& observations) {
   std::vector<double> ratios;
   ratios.reserve(pair.shared.size());
   for (const auto& [a, b] : pair.shared)
@@ -118,12 +118,12 @@ std::vector<double> LogRatios(const ViewPair& pair, const std::vector<Observatio
   return ratios;
 }
 
-std::optional<ViewSlope> SlopeOverViews(const std::vector<ViewPair>& pairs,
+std::optional<ViewSlope> SlopeOverViews(const std::vector<PhotoPair>& pairs,
                                         std::vector<std::vector<double>> y,
                                         std::vector<std::vector<double>> x, double tolerance) {
   const std::vector<int> views = ViewsOf(pairs);
   size_t differences = 0;
-  for (const ViewPair& pair : pairs) differences += pair.shared.size();
+  for (const PhotoPair& pair : pairs) differences += pair.shared.size();
   if (views.size() < kLeastViews || differences < kLeastDifferences) return std::nullopt;
   for (std::vector<double>& values : y) TakeMedian(values);
   for (std::vector<double>& values : x) TakeMedian(values);

@@ -18,17 +18,17 @@
 namespace luxfit {
 
 // Holds two views in one state, and the observations of each element that both show: at least thirty.
-struct ViewPair {
+struct PhotoPair {
   int a = 0, b = 0, state = 0;
   std::vector<std::pair<size_t, size_t>> shared;  // indices: of a, of b
 };
 
 // Returns the pairs of one camera's views. `camera_of_view`: by view.
-std::vector<ViewPair> PairViews(const std::vector<Observation>& observations,
-                                const std::vector<int>& camera_of_view, int camera);
+std::vector<PhotoPair> PairViews(const std::vector<Observation>& observations,
+                                 const std::vector<int>& camera_of_view, int camera);
 
 // Returns ln Y_a - ln Y_b of each element of a pair.
-std::vector<double> LogRatios(const ViewPair& pair, const std::vector<Observation>& observations);
+std::vector<double> LogRatios(const PhotoPair& pair, const std::vector<Observation>& observations);
 
 struct ViewSlope {
   double slope = 0, sigma = 0;  // k
@@ -37,7 +37,7 @@ struct ViewSlope {
 };
 
 // `y`, `x`: of each pair, as long as its `shared`. `tolerance`: of k, at which iterations end.
-std::optional<ViewSlope> SlopeOverViews(const std::vector<ViewPair>& pairs,
+std::optional<ViewSlope> SlopeOverViews(const std::vector<PhotoPair>& pairs,
                                         std::vector<std::vector<double>> y,
                                         std::vector<std::vector<double>> x, double tolerance);
 
