@@ -9,6 +9,7 @@
 #include "apps/commands/result/explain_command.h"
 #include "apps/session/session.h"
 #include "tests/paths.h"
+#include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"
 #include "tests/support/temp_folder.h"
 
@@ -173,6 +174,16 @@ TEST(DoctorTest, SaysWhatASessionLacks) {
   EXPECT_EQ(bad.status, 1);
   EXPECT_THAT(bad.output, AllOf(HasSubstr("bad   v00_A.png"), HasSubstr("fill in exposure_s"),
                                 HasSubstr("nothing fixes the absolute scale")));
+}
+
+// The tags in photos of a room leave corners of the lens unseen: `run` would say so after minutes.
+TEST(DoctorTest, CalibratesACameraWithoutIntrinsicsAsRunDoes) {
+  const support::OfficeCopy office;
+  office.Replace("office/session.toml", "intrinsics = \"cam0.yaml\"\n", "");
+  const support::ProgramRun doctor = support::RunProgram("doctor " + office.Path("office/session.toml"));
+  EXPECT_EQ(doctor.status, 1);
+  EXPECT_THAT(doctor.output,
+              AllOf(HasSubstr("bad   cam0: no corner in the upper"), HasSubstr("views are placed by tags")));
 }
 
 // A misspelt board, or the wrong folder: what is wrong with all images is said once.

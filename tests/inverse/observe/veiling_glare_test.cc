@@ -18,7 +18,7 @@ struct Photos {
   std::vector<int> camera_of_view;
 };
 
-// What stands between the light of an element and its count: `side` is 0 to 1 across the picture.
+// Returns the count of an element's light. `side` runs from 0 to 1 across the picture.
 using Lens = std::function<double(double light, double mean, double side, int camera)>;
 
 double Veil(double share, double light, double mean) { return light + share * mean; }
