@@ -58,5 +58,8 @@ luxfit_test(calib/targets corners_file_test LINK luxfit::calib)
 add_executable(memorial_radiance validation/memorial_radiance.cc)
 target_link_libraries(memorial_radiance PRIVATE luxfit_build luxfit::calib opencv_calib3d opencv_imgproc)
 # The office as worse cameras would have photographed it, for `luxfit run`.
+add_executable(phone_office validation/phone_office.cc)
+target_link_libraries(phone_office PRIVATE luxfit_build exiv2lib GTest::gtest opencv_core opencv_imgcodecs opencv_imgproc)
+target_include_directories(phone_office PRIVATE ${PROJECT_SOURCE_DIR} ${test_paths_folder})
 add_executable(office_variants validation/office_texture.cc validation/office_variants.cc)
 target_link_libraries(office_variants PRIVATE luxfit_build luxfit_apps opencv_core opencv_imgcodecs nlohmann_json::nlohmann_json)

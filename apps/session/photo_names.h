@@ -46,6 +46,7 @@ struct GuessedState {
   std::vector<double> dimming = {};  // of each luminaire; empty: all 1
   std::string because = "by its name";
   bool is_occasion = false;  // its light may tell more (StatesByNamesAndLight)
+  bool is_unnamed = false;   // found by light; `id` is a number
 };
 std::vector<GuessedState> GuessStates(const PhotoNames& names);
 

@@ -67,9 +67,9 @@ bool HasEightBits(const SessionDraft& draft, int camera) {
   });
 }
 
-// Returns whether three photos or more of one view and state are of the camera: a bracket tells its tone curve.
+// Returns whether two photos or more of one view and state are of the camera: a bracket tells its tone curve.
 bool HasBrackets(const SessionDraft& draft, int camera) {
-  constexpr int kFewestExposures = 3;
+  constexpr int kFewestExposures = 2;
   std::map<std::pair<std::string, std::string>, int> exposures;
   for (const DraftPhoto& photo : draft.photos) {
     if (photo.camera == camera && ++exposures[{photo.name.view, photo.name.state}] >= kFewestExposures)
@@ -82,9 +82,9 @@ std::string ResponseText(const SessionDraft& draft, int camera) {
   if (!HasEightBits(draft, camera))
     return "response = \"linear\"   # GUESS: 16-bit, float or RAW photos, developed without a tone curve\n";
   if (HasBrackets(draft, camera))
-    return "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; three exposures of a view "
+    return "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; two exposures of a view or more "
            "tell it\n";
-  return "response = \"srgb\"   # GUESS: 8-bit photos have a tone curve; without three exposures of a view, "
+  return "response = \"srgb\"   # GUESS: 8-bit photos have a tone curve; without two exposures of a view, "
          "that of "
          "sRGB is assumed\n";
 }
@@ -231,6 +231,19 @@ std::string PhotoTable(const SessionDraft& draft) {
 }
 
 std::string ReadingsTemplate() { return "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\n"; }
+
+void NameMixByReadings(SessionDraft& draft) {
+  const std::vector<std::string> alone = StatesOfReadingsAlone(draft);
+  const auto is_unnamed = [](const GuessedState& state) { return state.is_unnamed; };
+  if (alone.size() != 1 || std::count_if(draft.states.begin(), draft.states.end(), is_unnamed) != 1) return;
+  GuessedState& mix = *std::find_if(draft.states.begin(), draft.states.end(), is_unnamed);
+  for (DraftPhoto& photo : draft.photos) {
+    if (photo.name.state == mix.id) photo.name.state = alone.front();
+  }
+  mix.id = alone.front();
+  mix.is_unnamed = false;
+  mix.because += "; its name is the one that only luxmeter.csv has";
+}
 
 std::vector<SessionReading> FilledReadings(const std::string& path) {
   const std::string text = ReadTextFile(path, "a table of readings");

@@ -51,6 +51,10 @@ std::string ReadingsTemplate();
 // naming file and line, for any other file.
 std::vector<SessionReading> FilledReadings(const std::string& path);
 
+// Calls the only mix of luminaires that nothing names (mix1) by the only name of a state that readings have and no photo
+// has (evening). Does nothing where there are several of either.
+void NameMixByReadings(SessionDraft& draft);
+
 // Lists what is left to do before `luxfit run`, the most important first.
 std::vector<std::string> ToDo(const SessionDraft& draft);
 

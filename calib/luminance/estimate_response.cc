@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -28,11 +29,43 @@ double SrgbDecoded(double share) {
   return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
 }
 
+// Solves for the power of the light before the curve of sRGB: makers bend theirs. Least squares of the steps of ln s,
+// s = light by sRGB, between exposures, each step with the noise of equal counts.
+CameraResponse SolveSrgbPower(const std::vector<BracketSamples>& brackets, const ResponseOptions& options) {
+  const CameraResponse srgb = FixedResponse(options.full_scale_counts, SrgbDecoded);
+  double top = 0, bottom = 0;
+  for (const BracketSamples& bracket : brackets) {
+    for (size_t c = 0; c < 3; ++c) {
+      const Eigen::MatrixXd& counts = bracket.counts[c];
+      for (Eigen::Index j = 1; j < counts.cols(); ++j) {
+        const double step = std::log(bracket.exposure_s[j] / bracket.exposure_s[0]);
+        for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+          const double from = counts(i, 0), to = counts(i, j);
+          if (!IsInRange(from, options) || !IsInRange(to, options)) continue;
+          const double darker = std::min(from, to), light = srgb.Exposure(c, darker);
+          const double weight = std::pow(light / srgb.Slope(c, darker), 2);
+          top += weight * step * step;
+          bottom += weight * step * std::log(srgb.Exposure(c, to) / srgb.Exposure(c, from));
+        }
+      }
+    }
+  }
+  constexpr double kLeast = 0.3, kMost = 3;
+  const double power = bottom > 0 ? std::clamp(top / bottom, kLeast, kMost) : 1;
+  const Eigen::VectorXd curve = srgb.exposure(0).array().pow(power);
+  return {srgb.counts(), {curve, curve, curve}};
+}
+
+constexpr size_t kFixedCurves = 3;  // number of candidates, the first, with one parameter at most
+
 // Returns the candidates, from the one that assumes most to the one that assumes least.
 std::vector<std::pair<std::string, ResponseSolver>> Candidates(const ResponseOptions& options) {
   std::vector<std::pair<std::string, ResponseSolver>> candidates{
       {"linear", [&options](const auto&) { return FixedResponse(options.full_scale_counts, LinearDecoded); }},
-      {"sRGB", [&options](const auto&) { return FixedResponse(options.full_scale_counts, SrgbDecoded); }}};
+      {"sRGB", [&options](const auto&) { return FixedResponse(options.full_scale_counts, SrgbDecoded); }},
+      {"sRGB to a power", [&options](const std::vector<BracketSamples>& training) {
+         return SolveSrgbPower(training, options);
+       }}};
   for (const double smoothing : {1e3, 1.0, 1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4}) {
     candidates.push_back({fmt::format("debevec, smoothing {:g}", smoothing),
                           [&options, smoothing](const std::vector<BracketSamples>& training) {
@@ -51,7 +84,7 @@ std::string Lack(const std::vector<BracketSamples>& brackets, const ResponseOpti
   double ratio = 1;
   bool overlaps = false;
   for (const BracketSamples& bracket : brackets) {
-    if (bracket.exposure_s.size() < 3) continue;
+    if (bracket.exposure_s.size() < 2) continue;
     exposures = std::max(exposures, bracket.exposure_s.size());
     ratio = std::max(ratio, bracket.exposure_s.maxCoeff() / bracket.exposure_s.minCoeff());
     for (Eigen::Index i = 0; i < bracket.counts[1].rows() && !overlaps; ++i) {
@@ -61,9 +94,19 @@ std::string Lack(const std::vector<BracketSamples>& brackets, const ResponseOpti
       overlaps = in_range > 1;
     }
   }
-  if (exposures < 3) return "no view has three exposures of one state";
+  if (exposures < 2) return "no view has two exposures of one state";
   if (ratio < 2) return "exposures differ by less than a factor of two";
   return overlaps ? "" : "no surface is well exposed in two exposures";
+}
+
+// Returns what pairs of exposures leave open of a free curve, as the standard deviation of ln X: ripples, which
+// smoothness keeps within 5 % for every stop beyond the first between the two.
+double RippleSigma(const std::vector<BracketSamples>& brackets) {
+  constexpr double kSigmaPerStop = 0.05;
+  double stops = std::numeric_limits<double>::infinity();
+  for (const BracketSamples& bracket : brackets)
+    stops = std::min(stops, std::log2(bracket.exposure_s.maxCoeff() / bracket.exposure_s.minCoeff()));
+  return kSigmaPerStop * std::max(0.0, stops - 1);
 }
 
 }  // namespace
@@ -90,7 +133,12 @@ ResponseEstimate EstimateResponse(const std::vector<BracketSamples>& brackets,
   }
   estimate.chosen = SimplestOfBest(errors);
   const CameraResponse response = candidates[estimate.chosen].second(brackets);
-  estimate.response = response.WithRelativeSigma(RelativeSigma(brackets, response, options));
+  std::array<Eigen::VectorXd, 3> sigma = RelativeSigma(brackets, response, options);
+  if (AreOnlyPairs(brackets) && estimate.chosen >= kFixedCurves) {
+    for (Eigen::VectorXd& of_channel : sigma)
+      of_channel = (of_channel.array().square() + std::pow(RippleSigma(brackets), 2)).sqrt();
+  }
+  estimate.response = response.WithRelativeSigma(std::move(sigma));
   return estimate;
 }
 

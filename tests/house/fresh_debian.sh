@@ -3,8 +3,9 @@
 # then an outside project built against the libraries. Prints how many packages came along and the seconds of each step.
 #   fresh_debian.sh FOLDER_WITH_DEBS | SOURCE [WORK_FOLDER]
 # SOURCE, a clone of the repository: the packages are built first, on another fresh Debian 12. Both are the steps of
-# apps/Dockerfile. SUITE=trixie takes Debian 13. Not a ctest: it needs root, the package debootstrap, a network and 4 GB (8 GB to build). CCACHE_DIR, where
-# it is set, is lent to the build.
+# apps/Dockerfile. PHOTOS, a folder that phone_office wrote, adds a new user's first hour. WHEEL, a wheel that make_wheel.py wrote, is
+# installed alone on a third one, and goes from photos to luminaires there. SUITE=trixie takes Debian 13. Not a ctest: it needs root, the
+# package debootstrap, a network and 4 GB (8 GB to build). CCACHE_DIR, where it is set, is lent to the build.
 set -eu
 given=$(realpath "$1")
 here=$(dirname "$(realpath "$0")")
@@ -68,6 +69,13 @@ inside 'cp -r /usr/share/luxfit/office /root/ && luxfit run /root/office/session
 step 'luxfit run'
 printf 'from the .deb to the result: %d s, %d packages came along\n' $((last - start)) $((without - before - 1))
 said 'luxfit check /root/out' 3
+if [ -n "${PHOTOS:-}" ]; then
+  cp -r "$PHOTOS" "$root/root/photos"
+  cp "$here/first_hour.sh" "$root/root"
+  last=$(date +%s)
+  said '/root/first_hour.sh /usr/share/luxfit /root/photos' 7
+  step 'from photos of a phone to the report'
+fi
 said '/usr/bin/python3 -c "import luxfit; print(luxfit.read_result(\"/root/out\"), luxfit.__version__)"' 1
 last=$(date +%s)
 inside 'apt-get -q install -y colmap'
@@ -80,3 +88,18 @@ inside 'apt-get -q install -y --no-install-recommends /root/debs/libluxfit-dev_*
 # shellcheck disable=SC2016
 inside 'cmake -S /root/consumer -B /root/build -G Ninja && cmake --build /root/build && for c in /root/build/consumer_*; do $c; done'
 step 'find_package(luxfit) from libluxfit-dev'
+if [ -n "${WHEEL:-}" ]; then
+  fresh wheel
+  mkdir -p "$root/root/fixtures" "$root/root/apps/python"
+  cp "$WHEEL" "$here/../apps/python/fit_room_test.py" "$root/root"
+  cp -r "$here/../../fixtures/office" "$root/root/fixtures"
+  cp "$here/../../apps/python/from_photos.py" "$root/root/apps/python"
+  start=$(date +%s) last=$start
+  inside 'apt-get -q update && apt-get -q install -y --no-install-recommends python3-venv python3-numpy'
+  step 'apt-get install python3-venv python3-numpy'
+  inside 'python3 -m venv --system-site-packages /root/venv && /root/venv/bin/pip install -q --no-index /root/luxfit-*.whl'
+  step 'pip install of the wheel'
+  inside 'LUXFIT_FIXTURES=/root/fixtures /root/venv/bin/python -B /root/fit_room_test.py FromPhotos'
+  step 'luxfit.fit_room, from photos'
+  printf 'from the wheel to luminaires: %d s\n' $((last - start))
+fi

@@ -138,7 +138,7 @@ LookedAt LookAt(const Session& session, const SessionPhoto& photo, const std::op
     } else if (counts.bits_per_channel == 8 && settings.response == "linear") {
       look.problem = "has 8 bits, camera " + Quoted(settings.id) + " is declared linear";
       look.remedy =
-          "give 16-bit or RAW photos, or response = \"estimate\" with brackets of three exposures, or "
+          "give 16-bit or RAW photos, or response = \"estimate\" with brackets of two exposures or more, or "
           "\"srgb\"";
     } else if (camera && (counts.width_px() != camera->width_px || counts.height_px() != camera->height_px)) {
       look.problem = fmt::format("is {} x {}, the intrinsics are of {} x {}", counts.width_px(),

@@ -111,6 +111,7 @@ void DraftPhotos(const std::string& photos, const std::string& out, SessionDraft
   } else {
     DraftByContent(photos, files, draft);
   }
+  NameMixByReadings(draft);
   std::vector<std::string> paths;
   for (const DraftPhoto& photo : draft.photos) paths.push_back(PathIn(photos, photo.name.file));
   draft.tone_mapped = FindToneMapped(paths);

@@ -44,11 +44,16 @@ BracketSamples SamplesOf(const LinearizedPhoto& photo, const ResponseOptions& op
   return samples;
 }
 
+// Two exposures of a view tell less than three: they count only where no view has three.
 std::vector<BracketSamples> SamplesOfCamera(const LinearizedPhotos& photos, size_t camera,
                                             const ResponseOptions& options) {
   std::vector<const LinearizedPhoto*> brackets;
-  for (const LinearizedPhoto& photo : photos.photos) {
-    if (static_cast<size_t>(photo.camera) == camera && photo.bracket.size() > 2) brackets.push_back(&photo);
+  for (const size_t fewest : {3, 2}) {
+    for (const LinearizedPhoto& photo : photos.photos) {
+      if (static_cast<size_t>(photo.camera) == camera && photo.bracket.size() >= fewest)
+        brackets.push_back(&photo);
+    }
+    if (!brackets.empty()) break;
   }
   std::stable_sort(brackets.begin(), brackets.end(), [](const LinearizedPhoto* a, const LinearizedPhoto* b) {
     return a->bracket.size() > b->bracket.size();
@@ -69,7 +74,7 @@ CameraResponse EstimateForCamera(const LinearizedPhotos& photos, const Session& 
   if (!estimate.response) {
     throw std::runtime_error(fmt::format(
         "{}:{}: camera[{}].response: expected photos that determine it, got brackets in which {}; take "
-        "three exposures or more of one view and state, or give a curve file",
+        "two exposures or more of one view and state, better three, or give a curve file",
         session.path, camera.line, index, estimate.message));
   }
   Choice choice{"response of " + camera.id, estimate.scores[estimate.chosen].method, {}, ""};

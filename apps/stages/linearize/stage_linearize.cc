@@ -24,7 +24,7 @@ Photo ReadCounts(const LinearizedCamera& camera, const PhotoExposure& exposure) 
         "{}: expected linear counts (camera \"{}\" has response = \"linear\"), got an 8-bit "
         "photo: 8-bit files are "
         "gamma-encoded (sRGB); give 16-bit PNG/TIFF or EXR developed linearly from RAW, or response = "
-        "\"estimate\" with brackets of three exposures or more, or response = \"srgb\", which is less "
+        "\"estimate\" with brackets of two exposures or more, or response = \"srgb\", which is less "
         "accurate",
         file, settings.id));
   }

@@ -50,6 +50,35 @@ double PredictionError(const CameraResponse& response, const BracketSamples& bra
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
+BracketSamples EverySecondPixel(const BracketSamples& bracket, Eigen::Index first) {
+  BracketSamples half;
+  half.exposure_s = bracket.exposure_s;
+  for (size_t c = 0; c < 3; ++c) {
+    const Eigen::MatrixXd& counts = bracket.counts[c];
+    half.counts[c] =
+        counts(Eigen::seq(first, Eigen::last, Eigen::fix<2>), Eigen::all);
+  }
+  return half;
+}
+
+// Each half of the pixels predicts, by the response of the other half, its exposures from one another.
+Eigen::ArrayXd ErrorsOfHalves(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
+                              const ResponseSolver& solve) {
+  std::vector<double> errors;
+  for (const Eigen::Index half : {0, 1}) {
+    std::vector<BracketSamples> training;
+    training.reserve(brackets.size());
+    for (const BracketSamples& bracket : brackets) training.push_back(EverySecondPixel(bracket, 1 - half));
+    const CameraResponse response = solve(training);
+    for (const BracketSamples& bracket : brackets) {
+      const BracketSamples rest = EverySecondPixel(bracket, half);
+      for (Eigen::Index j = 0; j < rest.exposure_s.size(); ++j)
+        errors.push_back(PredictionError(response, rest, j, options));
+    }
+  }
+  return Eigen::Map<const Eigen::ArrayXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
+}
+
 // Returns the exposures between the shortest and the longest of a bracket; all of them where there are at
 // most three.
 std::vector<Eigen::Index> InnerExposures(const BracketSamples& bracket) {
@@ -65,8 +94,14 @@ std::vector<Eigen::Index> InnerExposures(const BracketSamples& bracket) {
 
 }  // namespace
 
+bool AreOnlyPairs(const std::vector<BracketSamples>& brackets) {
+  return std::all_of(brackets.begin(), brackets.end(),
+                     [](const BracketSamples& bracket) { return bracket.exposure_s.size() < 3; });
+}
+
 Eigen::ArrayXd HeldOutErrors(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
                              const ResponseSolver& solve) {
+  if (AreOnlyPairs(brackets)) return ErrorsOfHalves(brackets, options, solve);
   size_t folds = 0;
   for (const BracketSamples& bracket : brackets) folds = std::max(folds, InnerExposures(bracket).size());
   std::vector<double> errors;

@@ -12,9 +12,13 @@ namespace luxfit {
 
 using ResponseSolver = std::function<CameraResponse(const std::vector<BracketSamples>&)>;
 
+// Tells whether no bracket has three exposures.
+bool AreOnlyPairs(const std::vector<BracketSamples>& brackets);
+
 // Returns mean absolute errors in counts, one for every bracket and exposure left out. Each inner exposure in
 // turn (each one where a bracket has three) is predicted from the others. The prediction uses the response of
-// what is left of all brackets. NaN where nothing can be predicted, whatever the solver.
+// what is left of all brackets. Where no bracket has three, each half of the pixels in turn is left out instead, and
+// its exposures are predicted from one another. NaN where nothing can be predicted, whatever the solver.
 Eigen::ArrayXd HeldOutErrors(const std::vector<BracketSamples>& brackets, const ResponseOptions& options,
                              const ResponseSolver& solve);
 

@@ -20,8 +20,8 @@ support::ProgramRun Init(const std::string& photos, const std::string& out) {
                              "/office/tags.json -o " + out);
 }
 
-TEST(InitPhotosTest, PhoneNamesBecomeViewsAndStates) {
-  const TempFolder folder;
+// Writes 13 photos of three views in six states, named as a phone names them.
+void WriteThreeViews(const TempFolder& folder) {
   size_t count = 0;
   for (const support::OfficePhoto& photo : support::OfficePhotos()) {
     if (photo.view != "v00" && photo.view != "v04" && photo.view != "v08") continue;
@@ -30,6 +30,11 @@ TEST(InitPhotosTest, PhoneNamesBecomeViewsAndStates) {
     ++count;
   }
   ASSERT_EQ(count, 13U);
+}
+
+TEST(InitPhotosTest, PhoneNamesBecomeViewsAndStates) {
+  const TempFolder folder;
+  WriteThreeViews(folder);
   const support::ProgramRun init = Init(folder.Path("photos"), folder.Path("mine"));
   ASSERT_EQ(init.status, 0) << init.output;
   EXPECT_THAT(init.output, AllOf(HasSubstr("13 photos, 6 states"), HasSubstr("whose notes begin with CHECK"),
@@ -47,6 +52,28 @@ TEST(InitPhotosTest, PhoneNamesBecomeViewsAndStates) {
   const std::string table = folder.Read("mine/photos.csv");
   EXPECT_THAT(table, AllOf(HasSubstr("file,camera,view,state,exposure_s,aperture,iso,note\n"),
                            HasSubstr("cam0,v00,all,0.0848,1.8,100,")));
+}
+
+// Light says that the last state is a mix; who measured it gave it a name. A second such name would leave it open which.
+TEST(InitPhotosTest, AMixTakesTheNameThatOnlyReadingsHave) {
+  const TempFolder folder;
+  WriteThreeViews(folder);
+  const std::string header = "id,x_m,y_m,z_m,nx,ny,nz,state,illuminance_lx\n";
+  const std::string readings =
+      header + "L1,2,2,0.75,0,0,1,all,300\nL1,2,2,0.75,0,0,1,A,100\nL2,3,2,0.75,0,0,1,evening,200\n";
+  folder.Write("mine/luxmeter.csv", readings);
+  ASSERT_EQ(Init(folder.Path("photos"), folder.Path("mine")).status, 0);
+  const std::string text = folder.Read("mine/session.toml");
+  EXPECT_THAT(
+      text,
+      AllOf(HasSubstr("\"evening\" = { \"A\" = 0.30, \"C\" = 1.0, \"D\" = 1.0 }   # GUESS: its light is"),
+            HasSubstr("\n[luxmeter]\nreadings = "), Not(HasSubstr("mix1"))));
+  EXPECT_THAT(folder.Read("mine/photos.csv"), AllOf(HasSubstr(",evening,"), Not(HasSubstr("mix1"))));
+  EXPECT_EQ(ReadSession(folder.Path("mine/session.toml")).luxmeter.readings.size(), 3U);
+  folder.Write("two/luxmeter.csv", readings + "L2,3,2,0.75,0,0,1,night,20\n");
+  ASSERT_EQ(Init(folder.Path("photos"), folder.Path("two")).status, 0);
+  EXPECT_THAT(folder.Read("two/session.toml"),
+              AllOf(HasSubstr("\"mix1\" = "), HasSubstr("photo has (evening, night)")));
 }
 
 // Names that tell keep their meaning: no note, no column for it.

@@ -189,7 +189,8 @@ std::vector<GuessedState> NameStates(const std::vector<PhotoLook>& photos,
   for (size_t s = 0; s < states.size(); ++s) {
     if (!is_mix[s]) continue;
     states[s] = MixedState(MixOf(s, single_states, pictures), singles);
-    states[s].id = IsEverythingOn(states[s], singles) ? "all" : "mix" + std::to_string(++mixes);
+    states[s].is_unnamed = !IsEverythingOn(states[s], singles);
+    states[s].id = states[s].is_unnamed ? "mix" + std::to_string(++mixes) : "all";
   }
   return states;
 }
