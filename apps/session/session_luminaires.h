@@ -23,7 +23,7 @@ struct NamedLuminaires {
   std::vector<SessionLuminaire> luminaires;
   int count = 0;                    // number of all luminaires, named or not
   bool count_is_estimated = false;  // there may be more
-  int max = 12;                     // largest count
+  int max = 0;                      // largest count; 0: not given
 };
 // `session` is the whole document, `folder` the folder that it lies in.
 NamedLuminaires ReadLuminaires(const TomlCursor& session, const std::string& folder);

@@ -27,7 +27,7 @@ LightState KnownReflectances(const Room& room, const RoomObservations& given) {
   return state;
 }
 
-void Record(const CountChoice& choice, int most, Findings& findings) {
+void Record(const CountChoice& choice, Findings& findings) {
   std::vector<std::string> among;
   std::string scores;
   for (size_t i = 0; i < choice.among.size(); ++i) {
@@ -50,7 +50,7 @@ void Record(const CountChoice& choice, int most, Findings& findings) {
         {"luminaires_at_max",
          fmt::format("{} luminaires, the most that were tried, explain the light best: "
                      "there may be more",
-                     most),
+                     choice.most),
          "raise luminaires.max, or switch luminaires in groups and name them in [states]"});
   }
 }
@@ -67,8 +67,9 @@ int CountLuminaires(const Room& room, const RoomObservations& given, int max_cou
   for (const KnownLuminaire& luminaire : given.luminaires) known.push_back(luminaire.position_m);
   ChooseCountOptions options;
   options.max_count = max_count;
-  const CountChoice choice = ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, options);
-  Record(choice, options.max_count, findings);
+  const CountChoice choice =
+      ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, given.seen, options);
+  Record(choice, findings);
   if (!choice.stopped.empty()) WarnOfStop({choice.stopped, "count"}, findings);
   return std::max(1, choice.chosen);
 }

@@ -165,7 +165,7 @@ std::vector<PredictedReading> PredictedReadings(const RoomFit& fit);
 // (inverse/choose/internal/choose_count.h). Returns the chosen number, at least 1, and records the choice.
 // Where nothing could be placed, it sets `undetermined` and a warning says why. Throws as
 // ChooseLuminaireCount does. `given.luminaires`: the luminaires that are known already. `max_count`: the
-// largest number tried. `stop_reason`: as in FitRoomOptions; ends the count with the numbers compared so far.
+// largest number tried; 0: 12, or more where photos show more. `stop_reason`: as in FitRoomOptions; ends the count with the numbers compared so far.
 int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
                     const std::function<std::string()>& stop_reason = {});
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/choose/internal/left_out.h"
@@ -28,9 +30,51 @@ LightData WithCount(LightData data, int count) {
   return data;
 }
 
-// Returns a state with the luminaires as cosine-power discs about their places.
+// Returns the place in photos of a source; null: it is of the search.
+const SeenPlace* PlaceOf(const SparseSource& source, const std::vector<SeenPlace>& places) {
+  if (!source.is_seen) return nullptr;
+  const auto place = std::find_if(places.begin(), places.end(), [&](const SeenPlace& one) {
+    return one.position == source.luminaire.position;
+  });
+  return place == places.end() ? nullptr : &*place;
+}
+
+// Returns the diameter of a disc as large as what photos show at the place; none where they do not tell.
+std::optional<double> SeenDiameter_m(const SeenPlace* place) {
+  if (!place || !(place->area_m2 > 0)) return {};
+  return 2 * std::sqrt(place->area_m2 / M_PI);
+}
+
+// Returns whether two places may hold luminaires of one type, as photos show them.
+bool AreAlike(const SeenPlace& a, const SeenPlace& b) {
+  constexpr double kHeight_m = 0.1, kAreaFactor = 1.3;
+  return std::abs(a.position.z() - b.position.z()) < kHeight_m && a.area_m2 < kAreaFactor * b.area_m2 &&
+         b.area_m2 < kAreaFactor * a.area_m2;
+}
+
+// Gives each of three seen luminaires and more that are alike the mean of their strengths. The light of neighbours is
+// so alike that least squares may give all of it to one of them.
+void ShareAmongAlike(const std::vector<SeenPlace>& places, std::vector<SparseSource>& sources) {
+  constexpr double kFewest = 3;
+  std::vector<double> shared;
+  for (const SparseSource& source : sources) {
+    const SeenPlace* place = PlaceOf(source, places);
+    double sum = 0, count = 0;
+    for (const SparseSource& other : sources) {
+      const SeenPlace* like = PlaceOf(other, places);
+      if (!place || !like || !AreAlike(*place, *like)) continue;
+      sum += other.strength;
+      ++count;
+    }
+    shared.push_back(count < kFewest ? source.strength : sum / count);
+  }
+  for (size_t i = 0; i < sources.size(); ++i) sources[i].strength = shared[i];
+}
+
+// Returns a state with the luminaires as cosine-power discs about their places. Those that photos show stay where and
+// as large as they are shown: many that are free at once get lost.
 LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
-                   double size_m) {
+                   double size_m, const std::vector<SeenPlace>& places) {
   LightState state = given;
   state.camera_scale = 1;
   state.camera_scale_free = state.meter_scale_free = false;
@@ -44,22 +88,20 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
     Luminaire luminaire = source.luminaire;
     // A disc has an aim; it cannot be isotropic.
     const bool is_disc = OpsOf(luminaire.distribution).has_aim;
-    if (is_disc) luminaire.shape = LuminaireShape::kDisc, luminaire.size_m.setConstant(size_m);
+    const std::optional<double> seen_m = SeenDiameter_m(PlaceOf(source, places));
+    if (is_disc) {
+      luminaire.shape = LuminaireShape::kDisc;
+      luminaire.size_m.setConstant(seen_m.value_or(size_m));
+    }
     luminaire.flux_lm = flux_per_strength * source.strength;
     state.luminaires.push_back(luminaire);
     FreeQuantities free;
-    free.position = !source.is_held;
-    free.exponent = free.size = is_disc;
+    free.position = !source.is_held && !source.is_seen;
+    free.exponent = is_disc;
+    free.size = is_disc && !seen_m;
     state.free.push_back(free);
   }
   return state;
-}
-
-bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) {
-  double sum = 0;
-  for (const SparseSource& source : sources) sum += source.strength;
-  return std::all_of(sources.begin(), sources.end(),
-                     [&](const SparseSource& source) { return source.strength > least_share * sum; });
 }
 
 // One fold judges all numbers, every fifth patch or reading. The search for places sees the others alone: a place
@@ -67,7 +109,7 @@ bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) 
 // too few facets to judge by, and five folds in turn take five searches.
 constexpr int kJudgingFold = 1;
 
-void CutEveryFifth(const Room& room, SubProblem& problem) {
+SubProblem CutEveryFifth(const Room& room, SubProblem problem) {
   const size_t observations = problem.data.observations.size();
   for (size_t i = 0; i < problem.fold_of_row.size(); ++i) {
     const int place =
@@ -76,6 +118,7 @@ void CutEveryFifth(const Room& room, SubProblem& problem) {
             : static_cast<int>(i - observations);
     problem.fold_of_row[i] = IsLeftOut(place) ? kJudgingFold : 0;
   }
+  return problem;
 }
 
 LightData WithoutJudgingFold(const SubProblem& problem) {
@@ -92,9 +135,9 @@ LightData WithoutJudgingFold(const SubProblem& problem) {
 }
 
 // Refines the luminaires of `found` together on `seen`, and predicts all rows of the problem.
-std::optional<Trial> Try(const Room& room, const SubProblem& problem, const LightData& seen,
-                         const LightState& given, const SparseLuminaires& found,
-                         const ChooseCountOptions& options) {
+std::optional<Trial> Refined(const Room& room, const SubProblem& problem, const LightData& seen,
+                             const LightState& given, const SparseLuminaires& found,
+                             const std::vector<SeenPlace>& places, const ChooseCountOptions& options) {
   const auto count = static_cast<int>(found.sources.size());
   const LightData data = WithCount(seen, count), all = WithCount(problem.data, count);
   FitLuminairesOptions fit_options;
@@ -103,76 +146,196 @@ std::optional<Trial> Try(const Room& room, const SubProblem& problem, const Ligh
   fit_options.visibility_order = 2;
   const double flux_per_strength = data.observations.empty() ? 1 : M_PI;  // readings: 1, photos: pi
   const LuminaireFit fit = FitLuminaires(
-      room, data, StartOf(found, given, flux_per_strength, options.start_size_m), {}, fit_options);
+      room, data, StartOf(found, given, flux_per_strength, options.start_size_m, places), {}, fit_options);
   if (fit.status == FitStatus::kNoData) return {};
   LightModel model(room, all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);
   LeftOutPrediction left_out{model.Predict(fit.state, {}, false).value, model.InPenumbra(),
                              fit.relative_sigma, fit.material_texture_sigma};
+  if (!left_out.value.allFinite()) return {};
   left_out.is_smooth.flip();
   for (size_t i = 0; i < left_out.is_smooth.size(); ++i)
     left_out.is_smooth[i] = left_out.is_smooth[i] && problem.fold_of_row[i] == kJudgingFold;
   return Trial{count, std::move(left_out)};
 }
 
-Selection Select(const SubProblem& problem, const std::vector<Trial>& trials) {
-  std::vector<const LeftOutPrediction*> left_out;
-  left_out.reserve(trials.size());
-  for (const Trial& trial : trials) left_out.push_back(&trial.left_out);
-  const std::vector<GroupScores> scores = ScoreTogether(problem, left_out);
-  std::vector<SelectionCandidate> candidates;
-  candidates.reserve(trials.size());
-  for (size_t t = 0; t < trials.size(); ++t)
-    candidates.push_back({scores[t], static_cast<double>(trials[t].count), true});
-  return SimplestWithinOneStandardError(candidates);
+bool GivesLight(const SparseSource& source, double all, double least_share) {
+  return source.strength > least_share * all;
 }
+
+double StrengthOf(const std::vector<SparseSource>& sources) {
+  return std::accumulate(sources.begin(), sources.end(), 0.0,
+                         [](double sum, const SparseSource& source) { return sum + source.strength; });
+}
+
+bool AllGiveLight(const std::vector<SparseSource>& sources, double least_share) {
+  const double all = StrengthOf(sources);
+  return std::all_of(sources.begin(), sources.end(),
+                     [&](const SparseSource& source) { return GivesLight(source, all, least_share); });
+}
+
+// Tries numbers of luminaires.
+class Count {
+ public:
+  Count(const Room& room, const LightData& data, const LightState& given,
+        const KnownPositions& known_positions, const std::vector<SeenPlace>& places,
+        const ChooseCountOptions& options)
+      : room_(room),
+        given_(given),
+        places_(places),
+        options_(options),
+        problem_(CutEveryFifth(room, CutAll(room, data, options.max_elements))),
+        seen_(WithoutJudgingFold(problem_)),
+        known_(std::max<size_t>(1, known_positions.size())) {
+    for (const std::optional<Eigen::Vector3d>& place : known_positions) {
+      if (!place) continue;
+      found_.sources.emplace_back();
+      found_.sources.back().luminaire.position = *place;
+      found_.sources.back().is_held = true;
+    }
+    AddSurePlaces();
+    constexpr size_t kMost = 12, kBeyondSure = 2;
+    first_ = std::max(known_, found_.sources.size());
+    most_ = options.max_count > 0 ? static_cast<size_t>(options.max_count)
+                                  : std::max(kMost, first_ + kBeyondSure);
+  }
+
+  bool CanJudge() const { return problem_.CanJudge(); }
+
+  // Goes on until nothing helps, or `data`.checkpoint ends it by FitStopped.
+  void Run(const LightData& data) {
+    constexpr size_t kPatience = 2;  // numbers in a row without gain that end the search
+    const FirstGuessOptions guess;
+    const GroupedLight light = GroupLight(room_, WithCount(seen_, 1), guess.max_elements);
+    const SparseSearch search(room_, light, guess.grid_m, guess.refinements);
+    for (size_t count = first_; count <= most_; ++count) {
+      if (data.checkpoint) data.checkpoint(data.is_part);
+      found_ = search.Find(0, static_cast<int>(count), found_.sources);
+      if (trials_.empty()) count = LeaveOutDark();
+      if (found_.sources.size() < std::max(count, known_) ||
+          !AllGiveLight(found_.sources, options_.least_share) || !Try(found_, trials_.size()))
+        return;
+      if (count > known_ && trials_.size() == 1) TryFewer(data);
+      if (trials_.size() - 1 - Select().best >= kPatience) return;
+    }
+  }
+
+  CountChoice Choice() const {
+    CountChoice choice;
+    if (trials_.empty()) return choice;
+    Selection selection = Select();
+    for (const Trial& trial : trials_) choice.among.push_back(trial.count);
+    choice.chosen = trials_[selection.chosen].count;
+    choice.score = std::move(selection.score);
+    choice.standard_error = std::move(selection.standard_error);
+    choice.most = static_cast<int>(most_);
+    choice.reached_max = trials_[selection.best].count == choice.most;
+    return choice;
+  }
+
+ private:
+  // The surest places come first. A known luminaire is seen, too.
+  void AddSurePlaces() {
+    constexpr double kSame_m = 0.3;
+    for (const SeenPlace& place : places_) {
+      const auto is_there = [&](const SparseSource& source) {
+        return (source.luminaire.position - place.position).norm() < kSame_m;
+      };
+      if (options_.max_count > 0 && found_.sources.size() >= static_cast<size_t>(options_.max_count)) return;
+      if (!IsSure(place) || std::any_of(found_.sources.begin(), found_.sources.end(), is_there)) continue;
+      found_.sources.emplace_back();
+      found_.sources.back().luminaire.position = place.position;
+      found_.sources.back().is_seen = true;
+    }
+  }
+
+  Selection Select() const {
+    std::vector<const LeftOutPrediction*> left_out;
+    left_out.reserve(trials_.size());
+    for (const Trial& trial : trials_) left_out.push_back(&trial.left_out);
+    const std::vector<GroupScores> scores = ScoreTogether(problem_, left_out);
+    std::vector<SelectionCandidate> candidates;
+    candidates.reserve(trials_.size());
+    for (size_t t = 0; t < trials_.size(); ++t)
+      candidates.push_back({scores[t], static_cast<double>(trials_[t].count), true});
+    return SimplestWithinOneStandardError(candidates);
+  }
+
+  // Refines the luminaires of `found` together and keeps what they predict as the trial of that index. False: too
+  // little light is seen.
+  bool Try(const SparseLuminaires& found, size_t index) {
+    std::optional<Trial> trial = Refined(room_, problem_, seen_, given_, found, places_, options_);
+    if (!trial) return false;
+    trials_.insert(trials_.begin() + static_cast<std::ptrdiff_t>(index), std::move(*trial));
+    return true;
+  }
+
+  // Leaves out the places seen that give no light: mirror images, white things. Returns how many luminaires stay.
+  size_t LeaveOutDark() {
+    ShareAmongAlike(places_, found_.sources);
+    const double all = StrengthOf(found_.sources);
+    found_.sources.erase(std::remove_if(found_.sources.begin(), found_.sources.end(),
+                                        [&](const SparseSource& source) {
+                                          return source.is_seen &&
+                                                 !GivesLight(source, all, options_.least_share);
+                                        }),
+                         found_.sources.end());
+    return std::max(known_, found_.sources.size());
+  }
+
+  // Leaves out one seen luminaire after the other, the weakest first, as long as the others alone predict better by
+  // more than a standard error: that photos show a luminaire is evidence, too.
+  void TryFewer(const LightData& data) {
+    SparseLuminaires fewer = found_;
+    const auto is_weaker = [](const SparseSource& a, const SparseSource& b) {
+      return std::pair(!a.is_seen, a.strength) < std::pair(!b.is_seen, b.strength);
+    };
+    while (fewer.sources.size() > known_) {
+      if (data.checkpoint) data.checkpoint(data.is_part);
+      const auto weakest = std::min_element(fewer.sources.begin(), fewer.sources.end(), is_weaker);
+      if (!weakest->is_seen) return;
+      fewer.sources.erase(weakest);
+      if (!Try(fewer, 0)) return;
+      const Selection selection = Select();
+      if (selection.best != 0 || selection.score[1] - selection.score[0] < selection.standard_error[1]) {
+        trials_.erase(trials_.begin());
+        return;
+      }
+      found_ = fewer;
+    }
+  }
+
+  const Room& room_;
+  const LightState& given_;
+  const std::vector<SeenPlace>& places_;
+  const ChooseCountOptions& options_;
+  const SubProblem problem_;
+  const LightData seen_;  // without the judging fold
+  const size_t known_;
+  size_t first_ = 1, most_ = 1;
+  SparseLuminaires found_;
+  std::vector<Trial> trials_;  // by number
+};
 
 }  // namespace
 
 CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
-                                 const KnownPositions& known_positions, const ChooseCountOptions& options) {
+                                 const KnownPositions& known_positions, const std::vector<SeenPlace>& places,
+                                 const ChooseCountOptions& options) {
   const int least = std::max(1, static_cast<int>(known_positions.size()));
-  if (options.max_count < least)
+  if (options.max_count < 0 || (options.max_count > 0 && options.max_count < least))
     throw std::invalid_argument(
         "ChooseLuminaireCount: expected max_count of at least 1 and of the known places");
-  SubProblem problem = CutAll(room, data, options.max_elements);
-  CutEveryFifth(room, problem);
-  CountChoice choice;
-  if (!problem.CanJudge()) return choice;
-  std::vector<Trial> trials;
-  constexpr int kPatience = 2;  // numbers in a row without gain that end the search
-  const FirstGuessOptions guess_options;
-  const LightData seen = WithoutJudgingFold(problem);
-  const GroupedLight light = GroupLight(room, WithCount(seen, 1), guess_options.max_elements);
-  const SparseSearch search(room, light, guess_options.grid_m, guess_options.refinements);
-  SparseLuminaires found;
-  for (const std::optional<Eigen::Vector3d>& place : known_positions) {
-    if (!place) continue;
-    found.sources.emplace_back();
-    found.sources.back().luminaire.position = *place;
-    found.sources.back().is_held = true;
-  }
+  Count count(room, data, state, known_positions, places, options);
+  if (!count.CanJudge()) return {};
+  std::string stopped;
   try {
-    for (int count = least; count <= options.max_count; ++count) {
-      if (data.checkpoint) data.checkpoint(data.is_part);
-      found = search.Find(0, count, found.sources);
-      if (static_cast<int>(found.sources.size()) < count || !AllGiveLight(found.sources, options.least_share))
-        break;
-      const std::optional<Trial> trial = Try(room, problem, seen, state, found, options);
-      if (!trial) break;
-      trials.push_back(*trial);
-      if (trials.size() - 1 - Select(problem, trials).best >= kPatience) break;
-    }
+    count.Run(data);
   } catch (const FitStopped& stop) {
-    choice.stopped = stop.what();
+    stopped = stop.what();
   }
-  if (trials.empty()) return choice;
-  Selection selection = Select(problem, trials);
-  for (const Trial& trial : trials) choice.among.push_back(trial.count);
-  choice.chosen = trials[selection.chosen].count;
-  choice.score = std::move(selection.score);
-  choice.standard_error = std::move(selection.standard_error);
-  choice.reached_max = trials[selection.best].count == options.max_count;
+  CountChoice choice = count.Choice();
+  choice.stopped = std::move(stopped);
   return choice;
 }
 

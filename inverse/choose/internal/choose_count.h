@@ -1,15 +1,18 @@
 // Estimates how many luminaires give the light, where nobody states their number.
 //
 // For each number n, without one fold of the data in five:
-// 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/search/first_guess.h).
+// 1. Sparse non-negative least squares places n luminaires (inverse/model/internal/search/first_guess.h), first of all
+//    where photos show them.
 // 2. They are refined together as cosine-power discs of free size, so that a large one is not mistaken for
 //    several.
 // 3. They are scored on the fold left out (inverse/choose/internal/left_out.h).
-// The smallest n within one standard error of the best score is chosen (paired, facet by facet). Numbers are
-// tried upwards until two in a row bring no gain.
+// The smallest n within one standard error of the best score is chosen (paired, facet by facet). The first number is
+// that of the places that photos show beyond doubt (IsSure) and that give light. Those that give least are left out,
+// one after the other, as long as the others predict better by more than a standard error: windows and highlights are
+// seen, too. Then numbers are tried upwards until two in a row bring no gain.
 //
 // Assumes that all luminaires are on, dimmed alike, in every state observed.
-// Throws std::invalid_argument for `max_count` below 1 or below the number of known places.
+// Throws std::invalid_argument for `max_count` below 0 or, where it is not 0, below the number of known places.
 // Sources: Boyd, Schiebinger, Recht (2017) (see first_guess.h); Breiman et al. (1984), sec. 3.4
 // (one-standard-error rule).
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_CHOOSE_COUNT_H_
@@ -21,11 +24,12 @@
 #include <vector>
 
 #include "inverse/model/light_state.h"
+#include "inverse/observe/seen_luminaires.h"
 
 namespace luxfit {
 
 struct ChooseCountOptions {
-  int max_count = 12;
+  int max_count = 0;  // 0: 12, or two more than photos show beyond doubt
   int max_elements = 1500;
   double start_size_m = 0.2;
   double least_share = 0.01;  // share of all flux: a luminaire below it explains errors, not light
@@ -36,15 +40,18 @@ struct CountChoice {
   std::vector<double> score;           // one for each of `among`, on data left out
   std::vector<double> standard_error;  // standard error of the difference from the best
   int chosen = 0;                      // luminaires; 0: too little light was seen to place one
-  bool reached_max = false;            // the best was the largest allowed
+  int most = 0;                        // largest number allowed
+  bool reached_max = false;            // the best was that one
   std::string stopped;                 // why it ended before that was known; empty: it did not
 };
 
 // `data`: with measured indirect light, or readings alone; only one dimming per state counts. `state`: gives
 // known reflectances (albedo, albedo_free). LightData::checkpoint may end the count: the choice is then among the
-// numbers tried so far. `known_positions`: places of luminaires that certainly exist.
+// numbers tried so far. `known_positions`: places of luminaires that certainly exist. `places`: where luminaires
+// show in photos.
 CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
                                  const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
+                                 const std::vector<SeenPlace>& places = {},
                                  const ChooseCountOptions& options = {});
 
 }  // namespace luxfit

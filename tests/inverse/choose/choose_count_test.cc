@@ -52,10 +52,8 @@ class CountedRoom : public testing::Test {
     return data;
   }
 
-  int Count(const std::vector<Luminaire>& lamps, int max = 12) const {
-    ChooseCountOptions options;
-    options.max_count = max;
-    return ChooseLuminaireCount(room_, WithMeasuredIndirect(room_, Photograph(lamps)), unknown_, {}, options)
+  int Count(const std::vector<Luminaire>& lamps, const std::vector<SeenPlace>& places = {}) const {
+    return ChooseLuminaireCount(room_, WithMeasuredIndirect(room_, Photograph(lamps)), unknown_, {}, places)
         .chosen;
   }
 
@@ -84,14 +82,48 @@ TEST_F(CountedRoom, ALargeOneIsNotSeveral) {
   EXPECT_EQ(Count({panel}), 1);
 }
 
+SeenPlace Seen(const Eigen::Vector3d& position) {
+  SeenPlace place;
+  place.position = position;
+  place.sigma_m = 0.03;
+  place.views = 3;
+  place.area_m2 = 0.09;
+  return place;
+}
+
+// Bright things that give no light are seen as surely.
+TEST_F(CountedRoom, LuminairesThatPhotosShowAreCountedAndOtherBrightThingsAreNot) {
+  std::vector<Luminaire> lamps;
+  std::vector<SeenPlace> places;
+  for (int i = 0; i < 6; ++i) {
+    Luminaire lamp = Downlight({0.8 + 1.2 * (i % 3), 0.9 + 1.2 * (i / 3), 2.4}, 800);
+    lamp.shape = LuminaireShape::kRectangle;
+    lamp.size_m = {0.3, 0.3};
+    lamps.push_back(lamp);
+    places.push_back(Seen(lamp.position + Eigen::Vector3d(0.02, -0.02, 0.01)));
+  }
+  EXPECT_EQ(Count(lamps, places), 6);
+  places.push_back(Seen({2.1, 1.5, 0.3}));  // a mirror image: it shines upwards, and gives no light
+  EXPECT_EQ(Count(lamps, places), 6);
+  places[6].position.z() = 2.2;
+  places[6].views = 2;  // may be chance
+  EXPECT_EQ(Count(lamps, places), 6);
+}
+
+// One that photos do not show is found by its light.
+TEST_F(CountedRoom, WhatPhotosDoNotShowIsAdded) {
+  const Luminaire a = Downlight({1.1, 1.2, 2.4}, 2000), b = Downlight({3.1, 2.1, 2.35}, 1500);
+  EXPECT_EQ(Count({a, b}, {Seen(a.position)}), 2);
+}
+
 TEST_F(CountedRoom, TheLargestNumberAllowedIsSaid) {
   ChooseCountOptions options;
   options.max_count = 1;
   const LightData data = WithMeasuredIndirect(
       room_, Photograph({Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500)}));
-  EXPECT_TRUE(ChooseLuminaireCount(room_, data, unknown_, {}, options).reached_max);
-  options.max_count = 0;
-  EXPECT_THROW(ChooseLuminaireCount(room_, data, unknown_, {}, options), std::invalid_argument);
+  EXPECT_TRUE(ChooseLuminaireCount(room_, data, unknown_, {}, {}, options).reached_max);
+  options.max_count = -1;
+  EXPECT_THROW(ChooseLuminaireCount(room_, data, unknown_, {}, {}, options), std::invalid_argument);
 }
 
 TEST_F(CountedRoom, NothingSeenIsNothingCounted) {
