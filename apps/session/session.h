@@ -189,7 +189,7 @@ struct Session {
   std::vector<SessionLuminaire>
       luminaires;  // [[luminaire]], completed by those that [groups] or [states] name, in that order
   bool count_is_estimated = false;  // there may be more luminaires than those, all on in the only state
-  int max_luminaires = 0;  // 0: the file does not say
+  int max_luminaires = 0;           // 0: the file does not say
   SessionLuxmeter luxmeter;
   std::optional<SessionLights> lights;   // an object instead of a room
   std::vector<std::string> input_files;  // every file read or referred to, for hashing

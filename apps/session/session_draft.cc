@@ -82,7 +82,8 @@ std::string ResponseText(const SessionDraft& draft, int camera) {
   if (!HasEightBits(draft, camera))
     return "response = \"linear\"   # GUESS: 16-bit, float or RAW photos, developed without a tone curve\n";
   if (HasBrackets(draft, camera))
-    return "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; two exposures of a view or more "
+    return "response = \"estimate\"   # GUESS: 8-bit photos have a tone curve; two exposures of a view or "
+           "more "
            "tell it\n";
   return "response = \"srgb\"   # GUESS: 8-bit photos have a tone curve; without two exposures of a view, "
          "that of "

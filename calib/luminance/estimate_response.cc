@@ -30,7 +30,7 @@ double SrgbDecoded(double share) {
 }
 
 // Solves for the power of the light before the curve of sRGB: makers bend theirs. Least squares of the steps of ln s,
-// s = light by sRGB, between exposures, each step with the noise of equal counts.
+// s = light by sRGB, between one exposure and the next, each step with the noise of equal counts.
 CameraResponse SolveSrgbPower(const std::vector<BracketSamples>& brackets, const ResponseOptions& options) {
   const CameraResponse srgb = FixedResponse(options.full_scale_counts, SrgbDecoded);
   double top = 0, bottom = 0;
@@ -38,9 +38,9 @@ CameraResponse SolveSrgbPower(const std::vector<BracketSamples>& brackets, const
     for (size_t c = 0; c < 3; ++c) {
       const Eigen::MatrixXd& counts = bracket.counts[c];
       for (Eigen::Index j = 1; j < counts.cols(); ++j) {
-        const double step = std::log(bracket.exposure_s[j] / bracket.exposure_s[0]);
+        const double step = std::log(bracket.exposure_s[j] / bracket.exposure_s[j - 1]);
         for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-          const double from = counts(i, 0), to = counts(i, j);
+          const double from = counts(i, j - 1), to = counts(i, j);
           if (!IsInRange(from, options) || !IsInRange(to, options)) continue;
           const double darker = std::min(from, to), light = srgb.Exposure(c, darker);
           const double weight = std::pow(light / srgb.Slope(c, darker), 2);

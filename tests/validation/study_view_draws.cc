@@ -3,7 +3,7 @@
 //   study_view_draws -o FOLDER [--quick] [--room FOLDER] [--least VIEWS] [--first SEED] [--count N] [--estimate]
 //
 // --room: session.toml, photos.csv and truth.json, as of fixtures/openplan, which is the default. Each seed draws VIEWS views or more,
-// not all of them. --estimate: without [states], so that the number of luminaires is estimated.
+// not all of them. --estimate: the photos and readings of the state `all` alone, so that the number of luminaires is estimated.
 // A fit is right where every luminaire is within 50 mm and 10 % of the truth; it is wrong and sure where it is not right, ends with 0 and has
 // no warning but `flux_deviates` and `luminaires_interchangeable`. Prints view_draws.csv, a line a draw, and writes it to FOLDER. Ends with 1 where a fit is wrong and
 // sure. --quick: one draw of fixtures/office.
@@ -75,6 +75,16 @@ std::string CellOf(const std::string& line, size_t column) {
 
 // photos.csv of a rendered room: file,camera,view,state,exposure_s.
 std::string ViewOf(const std::string& line) { return CellOf(line, 2); }
+std::string StateOf(const std::string& line) { return CellOf(line, 3); }
+
+// luxmeter.csv of a rendered room: id,x_m,y_m,z_m,nx,ny,nz,state,lux.
+std::string ReadingsOfAll(const std::string& path) {
+  const std::vector<std::string> lines = LinesOf(path);
+  std::string text = lines.front() + "\n";
+  for (const std::string& line : lines)
+    if (CellOf(line, 7) == "all") text += line + "\n";
+  return text;
+}
 
 std::vector<std::string> DrawViews(std::vector<std::string> views, int least, int seed) {
   std::mt19937_64 rng(static_cast<std::uint64_t>(seed));
@@ -95,16 +105,19 @@ std::string WithoutStates(const std::string& text) {
 void MakeSession(const Sweep& sweep, const std::vector<std::string>& views, const TempFolder& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(sweep.room)) {
     const std::string name = entry.path().filename().string();
-    if (name != "session.toml" && name != "photos.csv")
+    if (name != "session.toml" && name != "photos.csv" && (name != "luxmeter.csv" || !sweep.estimates))
       fs::create_symlink(fs::absolute(entry.path()), folder.Path(name));
   }
   std::ifstream session(sweep.room + "/session.toml");
   const std::string text{std::istreambuf_iterator<char>(session), {}};
   folder.Write("session.toml", sweep.estimates ? WithoutStates(text) : text);
+  if (sweep.estimates) folder.Write("luxmeter.csv", ReadingsOfAll(sweep.room + "/luxmeter.csv"));
   const std::vector<std::string> lines = LinesOf(sweep.room + "/photos.csv");
   std::string photos = lines.front() + "\n";
   for (const std::string& line : lines)
-    if (std::binary_search(views.begin(), views.end(), ViewOf(line))) photos += line + "\n";
+    if (std::binary_search(views.begin(), views.end(), ViewOf(line)) &&
+        (!sweep.estimates || StateOf(line) == "all"))
+      photos += line + "\n";
   folder.Write("photos.csv", photos);
 }
 

@@ -33,8 +33,7 @@ void CountLuminaires(GuessedSession& guessed) {
   if (!session.count_is_estimated) return;
   constexpr int kMost = 12;
   const int most = session.max_luminaires > 0 ? session.max_luminaires : kMost;
-  const int count =
-      std::max(static_cast<int>(session.luminaires.size()), GuessedCount(guessed.room, most));
+  const int count = std::max(static_cast<int>(session.luminaires.size()), GuessedCount(guessed.room, most));
   session = WithMoreLuminaires(std::move(session), count);
   guessed.advice.assumed.push_back(
       {"count", {}, fmt::format("{}: one for every {:g} m2 of the floor", count, kM2PerLuminaire)});

@@ -55,8 +55,7 @@ BracketSamples EverySecondPixel(const BracketSamples& bracket, Eigen::Index firs
   half.exposure_s = bracket.exposure_s;
   for (size_t c = 0; c < 3; ++c) {
     const Eigen::MatrixXd& counts = bracket.counts[c];
-    half.counts[c] =
-        counts(Eigen::seq(first, Eigen::last, Eigen::fix<2>), Eigen::all);
+    half.counts[c] = counts(Eigen::seq(first, Eigen::last, Eigen::fix<2>), Eigen::all);
   }
   return half;
 }
