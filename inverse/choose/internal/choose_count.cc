@@ -11,6 +11,7 @@
 #include "inverse/choose/internal/left_out.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/model/internal/light_model.h"
+#include "inverse/model/internal/search/alike_places.h"
 #include "inverse/model/internal/search/first_guess.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
 #include "inverse/select/one_standard_error.h"
@@ -30,45 +31,10 @@ LightData WithCount(LightData data, int count) {
   return data;
 }
 
-// Returns the place in photos of a source; null: it is of the search.
-const SeenPlace* PlaceOf(const SparseSource& source, const std::vector<SeenPlace>& places) {
-  if (!source.is_seen) return nullptr;
-  const auto place = std::find_if(places.begin(), places.end(), [&](const SeenPlace& one) {
-    return one.position == source.luminaire.position;
-  });
-  return place == places.end() ? nullptr : &*place;
-}
-
 // Returns the diameter of a disc as large as what photos show at the place; none where they do not tell.
 std::optional<double> SeenDiameter_m(const SeenPlace* place) {
   if (!place || !(place->area_m2 > 0)) return {};
   return 2 * std::sqrt(place->area_m2 / M_PI);
-}
-
-// Returns whether two places may hold luminaires of one type, as photos show them.
-bool AreAlike(const SeenPlace& a, const SeenPlace& b) {
-  constexpr double kHeight_m = 0.1, kAreaFactor = 1.3;
-  return std::abs(a.position.z() - b.position.z()) < kHeight_m && a.area_m2 < kAreaFactor * b.area_m2 &&
-         b.area_m2 < kAreaFactor * a.area_m2;
-}
-
-// Gives each of three seen luminaires and more that are alike the mean of their strengths. The light of neighbours is
-// so alike that least squares may give all of it to one of them.
-void ShareAmongAlike(const std::vector<SeenPlace>& places, std::vector<SparseSource>& sources) {
-  constexpr double kFewest = 3;
-  std::vector<double> shared;
-  for (const SparseSource& source : sources) {
-    const SeenPlace* place = PlaceOf(source, places);
-    double sum = 0, count = 0;
-    for (const SparseSource& other : sources) {
-      const SeenPlace* like = PlaceOf(other, places);
-      if (!place || !like || !AreAlike(*place, *like)) continue;
-      sum += other.strength;
-      ++count;
-    }
-    shared.push_back(count < kFewest ? source.strength : sum / count);
-  }
-  for (size_t i = 0; i < sources.size(); ++i) sources[i].strength = shared[i];
 }
 
 // Returns a state with the luminaires as cosine-power discs about their places. Those that photos show stay where and
@@ -243,9 +209,7 @@ class Count {
       };
       if (options_.max_count > 0 && found_.sources.size() >= static_cast<size_t>(options_.max_count)) return;
       if (!IsSure(place) || std::any_of(found_.sources.begin(), found_.sources.end(), is_there)) continue;
-      found_.sources.emplace_back();
-      found_.sources.back().luminaire.position = place.position;
-      found_.sources.back().is_seen = true;
+      found_.sources.push_back(SourceAt(place));
     }
   }
 

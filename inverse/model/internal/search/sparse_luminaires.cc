@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "inverse/model/internal/search/alike_places.h"
 #include "inverse/model/internal/search/group_equations.h"
 #include "inverse/model/internal/search/group_search.h"
 #include "inverse/model/internal/search/lobe_trials.h"
@@ -130,6 +131,9 @@ class GroupFinder {
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(seen.size());
     for (const SeenPlace& place : seen) positions.push_back(place.position);
+    const std::vector<SparseSource> alike =
+        SourcesAtAlike(seen, static_cast<size_t>(count_) - std::min<size_t>(start.size(), count_));
+    if (!alike.empty()) return AtAlike(start, alike, seen);
     at_seen_ = Lit(room_, sensors_, positions);
     SparseRun alone = BestLobes(start, {}, 0);
     if ((IsComplete(alone) && alone.found.mean_square < kExplained) || !SearchesOn()) {
@@ -148,6 +152,16 @@ class GroupFinder {
   }
 
  private:
+  // Photos show as many like luminaires as there are.
+  SparseLuminaires AtAlike(std::vector<SparseSource> start, const std::vector<SparseSource>& alike,
+                           const std::vector<SeenPlace>& seen) const {
+    start.insert(start.end(), alike.begin(), alike.end());
+    SparseLuminaires found = RunWith(LobeSet::kSimple, start, {}, 0).found;
+    ShareAmongAlike(seen, found.sources);
+    found.was_searched = false;
+    return found;
+  }
+
   bool SearchesOn() const { return !searches_on_ || searches_on_(); }
   bool IsComplete(const SparseRun& of) const { return static_cast<int>(of.found.sources.size()) == count_; }
 

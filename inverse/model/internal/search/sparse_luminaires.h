@@ -67,7 +67,8 @@ class SparseSearch {
   // Returns fewer sources where no more would help, and none where fewer than 20 places show the group's
   // light.
   //
-  // Places `seen` in photos are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
+  // Where the sure places `seen` in photos that are alike are as many as luminaires are to be found, these are the
+  // answer (alike_places.h). Else places seen are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
   // the light unexplained, nothing else is searched. Else the sources at sure places stay, and the search adds
   // what is missing: where the mesh is wrong about something, places in mid-air explain the light a little better
   // than the true ones. Sources of a search anywhere are their rivals; they are kept where they leave less than two

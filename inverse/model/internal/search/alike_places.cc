@@ -1,0 +1,58 @@
+#include "inverse/model/internal/search/alike_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace luxfit {
+
+bool AreAlike(const SeenPlace& a, const SeenPlace& b) {
+  constexpr double kHeight_m = 0.1, kAreaFactor = 1.3;
+  return std::abs(a.position.z() - b.position.z()) < kHeight_m && a.area_m2 < kAreaFactor * b.area_m2 &&
+         b.area_m2 < kAreaFactor * a.area_m2;
+}
+
+SparseSource SourceAt(const SeenPlace& place) {
+  SparseSource source;
+  source.luminaire.position = place.position;
+  source.is_seen = true;
+  return source;
+}
+
+std::vector<SparseSource> SourcesAtAlike(const std::vector<SeenPlace>& places, size_t count) {
+  if (count < kFewestAlike) return {};
+  for (const SeenPlace& first : places) {
+    std::vector<SparseSource> alike;
+    for (const SeenPlace& place : places)
+      if (IsSure(place) && AreAlike(first, place)) alike.push_back(SourceAt(place));
+    if (alike.size() == count) return alike;
+  }
+  return {};
+}
+
+const SeenPlace* PlaceOf(const SparseSource& source, const std::vector<SeenPlace>& places) {
+  if (!source.is_seen) return nullptr;
+  const auto place = std::find_if(places.begin(), places.end(), [&](const SeenPlace& one) {
+    return one.position == source.luminaire.position;
+  });
+  return place == places.end() ? nullptr : &*place;
+}
+
+void ShareAmongAlike(const std::vector<SeenPlace>& places, std::vector<SparseSource>& sources) {
+  std::vector<double> shared;
+  shared.reserve(sources.size());
+  for (const SparseSource& source : sources) {
+    const SeenPlace* place = PlaceOf(source, places);
+    double sum = 0;
+    size_t count = 0;
+    for (const SparseSource& other : sources) {
+      const SeenPlace* like = PlaceOf(other, places);
+      if (!place || !like || !AreAlike(*place, *like)) continue;
+      sum += other.strength;
+      ++count;
+    }
+    shared.push_back(count < kFewestAlike ? source.strength : sum / static_cast<double>(count));
+  }
+  for (size_t i = 0; i < sources.size(); ++i) sources[i].strength = shared[i];
+}
+
+}  // namespace luxfit
