@@ -47,8 +47,11 @@ def parameter_types(parameters):
 def names(statement):
     """Yields what a statement defines: a name, or a function with the types of its parameters."""
     kind = re.match(rf"(?:template <[^{{]*> )?(?:struct|class|enum(?: class)?|union) ({NAME})[^;(]*\{{", statement)
-    if kind:
-        yield kind.group(1)
+    alias = re.match(rf"using ({NAME}) =", statement)
+    if kind or alias:
+        yield (kind or alias).group(1)
+    elif statement.startswith("using "):
+        return
     elif "=" in statement.split("(")[0] or re.match(rf"(constexpr|const|static|std::)[^()]*\b{NAME}(\{{|;)", statement):
         yield from re.findall(rf"\b({NAME})(?:\[\w*\])? ?(?==(?!=)|\{{)", re.sub(r"\([^()]*\)", "", statement))
     else:
@@ -59,7 +62,7 @@ def names(statement):
 
 def defined(path, space):
     """Returns the names of a file's namespaces of one name."""
-    return {n for s in statements(path, space) if not s.startswith(("using ", "namespace ")) for n in names(s)}
+    return {n for s in statements(path, space) if not s.startswith("namespace ") for n in names(s)}
 
 
 def main():

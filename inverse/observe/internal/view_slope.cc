@@ -20,8 +20,8 @@ void TakeMedian(std::vector<double>& values) {
   for (double& value : values) value -= median;
 }
 
-// Sums of weighed products of one pair of views.
-struct Sums {
+// PairSums of weighed products of one pair of views.
+struct PairSums {
   int a = 0, b = 0;
   double products = 0, squares = 0;
 };
@@ -39,12 +39,12 @@ double ScaleOf(const Differences& of, double slope) {
   return kSigmaPerMad * Median(std::move(left));
 }
 
-std::vector<Sums> SumsAt(const Differences& of, double slope, double scale) {
+std::vector<PairSums> SumsAt(const Differences& of, double slope, double scale) {
   constexpr double kTukey = 4.685;
-  std::vector<Sums> sums;
+  std::vector<PairSums> sums;
   sums.reserve(of.pairs.size());
   for (size_t p = 0; p < of.pairs.size(); ++p) {
-    Sums sum{of.pairs[p].a, of.pairs[p].b};
+    PairSums sum{of.pairs[p].a, of.pairs[p].b};
     for (size_t i = 0; i < of.y[p].size(); ++i) {
       const double x = of.x[p][i], z = (of.y[p][i] - slope * x) / (kTukey * scale);
       if (std::abs(z) >= 1) continue;
@@ -58,16 +58,16 @@ std::vector<Sums> SumsAt(const Differences& of, double slope, double scale) {
 }
 
 // Returns the slope without the pairs of a view; -1: of all pairs.
-double SlopeWithout(const std::vector<Sums>& sums, int view) {
+double SlopeWithout(const std::vector<PairSums>& sums, int view) {
   double products = 0, squares = 0;
-  for (const Sums& sum : sums) {
+  for (const PairSums& sum : sums) {
     if (sum.a == view || sum.b == view) continue;
     products += sum.products, squares += sum.squares;
   }
   return squares > 0 ? products / squares : 0;
 }
 
-double JackknifeSigma(const std::vector<Sums>& sums, const std::vector<int>& views) {
+double JackknifeSigma(const std::vector<PairSums>& sums, const std::vector<int>& views) {
   const auto n = static_cast<double>(views.size());
   double mean = 0, squares = 0;
   for (const int view : views) mean += SlopeWithout(sums, view) / n;
@@ -129,7 +129,7 @@ std::optional<ViewSlope> SlopeOverViews(const std::vector<PhotoPair>& pairs,
   for (std::vector<double>& values : x) TakeMedian(values);
   const Differences of{pairs, std::move(y), std::move(x)};
   double slope = 0;
-  std::vector<Sums> sums;
+  std::vector<PairSums> sums;
   for (int round = 0; round < kSlopeRounds; ++round) {
     sums = SumsAt(of, slope, std::max(ScaleOf(of, slope), 1e-6));
     const double before = std::exchange(slope, SlopeWithout(sums, -1));
