@@ -91,6 +91,22 @@ BodyPresence BodiesOf(const json& result) {
   return BodyPresence::kNone;
 }
 
+// Gives groups whose number was estimated the luminaires of the result.
+Session WithGroupsOf(const json& result, Session session) {
+  for (const SessionGroup& group : std::vector<SessionGroup>(session.groups)) {
+    if (!group.count_is_estimated) continue;
+    const std::string first = group.name + "_";
+    const auto is_of_group = [&](const json& luminaire) {
+      return luminaire.at("id").get<std::string>().compare(0, first.size(), first) == 0;
+    };
+    const json& luminaires = result.at("luminaires");
+    session =
+        WithCountedGroup(std::move(session), group.name,
+                         static_cast<int>(std::count_if(luminaires.begin(), luminaires.end(), is_of_group)));
+  }
+  return session;
+}
+
 Session FittedSession(const json& result, const std::string& given, const std::string& path,
                       FluxUnit fluxes) {
   if (result.at("luminaires").empty())
@@ -106,6 +122,7 @@ Session FittedSession(const json& result, const std::string& given, const std::s
     session.scene->moves = MovesFromJson(result.at("furniture_moved"));
   if (session.count_is_estimated)
     session = WithMoreLuminaires(std::move(session), static_cast<int>(result.at("luminaires").size()));
+  session = WithGroupsOf(result, std::move(session));
   session = WithResult(std::move(session), path, fluxes);
   KeepFound(result, session);
   return session;

@@ -8,6 +8,7 @@
 
 #include "apps/session/internal/session_calibration.h"
 #include "apps/session/internal/session_camera.h"
+#include "apps/session/internal/session_groups.h"
 #include "apps/session/internal/session_lights.h"
 #include "apps/session/internal/session_luxmeter.h"
 #include "apps/session/internal/session_photos.h"
@@ -194,6 +195,7 @@ Session ReadSession(const std::string& path) {
   session.max_luminaires = named.max;
   session = WithTables(root, folder, std::move(session));
   if (!session.count_is_estimated) session = WithMoreLuminaires(std::move(session), named.count);
+  ExpectGroupsAlone(root, session);
   if (const auto registration = root.Find("registration")) CheckStartViews(*registration, session.photos);
   session.input_files = InputFiles(session);
   return session;
@@ -210,6 +212,43 @@ Session WithMoreLuminaires(Session session, int count) {
     session.luminaires.push_back(luminaire);
   }
   return session;
+}
+
+Session WithCountedGroup(Session session, const std::string& group, int count) {
+  std::vector<std::string> ids;
+  for (int i = 1; i <= count; ++i) ids.push_back(group + "_" + std::to_string(i));
+  for (SessionGroup& one : session.groups) {
+    if (one.name == group) one.luminaires = ids;
+  }
+  const auto stands = std::find_if(session.luminaires.begin(), session.luminaires.end(),
+                                   [&](const SessionLuminaire& luminaire) { return luminaire.id == group; });
+  std::vector<SessionLuminaire> counted(ids.size(), *stands);
+  for (size_t i = 0; i < ids.size(); ++i) counted[i].id = ids[i];
+  session.luminaires.insert(session.luminaires.erase(stands), counted.begin(), counted.end());
+  for (SessionState& state : session.states) {
+    const auto on = state.dimming.find(group);
+    if (on == state.dimming.end()) continue;
+    for (const std::string& id : ids) state.dimming[id] = on->second;
+    state.dimming.erase(on);
+  }
+  return session;
+}
+
+int StateOfGroupAlone(const Session& session, const std::string& group) {
+  int brightest = -1;
+  double most = 0;
+  for (size_t s = 0; s < session.states.size(); ++s) {
+    double own = 0;
+    bool is_alone = true;
+    for (const auto& [id, dimming] : session.states[s].dimming) {
+      if (id == group) own = dimming;
+      is_alone = is_alone && (id == group || dimming == 0);
+    }
+    if (!is_alone || own <= most) continue;
+    brightest = static_cast<int>(s);
+    most = own;
+  }
+  return brightest;
 }
 
 int StateIndex(const Session& session, const std::string& id) {

@@ -89,7 +89,9 @@ struct SessionPhoto {
 // Holds luminaires that are switched together.
 struct SessionGroup {
   std::string name;
-  std::vector<std::string> luminaires;  // ids
+  std::vector<std::string>
+      luminaires;  // ids; where their number is to be estimated, the group's name stands for them
+  bool count_is_estimated = false;
 };
 
 struct SessionState {
@@ -199,6 +201,12 @@ Session ReadSession(const std::string& path);
 
 // Adds luminaires "lamp1", "lamp2", ... until there are `count`, each on in every state.
 Session WithMoreLuminaires(Session session, int count);
+
+// Returns the session with `count` luminaires GROUP_1, GROUP_2, ... in place of the one that stands for a group.
+Session WithCountedGroup(Session session, const std::string& group, int count);
+
+// Returns the index of the state in which the luminaire that stands for a group is on alone, the brightest of them; -1: none.
+int StateOfGroupAlone(const Session& session, const std::string& group);
 
 // Returns the index into session.states; -1 where no state has that name.
 int StateIndex(const Session& session, const std::string& id);

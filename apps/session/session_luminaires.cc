@@ -192,6 +192,12 @@ void ReadCount(const TomlCursor& session, NamedLuminaires& named) {
     named.count_is_estimated = true;
     return;
   }
+  const bool has_open_groups =
+      std::any_of(named.groups.begin(), named.groups.end(),
+                  [](const SessionGroup& group) { return group.count_is_estimated; });
+  if (has_open_groups)
+    throw count->Error("expected nothing beside a group whose number is to be estimated, got " +
+                       count->Shown() + "; remove the key");
   named.count = count->WholeNumber("\"estimate\" or a number of luminaires");
   named.count_is_estimated = false;
   if (has_states ? named.count != known : named.count < std::max(1, known))

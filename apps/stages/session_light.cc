@@ -132,13 +132,24 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
 
 Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
                               const Evidence& observed, RunContext& context) {
-  if (!session.count_is_estimated) return session;
+  const auto is_open = [](const SessionGroup& group) { return group.count_is_estimated; };
+  const bool has_open_groups = std::any_of(session.groups.begin(), session.groups.end(), is_open);
+  if (!session.count_is_estimated && !has_open_groups) return session;
   const StageTimer timer(context, "count", "how many luminaires there are");
-  std::function<std::string()> stop_reason;
-  if (context.stop) stop_reason = [stop = context.stop] { return stop->ReasonOfCount(); };
-  const int count = CountLuminaires(room, RoomObservationsOf(session, linearized, room, observed),
-                                    session.max_luminaires, context, stop_reason);
-  return WithMoreLuminaires(std::move(session), count);
+  CountLuminairesOptions options;
+  options.max_count = session.max_luminaires;
+  if (context.stop) options.stop_reason = [stop = context.stop] { return stop->ReasonOfCount(); };
+  const RoomObservations given = RoomObservationsOf(session, linearized, room, observed);
+  if (session.count_is_estimated)
+    return WithMoreLuminaires(std::move(session), CountLuminaires(room, given, options, context));
+  for (const SessionGroup& group : std::vector<SessionGroup>(session.groups)) {
+    if (!is_open(group)) continue;
+    options.group = group.name;
+    const RoomObservations alone = InOneState(given, StateOfGroupAlone(session, group.name));
+    session =
+        WithCountedGroup(std::move(session), group.name, CountLuminaires(room, alone, options, context));
+  }
+  return session;
 }
 
 }  // namespace luxfit

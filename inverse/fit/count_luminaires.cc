@@ -27,7 +27,7 @@ LightState KnownReflectances(const Room& room, const RoomObservations& given) {
   return state;
 }
 
-void Record(const CountChoice& choice, Findings& findings) {
+void Record(const CountChoice& choice, const std::string& group, Findings& findings) {
   std::vector<std::string> among;
   std::string scores;
   for (size_t i = 0; i < choice.among.size(); ++i) {
@@ -35,15 +35,15 @@ void Record(const CountChoice& choice, Findings& findings) {
     scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
   }
   findings.choices.push_back(
-      {"number of luminaires", std::to_string(choice.chosen), among,
+      {"number of luminaires" + (group.empty() ? "" : " of " + group), std::to_string(choice.chosen), among,
        "smallest within one standard error of the best on patches left out (mean squared "
        "normalised error: " +
            scores + ")"});
   if (choice.chosen == 0) {
     findings.AddUndetermined(
         {"luminaires_not_counted",
-         "the number of luminaires is not determined: too little light was seen to place "
-         "one and to test it on what was left out",
+         "the number of luminaires" + (group.empty() ? "" : " of " + group) +
+             " is not determined: too little light was seen to place one and to test it on what was left out",
          "photograph more of the room, or name the luminaires in [states]"});
   } else if (choice.reached_max) {
     findings.warnings.push_back(
@@ -57,21 +57,44 @@ void Record(const CountChoice& choice, Findings& findings) {
 
 }  // namespace
 
-int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
-                    const std::function<std::string()>& stop_reason) {
+int CountLuminaires(const Room& room, const RoomObservations& given, const CountLuminairesOptions& options,
+                    Findings& findings) {
   LightData data = LightOf(room, given).data;
   if (!data.observations.empty()) data = WithMeasuredIndirect(room, data);
   std::atomic<int> rounds = 0;
-  data.checkpoint = CheckpointOf(stop_reason, rounds);
+  data.checkpoint = CheckpointOf(options.stop_reason, rounds);
   std::vector<std::optional<Eigen::Vector3d>> known;
   for (const KnownLuminaire& luminaire : given.luminaires) known.push_back(luminaire.position_m);
-  ChooseCountOptions options;
-  options.max_count = max_count;
+  ChooseCountOptions choose;
+  choose.max_count = options.max_count;
   const CountChoice choice =
-      ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, given.seen, options);
-  Record(choice, findings);
+      ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, given.seen, choose);
+  Record(choice, options.group, findings);
   if (!choice.stopped.empty()) WarnOfStop({choice.stopped, "count"}, findings);
   return std::max(1, choice.chosen);
+}
+
+RoomObservations InOneState(RoomObservations given, int state) {
+  const auto is_other = [state](const auto& row) { return row.state != state; };
+  const auto keep = [&](auto& rows) {
+    rows.erase(std::remove_if(rows.begin(), rows.end(), is_other), rows.end());
+    for (auto& row : rows) row.state = 0;
+  };
+  keep(given.observations);
+  keep(given.meter.readings);
+  given.outlines.clear();
+  std::vector<SeenPlace> seen;
+  for (SeenPlace& place : given.seen) {
+    if (std::find(place.states.begin(), place.states.end(), state) == place.states.end()) continue;
+    place.states = {0};
+    place.dark_states.clear();
+    seen.push_back(std::move(place));
+  }
+  given.seen = std::move(seen);
+  given.luminaires.clear();
+  given.luminaires_are_named = false;
+  given.dimming = {Eigen::VectorXd()};
+  return given;
 }
 
 }  // namespace luxfit

@@ -161,13 +161,22 @@ struct PredictedReading {
 // Returns one prediction for each reading of `fit.data`; empty where nothing was fitted.
 std::vector<PredictedReading> PredictedReadings(const RoomFit& fit);
 
+struct CountLuminairesOptions {
+  int max_count = 0;  // largest number tried; 0: 12, or more where photos show more
+  std::string group;  // what is counted, in words; empty: all luminaires
+  std::function<std::string()>
+      stop_reason;  // as in FitRoomOptions; ends the count with the numbers compared so far
+};
+
 // Counts the luminaires that nobody names from one state in which all are on
 // (inverse/choose/internal/choose_count.h). Returns the chosen number, at least 1, and records the choice.
 // Where nothing could be placed, it sets `undetermined` and a warning says why. Throws as
-// ChooseLuminaireCount does. `given.luminaires`: the luminaires that are known already. `max_count`: the
-// largest number tried; 0: 12, or more where photos show more. `stop_reason`: as in FitRoomOptions; ends the count with the numbers compared so far.
-int CountLuminaires(const Room& room, const RoomObservations& given, int max_count, Findings& findings,
-                    const std::function<std::string()>& stop_reason = {});
+// ChooseLuminaireCount does. `given.luminaires`: the luminaires that are known already.
+int CountLuminaires(const Room& room, const RoomObservations& given, const CountLuminairesOptions& options,
+                    Findings& findings);
+
+// Returns what was observed in one state, and no luminaire: to count those that are on in it.
+RoomObservations InOneState(RoomObservations given, int state);
 
 }  // namespace luxfit
 

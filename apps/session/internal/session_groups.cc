@@ -12,8 +12,11 @@ bool HasId(const std::vector<std::string>& ids, const std::string& id) {
 }
 
 SessionGroup ReadGroup(const TomlCursor::Member& member, const std::vector<std::string>& described) {
-  SessionGroup group{member.name, {}};
-  for (const TomlCursor& element : member.value.Elements("a list of luminaires such as [\"A\", \"B\"]")) {
+  if (member.value.IsText() && member.value.Text("\"estimate\"") == "estimate")
+    return {member.name, {member.name}, true};
+  SessionGroup group{member.name, {}, false};
+  for (const TomlCursor& element :
+       member.value.Elements("a list of luminaires such as [\"A\", \"B\"], or \"estimate\"")) {
     const std::string id = element.Text("the id of a luminaire");
     if (!described.empty() && !HasId(described, id)) {
       const std::string nearest = DidYouMean(id, described);
@@ -44,6 +47,7 @@ std::vector<SessionGroup> ReadGroups(const TomlCursor& session, const std::vecto
   const std::vector<TomlCursor::Member> members = section->Members();
   for (const TomlCursor::Member& member : members) {
     groups.push_back(ReadGroup(member, described));
+    if (groups.back().count_is_estimated) continue;
     for (const std::string& id : groups.back().luminaires) luminaires.push_back(id);
   }
   for (const TomlCursor::Member& member : members) {
@@ -55,6 +59,20 @@ std::vector<SessionGroup> ReadGroups(const TomlCursor& session, const std::vecto
     throw section->Error(
         "expected at least one group, got none; write row1 = [\"A\", \"B\"] or remove the section");
   return groups;
+}
+
+void ExpectGroupsAlone(const TomlCursor& session, const Session& read) {
+  const auto section = session.Find("groups");
+  if (!section) return;
+  for (const TomlCursor::Member& member : section->Members()) {
+    const bool is_counted = member.value.IsText();
+    if (is_counted && StateOfGroupAlone(read, member.name) < 0)
+      throw member.value.Error("expected a state in which " + member.name +
+                               " alone is on, in which its luminaires can be counted, got none; add one to "
+                               "[states], as in " +
+                               member.name + " = { " + member.name +
+                               " = 1.0 }, with photos, or name the luminaires");
+  }
 }
 
 }  // namespace luxfit

@@ -101,5 +101,43 @@ TEST_F(SessionGroupsTest, GroupsAreChecked) {
   EXPECT_THAT(Error(), HasSubstr("session.toml:1: groups: expected [states] beside it"));
 }
 
+TEST_F(SessionGroupsTest, TheNumberOfAGroupMayBeOpen) {
+  Reset();
+  folder_.Write("session.toml",
+                "[groups]\nrow1 = \"estimate\"\nrow2 = [\"C\", \"D\"]\n[states]\ndim = { row1 = 0.5 }\n"
+                "one = { row1 = 1, row2 = 0 }\nall = { row1 = 0.8, row2 = 1 }\n");
+  const Session open = Read();
+  ASSERT_EQ(open.luminaires.size(), 3U);
+  EXPECT_EQ(open.luminaires[0].id, "row1");  // stands for all of them
+  EXPECT_TRUE(open.groups[0].count_is_estimated);
+  EXPECT_FALSE(open.groups[1].count_is_estimated);
+  EXPECT_FALSE(open.count_is_estimated);
+  EXPECT_EQ(StateOfGroupAlone(open, "row1"), 1);  // the brightest
+  EXPECT_EQ(StateOfGroupAlone(open, "row2"), -1);
+  const Session counted = WithCountedGroup(open, "row1", 2);
+  std::string ids;
+  for (const SessionLuminaire& luminaire : counted.luminaires) ids += luminaire.id + " ";
+  EXPECT_EQ(ids, "row1_1 row1_2 C D ");
+  EXPECT_EQ(counted.groups[0].luminaires, (std::vector<std::string>{"row1_1", "row1_2"}));
+  EXPECT_EQ(counted.states[0].dimming, (std::map<std::string, double>{{"row1_1", 0.5}, {"row1_2", 0.5}}));
+  EXPECT_EQ(counted.states[2].dimming,
+            (std::map<std::string, double>{{"C", 1}, {"D", 1}, {"row1_1", 0.8}, {"row1_2", 0.8}}));
+}
+
+TEST_F(SessionGroupsTest, AnOpenGroupNeedsAStateOfItsOwn) {
+  Reset();
+  folder_.Write("session.toml", "[groups]\nrow1 = \"estimate\"\n[states]\nall = { row1 = 1, A = 1 }\n");
+  EXPECT_THAT(Error(), HasSubstr("states.all.A: expected a group or a luminaire"));
+  folder_.Write("session.toml",
+                "[groups]\nrow1 = \"estimate\"\nrow2 = [\"A\"]\n[states]\nall = { row1 = 1, row2 = 1 }\n");
+  EXPECT_THAT(Error(),
+              AllOf(HasSubstr("session.toml:2: groups.row1: expected a state in which row1 alone is on"),
+                    HasSubstr("add one to [states], as in row1 = { row1 = 1.0 }, with photos")));
+  folder_.Write("session.toml",
+                "[groups]\nrow1 = \"estimate\"\n[states]\nall = { row1 = 1 }\n[luminaires]\ncount = 1\n");
+  EXPECT_THAT(Error(),
+              HasSubstr("luminaires.count: expected nothing beside a group whose number is to be estimated"));
+}
+
 }  // namespace
 }  // namespace luxfit

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -44,6 +45,35 @@ TEST(OpenPlan, TwentyPanelsAreFoundAndTheAgedOnesNamed) {
   EXPECT_LT(readings_percent, 2);             // 1.29 %
   EXPECT_THAT(MessagesOf(result, "flux_deviates"),
               testing::ElementsAre(testing::StartsWith("P23 gives"), testing::StartsWith("P45 gives")));
+}
+
+// Nobody says how many panels a row has.
+TEST(OpenPlan, PanelsOfSwitchedRowsAreCounted) {
+  const TempFolder folder;
+  const std::filesystem::path fixture = std::filesystem::path(LUXFIT_FIXTURES) / "openplan";
+  for (const auto& entry : std::filesystem::directory_iterator(fixture))
+    std::filesystem::create_symlink(entry.path(), folder.Path(entry.path().filename().string()));
+  std::string text = folder.Read("session.toml");
+  const size_t from = text.find("[states]"), to = text.find("[luxmeter]");
+  text = text.substr(0, from) +
+         "[groups]\nrow1 = \"estimate\"\nrow2 = \"estimate\"\nrow3 = \"estimate\"\nrow4 = "
+         "\"estimate\"\n[states]\n"
+         "row1 = { row1 = 1 }\nrow2 = { row2 = 1 }\nrow3 = { row3 = 1 }\nrow4 = { row4 = 1 }\n"
+         "all = { row1 = 1, row2 = 1, row3 = 1, row4 = 1 }\n" +
+         text.substr(to);
+  std::filesystem::remove(folder.Path("session.toml"));
+  folder.Write("session.toml", text);
+  const support::ProgramRun run =
+      support::RunProgram("fit " + folder.Path("session.toml") + " --budget 900 -o " + folder.Path("out"));
+  EXPECT_EQ(run.status, 0) << run.output;
+  const json result = json::parse(folder.Read("out/result.json"));
+  const TruthComparison errors = CompareWithTruth(result, json::parse(std::ifstream(fixture / "truth.json")));
+  std::printf("worst position %.2f mm, worst flux %.2f %%\n", errors.worst_position_mm,
+              errors.worst_flux_percent);
+  ASSERT_EQ(result["luminaires"].size(), 20U);
+  EXPECT_EQ(result["luminaires"][5]["id"], "row2_1");
+  EXPECT_LT(errors.worst_position_mm, 14);
+  EXPECT_LT(errors.worst_flux_percent, 2.7);
 }
 
 }  // namespace
