@@ -20,7 +20,7 @@ void TakeMedian(std::vector<double>& values) {
   for (double& value : values) value -= median;
 }
 
-// PairSums of weighed products of one pair of views.
+// Sums of weighed products of one pair of views.
 struct PairSums {
   int a = 0, b = 0;
   double products = 0, squares = 0;
