@@ -37,8 +37,22 @@ std::optional<double> SeenDiameter_m(const SeenPlace* place) {
   return 2 * std::sqrt(place->area_m2 / M_PI);
 }
 
-// Returns a state with the luminaires as cosine-power discs about their places. Those that photos show stay where and
-// as large as they are shown: many that are free at once get lost.
+// Returns what photos tell of the places of the sources.
+std::vector<ParameterPrior> PriorsOf(const SparseLuminaires& found, const std::vector<SeenPlace>& places) {
+  constexpr LuminaireQuantity kAxes[] = {LuminaireQuantity::kPositionX, LuminaireQuantity::kPositionY,
+                                         LuminaireQuantity::kPositionZ};
+  std::vector<ParameterPrior> priors;
+  for (size_t i = 0; i < found.sources.size(); ++i) {
+    const SeenPlace* place = PlaceOf(found.sources[i], places);
+    for (int axis = 0; place && axis < 3; ++axis)
+      priors.push_back({ParameterKind::kLuminaire, static_cast<int>(i), kAxes[axis], place->position[axis],
+                        place->sigma_m});
+  }
+  return priors;
+}
+
+// Returns a state with the luminaires as cosine-power discs about their places. Those that photos show are as large as
+// they are shown, and stay near their places (PriorsOf): many that are free at once get lost.
 LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
                    double size_m, const std::vector<SeenPlace>& places) {
   LightState state = given;
@@ -62,7 +76,7 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
     luminaire.flux_lm = flux_per_strength * source.strength;
     state.luminaires.push_back(luminaire);
     FreeQuantities free;
-    free.position = !source.is_held && !source.is_seen;
+    free.position = !source.is_held;
     free.exponent = is_disc;
     free.size = is_disc && !seen_m;
     state.free.push_back(free);
@@ -111,8 +125,9 @@ std::optional<Trial> Refined(const Room& room, const SubProblem& problem, const 
   fit_options.max_outer_iterations = 4;
   fit_options.visibility_order = 2;
   const double flux_per_strength = data.observations.empty() ? 1 : M_PI;  // readings: 1, photos: pi
-  const LuminaireFit fit = FitLuminaires(
-      room, data, StartOf(found, given, flux_per_strength, options.start_size_m, places), {}, fit_options);
+  const LuminaireFit fit =
+      FitLuminaires(room, data, StartOf(found, given, flux_per_strength, options.start_size_m, places),
+                    PriorsOf(found, places), fit_options);
   if (fit.status == FitStatus::kNoData) return {};
   LightModel model(room, all);
   model.FreezeVisibility(fit.state, fit_options.visibility_order);
