@@ -196,6 +196,7 @@ class Count {
       if (found_.sources.size() < std::max(count, known_) ||
           !AllGiveLight(found_.sources, options_.least_share) || !Try(found_, trials_.size()))
         return;
+      if (AreShown()) return;
       if (count > known_ && trials_.size() == 1) TryFewer(data);
       if (trials_.size() - 1 - Select().best >= kPatience) return;
     }
@@ -209,12 +210,23 @@ class Count {
     choice.chosen = trials_[selection.chosen].count;
     choice.score = std::move(selection.score);
     choice.standard_error = std::move(selection.standard_error);
+    choice.are_shown = AreShown();
     choice.most = static_cast<int>(most_);
     choice.reached_max = trials_[selection.best].count == choice.most;
     return choice;
   }
 
  private:
+  // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 5 %, as
+  // in the search for places: then their light, which is alike, too, decides nothing.
+  bool AreShown() const {
+    constexpr double kExplained = 0.05;
+    return trials_.size() == 1 && trials_[0].left_out.relative_sigma < kExplained &&
+           std::all_of(found_.sources.begin(), found_.sources.end(),
+                       [](const SparseSource& source) { return source.is_seen; }) &&
+           !SourcesAtAlike(places_, found_.sources.size()).empty();
+  }
+
   // The surest places come first. A known luminaire is seen, too.
   void AddSurePlaces() {
     constexpr double kSame_m = 0.3;

@@ -7,7 +7,8 @@
 //    several.
 // 3. They are scored on the fold left out (inverse/choose/internal/left_out.h).
 // The smallest n within one standard error of the best score is chosen (paired, facet by facet). The first number is
-// that of the places that photos show beyond doubt (IsSure) and that give light. Those that give least are left out,
+// that of the places that photos show beyond doubt (IsSure) and that give light. Where these are three and more that are
+// alike (inverse/model/internal/search/alike_places.h) and explain the light to 5 %, that is the number. Else those that give least are left out,
 // one after the other, as long as the others predict better by more than a standard error: windows and highlights are
 // seen, too. Then numbers are tried upwards until two in a row bring no gain.
 //
@@ -40,9 +41,10 @@ struct CountChoice {
   std::vector<double> score;           // one for each of `among`, on data left out
   std::vector<double> standard_error;  // standard error of the difference from the best
   int chosen = 0;                      // luminaires; 0: too little light was seen to place one
-  int most = 0;                        // largest number allowed
-  bool reached_max = false;            // the best was that one
-  std::string stopped;                 // why it ended before that was known; empty: it did not
+  bool are_shown = false;    // photos show them, alike, and their light agrees: no other number was tried
+  int most = 0;              // largest number allowed
+  bool reached_max = false;  // the best was that one
+  std::string stopped;       // why it ended before that was known; empty: it did not
 };
 
 // `data`: with measured indirect light, or readings alone; only one dimming per state counts. `state`: gives
