@@ -73,7 +73,7 @@ TEST(InitPhotosTest, AMixTakesTheNameThatOnlyReadingsHave) {
   folder.Write("two/luxmeter.csv", readings + "L2,3,2,0.75,0,0,1,night,20\n");
   ASSERT_EQ(Init(folder.Path("photos"), folder.Path("two")).status, 0);
   EXPECT_THAT(folder.Read("two/session.toml"),
-              AllOf(HasSubstr("\"mix1\" = "), HasSubstr("photo has (evening, night)")));
+              AllOf(HasSubstr("\"mix1\" = "), HasSubstr("photo has (evening or night)")));
 }
 
 // Names that tell keep their meaning: no note, no column for it.
