@@ -5,6 +5,7 @@ there, nor those of headers. Looks at the source alone: compiling every batch to
   unity.py SOURCE
 """
 import collections
+import functools
 import pathlib
 import re
 import subprocess
@@ -30,10 +31,12 @@ def statements(path, space):
         yield from (" ".join(s.split()) for s in re.findall(r"^[A-Za-z_\[][^;{]*(?:;|\{[^\n]*)", inside, re.M))
 
 
+@functools.lru_cache(maxsize=None)
 def headers(source, path):
-    """Returns the project's headers that a file includes."""
+    """Returns the project's headers that a file includes, those that these include among them."""
     included = re.findall(r'^#include "(.*)"', pathlib.Path(path).read_text(), re.M)
-    return [f"{source}/{h}" for h in included if pathlib.Path(source, h).exists()]
+    direct = {f"{source}/{h}" for h in included if pathlib.Path(source, h).exists() and h.endswith(".h")}
+    return direct.union(*(headers(source, h) for h in direct))
 
 
 def parameter_types(parameters):
@@ -75,10 +78,15 @@ def main():
         for path in batch:
             for name in defined(path, ""):
                 files[name].add(path)
+        # A function of one's own hides a header's of its name; what JSON turns into by itself would then be taken.
+        own = {name.split("(")[0]: paths for name, paths in files.items()}
         for header in sorted({h for path in batch for h in headers(source, path)}):
             for name in defined(header, "luxfit "):
+                hidden = name.split("(")[0]
                 if name in files:
                     files[name].add(header)
+                elif "json&" in name and hidden in own:
+                    files[hidden] = files.get(hidden, set()) | own[hidden] | {header}
         for name, paths in files.items():
             paths = paths | files.get(name.split("(")[0], set())  # a type hides, or is hidden by, a function of its name
             if len(paths) > 1:

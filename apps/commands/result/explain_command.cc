@@ -65,7 +65,7 @@ std::string RowsOn(const std::string& topic) {
   return rows;
 }
 
-std::string WarningText(const std::string& code) {
+std::string WarningPage(const std::string& code) {
   std::string text;
   bool is_in = false;
   for (const std::string& line : LinesOf(kWarningsText)) {
@@ -122,7 +122,7 @@ std::vector<std::string> ExplainedKeys() {
 }
 
 std::string ExplanationOf(const std::string& topic) {
-  std::string text = WarningText(topic);
+  std::string text = WarningPage(topic);
   for (const KeyLine& key : KeyLines()) {
     const bool is_of_section = key.topic.rfind(topic + ".", 0) == 0;
     if (key.topic == topic) text += key.line + "\n";
