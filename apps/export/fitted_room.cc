@@ -93,16 +93,13 @@ BodyPresence BodiesOf(const json& result) {
 
 // Gives groups whose number was estimated the luminaires of the result.
 Session WithGroupsOf(const json& result, Session session) {
-  for (const SessionGroup& group : std::vector<SessionGroup>(session.groups)) {
-    if (!group.count_is_estimated) continue;
-    const std::string first = group.name + "_";
-    const auto is_of_group = [&](const json& luminaire) {
+  const json& luminaires = result.at("luminaires");
+  for (const std::string& group : OpenGroups(session)) {
+    const std::string first = group + "_";
+    const auto count = std::count_if(luminaires.begin(), luminaires.end(), [&](const json& luminaire) {
       return luminaire.at("id").get<std::string>().compare(0, first.size(), first) == 0;
-    };
-    const json& luminaires = result.at("luminaires");
-    session =
-        WithCountedGroup(std::move(session), group.name,
-                         static_cast<int>(std::count_if(luminaires.begin(), luminaires.end(), is_of_group)));
+    });
+    session = WithCountedGroup(std::move(session), group, static_cast<int>(count));
   }
   return session;
 }

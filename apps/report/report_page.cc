@@ -13,7 +13,7 @@
 namespace luxfit {
 namespace {
 
-// Fills in the placeholders <!--NAME--> of a text. Text that is inserted is not searched again.
+// Inserts a text in place of each mark <!--NAME--> of an HTML template. What is inserted is not searched again.
 std::string Filled(std::string_view text, const std::map<std::string, std::string>& parts) {
   std::string filled;
   size_t at = 0;

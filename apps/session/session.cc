@@ -214,6 +214,14 @@ Session WithMoreLuminaires(Session session, int count) {
   return session;
 }
 
+std::vector<std::string> OpenGroups(const Session& session) {
+  std::vector<std::string> names;
+  for (const SessionGroup& group : session.groups) {
+    if (group.count_is_estimated) names.push_back(group.name);
+  }
+  return names;
+}
+
 Session WithCountedGroup(Session session, const std::string& group, int count) {
   std::vector<std::string> ids;
   for (int i = 1; i <= count; ++i) ids.push_back(group + "_" + std::to_string(i));

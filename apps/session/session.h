@@ -202,6 +202,9 @@ Session ReadSession(const std::string& path);
 // Adds luminaires "lamp1", "lamp2", ... until there are `count`, each on in every state.
 Session WithMoreLuminaires(Session session, int count);
 
+// Returns the names of the groups whose number of luminaires is to be estimated.
+std::vector<std::string> OpenGroups(const Session& session);
+
 // Returns the session with `count` luminaires GROUP_1, GROUP_2, ... in place of the one that stands for a group.
 Session WithCountedGroup(Session session, const std::string& group, int count);
 

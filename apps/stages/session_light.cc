@@ -132,9 +132,8 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
 
 Session WithCountedLuminaires(Session session, const LinearizedSession& linearized, const Room& room,
                               const Evidence& observed, RunContext& context) {
-  const auto is_open = [](const SessionGroup& group) { return group.count_is_estimated; };
-  const bool has_open_groups = std::any_of(session.groups.begin(), session.groups.end(), is_open);
-  if (!session.count_is_estimated && !has_open_groups) return session;
+  const std::vector<std::string> groups = OpenGroups(session);
+  if (!session.count_is_estimated && groups.empty()) return session;
   const StageTimer timer(context, "count", "how many luminaires there are");
   CountLuminairesOptions options;
   options.max_count = session.max_luminaires;
@@ -142,12 +141,10 @@ Session WithCountedLuminaires(Session session, const LinearizedSession& lineariz
   const RoomObservations given = RoomObservationsOf(session, linearized, room, observed);
   if (session.count_is_estimated)
     return WithMoreLuminaires(std::move(session), CountLuminaires(room, given, options, context));
-  for (const SessionGroup& group : std::vector<SessionGroup>(session.groups)) {
-    if (!is_open(group)) continue;
-    options.group = group.name;
-    const RoomObservations alone = InOneState(given, StateOfGroupAlone(session, group.name));
-    session =
-        WithCountedGroup(std::move(session), group.name, CountLuminaires(room, alone, options, context));
+  for (const std::string& group : groups) {
+    options.group = group;
+    const RoomObservations alone = InOneState(given, StateOfGroupAlone(session, group));
+    session = WithCountedGroup(std::move(session), group, CountLuminaires(room, alone, options, context));
   }
   return session;
 }

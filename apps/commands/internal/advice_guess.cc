@@ -31,23 +31,21 @@ Room QuietRoom(const Session& session) {
 // A group whose number is open gets its share of the floor's luminaires.
 void CountLuminaires(GuessedSession& guessed) {
   Session& session = guessed.session;
-  const auto is_open = [](const SessionGroup& group) { return group.count_is_estimated; };
-  const auto open = static_cast<int>(std::count_if(session.groups.begin(), session.groups.end(), is_open));
-  if (!session.count_is_estimated && open == 0) return;
+  const std::vector<std::string> groups = OpenGroups(session);
+  if (!session.count_is_estimated && groups.empty()) return;
   constexpr int kMost = 12;
   const int most = session.max_luminaires > 0 ? session.max_luminaires : kMost;
   int count = std::max(static_cast<int>(session.luminaires.size()), GuessedCount(guessed.room, most));
   if (session.count_is_estimated) {
     session = WithMoreLuminaires(std::move(session), count);
   } else {
-    count = std::max(1, count / open);
-    for (const SessionGroup& group : std::vector<SessionGroup>(session.groups))
-      if (is_open(group)) session = WithCountedGroup(std::move(session), group.name, count);
+    count = std::max(1, count / static_cast<int>(groups.size()));
+    for (const std::string& group : groups) session = WithCountedGroup(std::move(session), group, count);
   }
   guessed.advice.assumed.push_back({"count",
                                     {},
                                     fmt::format("{}{}: one for every {:g} m2 of the floor", count,
-                                                open > 0 ? " a group" : "", kM2PerLuminaire)});
+                                                groups.empty() ? "" : " a group", kM2PerLuminaire)});
 }
 
 // Adds each luminaire alone to a session that names no states.

@@ -227,12 +227,12 @@ class Count {
            !SourcesAtAlike(places_, found_.sources.size()).empty();
   }
 
-  // The surest places come first. A known luminaire is seen, too.
+  // The surest places come first. Photos show known luminaires, too.
   void AddSurePlaces() {
     constexpr double kSame_m = 0.3;
     for (const SeenPlace& place : places_) {
       const auto is_there = [&](const SparseSource& source) {
-        return (source.luminaire.position - place.position).norm() < kSame_m;
+        return source.is_held && (source.luminaire.position - place.position).norm() < kSame_m;
       };
       if (options_.max_count > 0 && found_.sources.size() >= static_cast<size_t>(options_.max_count)) return;
       if (!IsSure(place) || std::any_of(found_.sources.begin(), found_.sources.end(), is_there)) continue;

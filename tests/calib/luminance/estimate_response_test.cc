@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "tests/support/calib/camera_model.h"
@@ -126,8 +127,11 @@ TEST(EstimateResponseTest, TwoExposuresAStopApartTellTheCurve) {
     EXPECT_TRUE(estimate.response.has_value()) << estimate.message;
     return std::pair(estimate.scores.at(estimate.chosen).method, estimate.response.value());
   };
+  for (const double ratio : {2, 4, 8})
+    std::printf("a film's curve, step of %g: %.1f %% at most\n", ratio,
+                100 * WorstError(estimated(ratio).second, FilmDecoded, 255));
   EXPECT_LT(WorstError(estimated(2).second, FilmDecoded, 255), 0.04);
-  // What three stops leave open is in sigma.
+  // Sigma holds what three stops leave open.
   const CameraResponse apart = estimated(8).second;
   EXPECT_GT(WorstError(apart, FilmDecoded, 255), 0.1);
   EXPECT_GT(apart.RelativeSigma(1, 128), 0.1);
