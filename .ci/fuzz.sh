@@ -68,14 +68,18 @@ fuzz() {
   fi
   grep -E 'number_of_executed_units|peak_rss_mb' "$work/$kind.log" | sed "s/^stat::/$kind: /"
 }
-fuzz ies 65536 512
-fuzz ldt 65536 512
+# Two at a time.
+both() {
+  fuzz $1 &
+  first=$!
+  fuzz $2
+  wait "$first"
+}
+both "ies 65536 512" "ldt 65536 512"
 # What Embree's and TBB's own threads keep is no leak of the readers.
 ASAN_OPTIONS=detect_leaks=0
 export ASAN_OPTIONS
-fuzz mesh 8192 2048
-fuzz camera 2048 1024
-fuzz table 4096 1024
-fuzz session 4096 1024
+both "mesh 8192 2048" "camera 2048 1024"
+both "table 4096 1024" "session 4096 1024"
 fuzz gltf 4096 2048 -dict="$root/tests/fuzz/gltf.dict"
 rm -r "$work"

@@ -1,6 +1,8 @@
 luxfit_test(calib/luminance image_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance radiance_picture_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance raw_photo_test LINK luxfit::calib)
+luxfit_test(calib/colour colour_temperature_test LINK luxfit::calib)
+luxfit_test(calib/colour camera_colours_test LINK luxfit::calib opencv_core opencv_imgcodecs)
 luxfit_test(calib/luminance heif_photo_test LINK luxfit::calib exiv2lib PkgConfig::LIBHEIF)
 luxfit_test(calib/luminance luminance_test LINK luxfit::calib)
 luxfit_test(calib/luminance luminance_spot_test LINK luxfit::calib)

@@ -130,7 +130,9 @@ FittedRoom Assemble(const std::string& out, const json& result, Session session,
   RunContext context;
   context.is_quiet = true;
   session = OnSurfaceOf(room, std::move(session));
-  const Eigen::Vector3d weights = LuminanceWeights(session);
+  const Eigen::Vector3d weights = result.contains("luminance_weights")
+                                      ? VectorFromJson(result["luminance_weights"]).head<3>().eval()
+                                      : LuminanceWeights(session);
   FittedScene scene{GivenLuminaires(session, "report", context),
                     AlbedoOf(result, room.scene),
                     BodiesOf(result),

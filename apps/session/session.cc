@@ -13,6 +13,7 @@
 #include "apps/session/internal/session_luxmeter.h"
 #include "apps/session/internal/session_photos.h"
 #include "apps/session/internal/session_states.h"
+#include "apps/session/photo_colours.h"
 #include "apps/session/report_details.h"
 #include "apps/session/session_files.h"
 #include "apps/session/session_luminaires.h"
@@ -193,7 +194,7 @@ Session ReadSession(const std::string& path) {
   session.luminaires = named.luminaires;
   session.count_is_estimated = named.count_is_estimated && !root.Find("lights");
   session.max_luminaires = named.max;
-  session = WithTables(root, folder, std::move(session));
+  session = WithColoursOfPhotos(WithTables(root, folder, std::move(session)));
   if (!session.count_is_estimated) session = WithMoreLuminaires(std::move(session), named.count);
   ExpectGroupsAlone(root, session);
   if (const auto registration = root.Find("registration")) CheckStartViews(*registration, session.photos);

@@ -38,6 +38,7 @@ struct SessionScene {
   std::optional<RoomOutline> outline;                       // from size or outline; m
   bool finds_furniture = true;                              // furniture = "find"
   bool names_planes = true;                                 // materials = "find"
+  std::vector<std::string> neutral;                         // materials of one reflectance at all wavelengths
   std::optional<MeshMove> mesh_move;  // where the mesh is instead, as a run's corrections have it
   std::vector<RoomBox> furniture;     // found in photos (apps/stages/observe/found_furniture.h), m
   std::vector<PlaneMove> walls;       // of the mesh, which photos show elsewhere
@@ -72,7 +73,9 @@ struct SessionCamera {
   double black_level_counts = 0;
   double cdm2_per_count_s = 0;  // 0: unknown
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
-  int line = 0;  // line of its [[camera]]
+  std::optional<Eigen::Matrix3d> xyz_from_rgb;  // given, or as the photos state it
+  std::string colours;  // what tells luminance_weights: a key, or what the photos state; empty: nothing
+  int line = 0;         // line of its [[camera]]
 };
 
 // Holds one row of the photo table.

@@ -47,8 +47,8 @@ double MetresPerUnit(const std::string& unit, const std::string& key) {
 }
 
 SessionScene ReadSceneSection(const TomlCursor& section, const std::string& folder) {
-  section.ExpectKeys(
-      {"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo", "furniture", "materials"});
+  section.ExpectKeys({"mesh", "size", "outline", "height", "box", "opening", "unit", "albedo", "furniture",
+                      "materials", "neutral"});
   SessionScene scene;
   if (const auto unit = section.Find("unit")) {
     scene.unit = unit->OneOf(UnitNames());
@@ -60,6 +60,10 @@ SessionScene ReadSceneSection(const TomlCursor& section, const std::string& fold
     scene.finds_furniture = furniture->OneOf({"find", "given"}) == "find";
   if (const auto materials = section.Find("materials"))
     scene.names_planes = materials->OneOf({"find", "given"}) == "find";
+  if (const auto neutral = section.Find("neutral")) {
+    for (const TomlCursor& name : neutral->Elements("a list of materials, such as [\"ceiling\"]"))
+      scene.neutral.push_back(name.Text("a material"));
+  }
   scene.line = section.place().line;
   if (const auto albedo = section.Find("albedo")) {
     scene.line = albedo->place().line;

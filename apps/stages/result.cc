@@ -14,6 +14,7 @@
 #include "apps/stages/stages.h"
 #include "apps/stages/warning_order.h"
 #include "apps/text/formats/json_vectors.h"
+#include "calib/colour/colour_temperature.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "forward/luminaire/luminaire_parts.h"
 #include "forward/luminaire/photometry.h"
@@ -107,6 +108,29 @@ void AddShareUp(const Luminaire& luminaire, double ratio_sigma, json& entry) {
   entry["share_up_sigma"] = ratio_sigma * reference * reference;
 }
 
+// Returns the covariance of ln XYZ for channels with independent relative errors.
+Eigen::Matrix3d LogCovariance(const Eigen::Matrix3d& xyz_from_rgb, const Eigen::Vector3d& rgb,
+                              const Eigen::Vector3d& relative_sigma) {
+  const Eigen::Vector3d xyz = xyz_from_rgb * rgb;
+  const Eigen::Matrix3d slope = xyz.cwiseInverse().asDiagonal() * xyz_from_rgb * rgb.asDiagonal();
+  return slope * relative_sigma.cwiseAbs2().asDiagonal() * slope.transpose();
+}
+
+void AddColourTemperature(const Session& session, const RoomFit& fit, Eigen::Index luminaire, json& entry) {
+  if (session.cameras.empty() || !session.cameras[0].xyz_from_rgb || luminaire >= fit.light_rgb.cols())
+    return;
+  const Eigen::Matrix3d& matrix = *session.cameras[0].xyz_from_rgb;
+  const Eigen::Vector3d rgb = fit.light_rgb.col(luminaire), sigma = fit.light_rgb_sigma.col(luminaire);
+  if (!rgb.allFinite() || !sigma.allFinite()) return;
+  const auto colour = ColourTemperatureOf(matrix * rgb, LogCovariance(matrix, rgb, sigma));
+  if (!colour) return;
+  entry["cct_k"] = colour->kelvin;
+  entry["cct_sigma_k"] = colour->kelvin_sigma;
+  entry["duv"] = colour->duv;
+  entry["duv_sigma"] = colour->duv_sigma;
+  entry["chromaticity_xy"] = {colour->xy.x(), colour->xy.y()};
+}
+
 json LuminairesJson(const Session& session, const RoomFit& fit, const std::vector<LuminaireFiles>& files) {
   json luminaires = json::array();
   for (size_t k = 0; k < fit.fit.state.luminaires.size(); ++k) {
@@ -151,6 +175,7 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
     }
     if (fit.tint_rgb.cols() > index && fit.tint_rgb.col(index).allFinite())
       entry["tint_rgb"] = Vector(fit.tint_rgb.col(index));
+    AddColourTemperature(session, fit, index, entry);
     if (!files[k].ies.empty()) entry["files"] = {{"ies", files[k].ies}, {"ldt", files[k].ldt}};
     luminaires.push_back(entry);
   }
@@ -283,6 +308,7 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   // Relative luminance per cd/m2, by which the camera is a luminance meter.
   if (fit.absolute && !fit.data.observations.empty()) result["camera_scale"] = fit.fit.state.camera_scale;
   result["luminaire_bodies"] = ToString(fit.fit.state.bodies);
+  result["luminance_weights"] = Vector(fit.data.luminance_weights);
   if (fit.direct_share) result["direct_share"] = DirectShareJson(*fit.direct_share);
   result["choices"] = ChoicesJson(context);
   result["warnings"] = WarningsJson(context);

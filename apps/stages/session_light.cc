@@ -9,6 +9,7 @@
 
 #include "apps/stages/fit_stop.h"
 #include "apps/stages/simulate/given_luminaire.h"
+#include "calib/colour/camera_colours.h"
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/fit/fit_room.h"
 
@@ -80,6 +81,17 @@ std::vector<std::optional<double>> KnownAlbedo(const Session& session, const Roo
   return known;
 }
 
+std::vector<int> NeutralMaterials(const Session& session, const Room& room) {
+  std::vector<int> neutral;
+  const std::vector<std::string>& materials = room.scene.materials;
+  for (size_t m = 0; session.scene && m < materials.size(); ++m) {
+    const std::vector<std::string>& stated = session.scene->neutral;
+    if (std::find(stated.begin(), stated.end(), materials[m]) != stated.end())
+      neutral.push_back(static_cast<int>(m));
+  }
+  return neutral;
+}
+
 std::vector<Eigen::VectorXd> DimmingOf(const Session& session) {
   std::vector<Eigen::VectorXd> by_state;
   for (const SessionState& state : session.states) {
@@ -124,6 +136,9 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.pose_covariance = observed.pose_covariance;
   const Eigen::Vector3d weights = LuminanceWeights(session);
   given.luminance_weights = weights / weights.sum();
+  given.channels_are_of_sensor = !session.cameras.empty() && session.cameras[0].colours == kSensorColours;
+  given.luminance_weights_are_assumed = !session.cameras.empty() && session.cameras[0].colours.empty();
+  given.neutral = NeutralMaterials(session, room);
   given.meter = MeterOf(session, linearized.readings);
   given.albedo = KnownAlbedo(session, room);
   given.camera_scale = StatedScale(RoomPhotosOf(session, linearized.photos));

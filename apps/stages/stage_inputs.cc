@@ -127,7 +127,8 @@ class Parts {
     StageInputs inputs = {{"name", session_.name},
                           {"[luminaires]", Table("luminaires")},
                           {"[lights]", Table("lights")},
-                          {"[scene.albedo]", HashText(Text(root_.at_path("scene.albedo")))}};
+                          {"[scene.albedo]", HashText(Text(root_.at_path("scene.albedo")))},
+                          {"scene.neutral", HashText(Text(root_.at_path("scene.neutral")))}};
     for (size_t k = 0; k < session_.luminaires.size(); ++k) {
       const SessionLuminaire& luminaire = session_.luminaires[k];
       if (luminaire.line == 0) continue;
@@ -178,7 +179,10 @@ SessionInputs InputsOfStages(const Session& session, const std::string& earlier_
 
 Session ForRegistration(Session session) {
   session.luxmeter = {};
-  if (session.scene) session.scene->known_albedo_rgb.clear();
+  if (session.scene) {
+    session.scene->known_albedo_rgb.clear();
+    session.scene->neutral.clear();
+  }
   return session;
 }
 

@@ -138,6 +138,12 @@ void WarnOfUnknownMaterials(const Session& session, const std::vector<std::strin
                                 fmt::format("scene.albedo.{}: the room has no such material", name),
                                 "remove it, or correct the name" + DidYouMean(name, materials)});
   }
+  for (const std::string& name : session.scene->neutral) {
+    if (std::count(materials.begin(), materials.end(), name) > 0) continue;
+    context.warnings.push_back({"unknown_material",
+                                fmt::format("scene.neutral: the room has no material \"{}\"", name),
+                                "remove it, or correct the name" + DidYouMean(name, materials)});
+  }
 }
 
 std::vector<MeshFinding> JudgedByRays(std::vector<MeshFinding> findings, bool is_on_planes,

@@ -2,6 +2,7 @@
 
 #include <lcms2.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -66,12 +67,33 @@ std::string NameOf(cmsHPROFILE profile) {
   return text.data();
 }
 
+// Returns the primaries before their adaptation to D50. Profiles of version 2 may leave out how that was done: by Bradford's
+// transform from D65, as nearly all do.
+std::optional<Eigen::Matrix3d> PrimariesOf(cmsHPROFILE profile) {
+  Eigen::Matrix3d adapted, adaptation;
+  const std::array<cmsTagSignature, 3> tags{cmsSigRedColorantTag, cmsSigGreenColorantTag,
+                                            cmsSigBlueColorantTag};
+  for (int c = 0; c < 3; ++c) {
+    const auto* const xyz = static_cast<const cmsCIEXYZ*>(cmsReadTag(profile, tags[static_cast<size_t>(c)]));
+    if (xyz == nullptr) return std::nullopt;
+    adapted.col(c) << xyz->X, xyz->Y, xyz->Z;
+  }
+  adaptation << 1.0478, 0.0229, -0.0501, 0.0296, 0.9905, -0.0171, -0.0092, 0.0151, 0.7517;
+  if (const auto* const chad =
+          static_cast<const cmsCIEXYZ*>(cmsReadTag(profile, cmsSigChromaticAdaptationTag))) {
+    for (int row = 0; row < 3; ++row) adaptation.row(row) << chad[row].X, chad[row].Y, chad[row].Z;
+  }
+  Eigen::Matrix3d matrix = adaptation.inverse() * adapted;
+  if (!matrix.allFinite() || !(matrix.row(1).sum() > 0)) return std::nullopt;
+  return matrix;
+}
+
 std::optional<ColourProfile> OfIcc(const std::vector<std::uint8_t>& bytes) {
   if (bytes.empty()) return std::nullopt;
   const std::unique_ptr<void, int (*)(cmsHPROFILE)> profile(
       cmsOpenProfileFromMem(bytes.data(), static_cast<cmsUInt32Number>(bytes.size())), cmsCloseProfile);
   if (!profile || cmsGetColorSpace(profile.get()) != cmsSigRgbData) return std::nullopt;
-  ColourProfile found{NameOf(profile.get()), {}};
+  ColourProfile found{NameOf(profile.get()), {}, PrimariesOf(profile.get())};
   const std::array<cmsTagSignature, 3> tags{cmsSigRedTRCTag, cmsSigGreenTRCTag, cmsSigBlueTRCTag};
   for (size_t c = 0; c < tags.size(); ++c) {
     const auto* const curve = static_cast<const cmsToneCurve*>(cmsReadTag(profile.get(), tags[c]));

@@ -2,7 +2,8 @@
 //
 //   X_c = f_c(count / full scale)
 //
-// - ICC profiles of JPEG, HEIC, HEIF, PNG and TIFF: the tone curves of red, green and blue (rTRC, gTRC, bTRC), by LittleCMS.
+// - ICC profiles of JPEG, HEIC, HEIF, PNG and TIFF: the tone curves of red, green and blue (rTRC, gTRC, bTRC) and the primaries
+//   (rXYZ, gXYZ, bXYZ, less the adaptation to D50, chad), by LittleCMS.
 // - Coding points of HEIC and HEIF (nclx): powers of 2.2 and 2.8, linear, sRGB, PQ and HLG. Others (BT.709 among them) are written by
 //   encoders that were told nothing; they state no curve.
 //
@@ -24,6 +25,8 @@ namespace luxfit {
 struct ColourProfile {
   std::string name;                       // "Display P3", "PQ (SMPTE ST 2084)"
   std::array<Eigen::VectorXd, 3> curves;  // f_c at shares 0, 1/255, ... 1 of full scale; f_c(1) = 1
+  // Of linear red, green and blue (CIE 1931), white as the profile's display has it; none where only a curve is stated.
+  std::optional<Eigen::Matrix3d> xyz_from_rgb = {};
 
   // Returns the curves as a response, which is taken to err as SrgbResponse does.
   CameraResponse Response(double full_scale_counts) const;

@@ -27,6 +27,7 @@
 #include "inverse/fit/internal/early_stop.h"
 #include "inverse/fit/internal/fit_as_given.h"
 #include "inverse/fit/internal/indirect_albedo.h"
+#include "inverse/fit/internal/light_colours.h"
 #include "inverse/fit/internal/match_scale.h"
 #include "inverse/fit/internal/misfit.h"
 #include "inverse/fit/internal/name_in_order.h"
@@ -75,6 +76,8 @@ class RoomFitter {
     WarnOfOddLuminaires(fit.state, FindOddLuminaires(fit, result_.data), result_.findings);
     WarnOfOversizedLuminaires(fit.state, FindOversizedLuminaires(fit, shown_), result_.findings);
     result_.fit = WithPredictedReadings(room_, result_.data, std::move(fit));
+    AddLightColours(room_, given_, light_.balance, result_);
+    WarnOfAssumedWeights(given_, result_, result_.findings);
     WarnOfMisfit(room_, result_, result_.findings);
     WarnOfIndirectAlbedo(room_, result_, result_.findings);
     RecordOutcome(given_, result_, result_.findings);
@@ -279,7 +282,11 @@ class RoomFitter {
     RecordDetail(CompareDetail(room_, result_.data, fit, Priors()), taken_, result_.findings);
     const ColourDetail colours = CompareColours(room_, result_.data, fit);
     RecordColours(given_, room_, colours, result_.findings);
-    if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) result_.tint_rgb = colours.tint;
+    if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) {
+      result_.tint_rgb = colours.tint;
+      result_.tint_rgb_sigma = colours.tint_sigma;
+      result_.tinted_material_rgb = colours.material_rgb;
+    }
     for (size_t m = 0; m < colours.materials.size(); ++m) {
       const Eigen::Index material = static_cast<Eigen::Index>(m);
       if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)

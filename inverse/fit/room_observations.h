@@ -74,6 +74,9 @@ struct RoomObservations {
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known
   // Weigh red, green and blue in the relative luminance, and sum to 1.
   Eigen::Vector3d luminance_weights{0.265, 0.670, 0.065};
+  bool luminance_weights_are_assumed = false;  // true: nothing tells the camera's colours
+  bool channels_are_of_sensor = false;         // true: not balanced for white, as RAW has them
+  std::vector<int> neutral;                    // materials that reflect red, green and blue alike
 };
 
 // Records what was taken from a photometric file. Warns ("photometry_changed") of each of its light_notes, once for all

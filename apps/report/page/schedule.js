@@ -49,7 +49,13 @@ function opening(result) {
   return [h('div', null, kShapes[result.shape] || result.shape), size ? h('div', { class: 'interval' }, size + ' m') : null];
 }
 
+function colour(result) {
+  if (!isNumber(result.cct_k)) return kNone;
+  return [h('div', null, fixed(result.cct_k, 0)), h('div', { class: 'interval' }, halfWidth(result.cct_sigma_k), '; duv ', fixed(result.duv, 4))];
+}
+
 export function schedule(data) {
+  const hasColours = data.result.luminaires.some((r) => isNumber(r.cct_k));
   return table([
     { title: 'Luminaire', text: true, of: (r) => r.id },
     { title: 'Luminous flux', unit: data.is_absolute ? 'lm' : '', of: (r) => flux(r, data) },
@@ -57,6 +63,7 @@ export function schedule(data) {
     { title: 'Aim', text: true, of: aim },
     { title: 'Distribution', text: true, of: distribution },
     { title: 'Luminous opening', text: true, of: opening },
+    ...(hasColours ? [{ title: 'Colour temperature', unit: 'K', of: colour }] : []),
   ], data.result.luminaires, { class: 'schedule' });
 }
 

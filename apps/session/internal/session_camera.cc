@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "apps/session/internal/session_board.h"
 #include "apps/session/session_files.h"
+#include "calib/colour/camera_colours.h"
 
 namespace luxfit {
 namespace {
@@ -26,6 +29,39 @@ Eigen::Vector3d ReadLuminanceWeights(const TomlCursor& value) {
     throw value.Error("expected weights of a sum > 0, got " + value.Shown() +
                       "; the default is [0.265, 0.670, 0.065]");
   return weights;
+}
+
+Eigen::Matrix3d ReadXyzFromRgb(const TomlCursor& value) {
+  const std::string expected = "three rows [r, g, b], which give X, Y and Z";
+  const std::vector<TomlCursor> rows = value.Elements(expected);
+  if (rows.size() != 3) throw value.Error("expected " + expected + ", got " + value.Shown());
+  Eigen::Matrix3d matrix;
+  for (size_t i = 0; i < rows.size(); ++i)
+    matrix.row(static_cast<Eigen::Index>(i)) = rows[i].Vector("three numbers [r, g, b]");
+  constexpr double kLeastDeterminant = 1e-9;
+  const double scale = matrix.cwiseAbs().maxCoeff();
+  if (!(std::abs(matrix.determinant()) > kLeastDeterminant * scale * scale * scale) ||
+      !(matrix.row(1).sum() > 0))
+    throw value.Error("expected a matrix that has an inverse and a row of Y with a sum > 0, got " +
+                      value.Shown());
+  return matrix;
+}
+
+void ReadColours(const TomlCursor& table, SessionCamera& camera) {
+  const auto weights = table.Find("luminance_weights"), matrix = table.Find("xyz_from_rgb");
+  if (weights && matrix)
+    throw matrix->Error(
+        "expected either luminance_weights or xyz_from_rgb, whose row of Y is the weights; remove one of the "
+        "two");
+  if (weights) {
+    camera.luminance_weights = ReadLuminanceWeights(*weights);
+    camera.colours = "luminance_weights";
+  }
+  if (matrix) {
+    camera.xyz_from_rgb = ReadXyzFromRgb(*matrix);
+    camera.luminance_weights = LuminanceWeightsOf(*camera.xyz_from_rgb);
+    camera.colours = "xyz_from_rgb";
+  }
 }
 
 // Holds a word, or the name of a file and its absolute path.
@@ -57,7 +93,8 @@ Eigen::Array2i ReadImageSize(const TomlCursor& value) {
 
 SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
   table.ExpectKeys({"id", "intrinsics", "calibration_images", "calibration_corners", "image_size", "board",
-                    "response", "vignetting", "black_level", "cdm2_per_count_s", "luminance_weights"});
+                    "response", "vignetting", "black_level", "cdm2_per_count_s", "luminance_weights",
+                    "xyz_from_rgb"});
   SessionCamera camera;
   if (const auto board = table.Find("board")) camera.board = ReadBoard(*board);
   if (const auto images = table.Find("calibration_images"))
@@ -78,8 +115,7 @@ SessionCamera ReadCamera(const TomlCursor& table, const std::string& folder) {
     camera.black_level_counts = black->NumberAtLeast(0, "counts");
   if (const auto scale = table.Find("cdm2_per_count_s"))
     camera.cdm2_per_count_s = scale->NumberAtLeast(0, "cd/m2 per (count / s); 0: unknown");
-  if (const auto weights = table.Find("luminance_weights"))
-    camera.luminance_weights = ReadLuminanceWeights(*weights);
+  ReadColours(table, camera);
   return camera;
 }
 

@@ -82,10 +82,6 @@ Eigen::Matrix2Xd DCoefficients(const Camera&, const Eigen::Vector3d& p_in_cam) {
   return out;
 }
 
-std::vector<double> LikeStereographic(double) {
-  return {1.0 / 12};  // 2 tan(theta / 2) = theta + theta^3 / 12 + ...
-}
-
 }  // namespace
 
 LensOps FisheyeLens() {
@@ -101,7 +97,8 @@ LensOps FisheyeLens() {
   ops.image = FisheyeImage;
   ops.direction = FisheyeDirection;
   ops.d_coefficients = DCoefficients;
-  ops.like_stereographic = LikeStereographic;
+  // 2 tan(theta / 2) = theta + theta^3 / 12 + ...
+  ops.like_stereographic = [](double /*half_field_rad*/) { return std::vector<double>{1.0 / 12}; };
   return ops;
 }
 

@@ -89,6 +89,16 @@ Factors FactorsOf(const Ratios& ratios) {
   for (const auto& [key, list] : ratios) factors[key] = Median(list);
   return factors;
 }
+// Returns the relative sigma of a median of ratios, of which `independent` have errors of their own.
+double SigmaOfMedian(const std::vector<double>& ratios, size_t independent) {
+  const double median = Median(ratios);
+  std::vector<double> deviations;
+  deviations.reserve(ratios.size());
+  for (const double ratio : ratios) deviations.push_back(std::abs(ratio / median - 1));
+  constexpr double kMedianOverMean = 1.2533;  // of normal errors
+  return kMedianOverMean * kSigmaPerMad * Median(std::move(deviations)) /
+         std::sqrt(static_cast<double>(independent));
+}
 double FactorOf(const Factors& factors, int key) {
   const auto found = factors.find(key);
   return found == factors.end() ? 1 : found->second;
@@ -177,13 +187,15 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
   // the first reflectances are a mixture.
   constexpr int kTurns = 4;
   Factors tints, refitted = reflectance;
+  Ratios direct;
   const auto tint_of = [&](const Row& row) { return FactorOf(tints, 3 * row.luminaire + row.channel); };
   // The tint applies to the direct light; the measured indirect light contains it already.
   const auto tinted = [&](const Row& row) {
     return row.grey / (row.indirect + row.direct) * (row.indirect + tint_of(row) * row.direct);
   };
   for (int turn = 0; turn < kTurns; ++turn) {
-    Ratios direct, again;
+    Ratios again;
+    direct.clear();
     for (const Row& row : rows) {
       if (row.is_left_out || row.direct <= row.indirect) continue;
       const double rho = row.grey / (row.indirect + row.direct) * FactorOf(refitted, material_key(row));
@@ -206,13 +218,21 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
   const double sigma = SigmaOf(rows, own);
   detail.luminaires =
       ChooseDetail({"alike", "each its own"}, {Score(rows, alike, sigma), Score(rows, own, sigma)});
+  std::map<int, std::set<int>> patches;
+  for (const Row& row : rows) patches[row.luminaire].insert(row.patch);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& [luminaire, count] : seen) {
-    for (int c = 0; c < 3; ++c) detail.tint(c, luminaire) = FactorOf(tints, 3 * luminaire + c);
+    for (int c = 0; c < 3; ++c) {
+      const int key = 3 * luminaire + c;
+      detail.tint(c, luminaire) = FactorOf(tints, key);
+      if (const auto own = direct.find(key); own != direct.end())
+        detail.tint_sigma(c, luminaire) = SigmaOfMedian(own->second, patches.at(luminaire).size());
+    }
     mean += detail.tint.col(luminaire) / static_cast<double>(seen.size());
   }
   for (const auto& [luminaire, count] : seen)
     detail.tint.col(luminaire) = detail.tint.col(luminaire).cwiseQuotient(mean);
+  for (const auto& [key, factor] : refitted) detail.material_rgb(key % 3, key / 3) = factor * mean[key % 3];
 }
 
 }  // namespace
@@ -223,6 +243,9 @@ ColourDetail CompareColours(const Room& room, const LightData& data, const Lumin
   detail.materials.resize(materials);
   detail.tint.setConstant(3, static_cast<Eigen::Index>(fit.state.luminaires.size()),
                           std::numeric_limits<double>::quiet_NaN());
+  detail.tint_sigma = detail.tint;
+  detail.material_rgb.setConstant(3, static_cast<Eigen::Index>(materials),
+                                  std::numeric_limits<double>::quiet_NaN());
   if (!fit.IsUsable() || data.observations.empty()) return detail;
   const std::vector<Row> rows = RowsOf(room, data, fit);
   std::vector<std::vector<Row>> of_material(materials);

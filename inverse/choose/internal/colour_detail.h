@@ -28,8 +28,11 @@ namespace luxfit {
 struct ColourDetail {
   // By material: grey or coloured; empty where its reflectance was held, or too little of it is seen.
   std::vector<DetailChoice> materials;
-  DetailChoice luminaires;  // one colour or each its own; empty where fewer than two are seen one by one
-  Eigen::Matrix3Xd tint;    // by luminaire, relative to their mean; NaN where not seen alone
+  DetailChoice luminaires;      // one colour or each its own; empty where fewer than two are seen one by one
+  Eigen::Matrix3Xd tint;        // by luminaire, relative to their mean; NaN where not seen alone
+  Eigen::Matrix3Xd tint_sigma;  // relative
+  // By material: rho_c / rho in the mean light of the luminaires, as fitted beside the tints; NaN where not seen under one alone.
+  Eigen::Matrix3Xd material_rgb;
 };
 
 // `fit`: the fit to `data`.

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "inverse/fit/internal/light_colours.h"
+
 namespace luxfit {
 namespace {
 
@@ -51,6 +53,8 @@ RoomLight LightOf(const Room& room, const RoomObservations& given) {
       MergeViews(OfOwnSurface(given.observations, light.labels), {{}, kOutlierSigmas, kLeastBetweenViews});
   light.data.observations = std::move(merged.observations);
   light.between_views = merged.between_views;
+  light.balance = ChannelBalance(room, given);
+  light.data = WithBalance(std::move(light.data), light.balance);
   light.data.pose_root = RootOf(given.pose_covariance);
   const Meter& meter = given.meter;
   const bool has_fitted =

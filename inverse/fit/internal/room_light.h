@@ -19,6 +19,7 @@ namespace luxfit {
 struct RoomLight {
   LightData data;                      // views of one element merged
   BetweenViews between_views;          // error of each view that they were merged with
+  Eigen::Vector3d balance;             // of the data's channels (light_colours.h)
   SurfaceLabels labels;                // which views show something else
   std::vector<ParameterPrior> priors;  // for the meter's calibration and its sensors' gains
   bool meter_scale_free = false;       // true: the calibration is one common scale factor

@@ -77,6 +77,15 @@ TEST(ColourProfileTest, SrgbsOwnProfileIsSrgb) {
   }
 }
 
+// IEC 61966-2-1: D65's white, not that of the profile, which is D50.
+TEST(ColourProfileTest, PrimariesAreThoseBeforeTheAdaptationToD50) {
+  const std::optional<ColourProfile> profile = ReadWith(SrgbProfile());
+  ASSERT_TRUE(profile && profile->xyz_from_rgb);
+  Eigen::Matrix3d srgb;
+  srgb << 0.4124, 0.3576, 0.1805, 0.2126, 0.7152, 0.0722, 0.0193, 0.1192, 0.9505;
+  EXPECT_LT((*profile->xyz_from_rgb - srgb).cwiseAbs().maxCoeff(), 2e-3) << *profile->xyz_from_rgb;
+}
+
 TEST(ColourProfileTest, NoneAndBrokenOnesStateNothing) {
   EXPECT_FALSE(ReadWith({}));
   std::vector<cmsUInt8Number> broken = SrgbProfile();

@@ -26,6 +26,7 @@ struct TestDng {
   std::uint32_t recommended_exposure_index = 0;  // 0: none
   std::vector<std::uint32_t> linearization;      // what each count stands for; empty: itself
   std::vector<std::uint32_t> opcode_list_3;      // its bytes; empty: none
+  std::array<int, 9> color_matrix_1e4{10000, 0, 0, 0, 10000, 0, 0, 0, 10000};  // from XYZ, row by row
 };
 
 namespace internal {
@@ -129,7 +130,9 @@ inline TiffDirectory MainOf(const TestDng& dng, size_t pixels_offset, size_t exi
   main.Add(50713, kShort, {places, places});
   main.Add(50714, kLong, {dng.black.begin(), dng.black.begin() + (dng.is_linear ? 3 : 4)});
   main.Add(50717, kLong, {dng.white});
-  main.Add(50721, kSRational, {1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1});
+  std::vector<std::uint32_t> matrix;
+  for (const int entry : dng.color_matrix_1e4) matrix.insert(matrix.end(), {number(entry), 10000});
+  main.Add(50721, kSRational, matrix);
   main.Add(50728, kRational, {1, 2, 1, 1, 2, 3});  // a white balance, which readers must leave alone
   main.Add(50778, kShort, {21});
   if (!dng.opcode_list_3.empty()) main.Add(51022, kByte, dng.opcode_list_3);
