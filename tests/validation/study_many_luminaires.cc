@@ -51,7 +51,7 @@ Luminaire Downlight(const Hall& hall, int number) {
   lamp.shape = LuminaireShape::kDisc;
   lamp.size_m = {0.2, 0};
   lamp.distribution = Distribution::kCosinePower;
-  lamp.cosine_exponent = 2;
+  lamp.cosine_exponent = 1;
   lamp.flux_lm = number == kAged ? 1200 : 1500;
   return lamp;
 }
@@ -123,7 +123,7 @@ Outcome RunHall(const Hall& hall, bool in_rows) {
   const Room model = MakeRoom(room.truth);
   std::mt19937_64 rng(1);
   support::TracedRoomOptions options;
-  options.paths_per_point = 16;
+  options.paths_per_point = 128;
   RoomObservations given = support::ObserveTraced(room, model, rng, options);
   Outcome outcome;
   outcome.luminaires = hall.Count();

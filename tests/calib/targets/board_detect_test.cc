@@ -207,13 +207,25 @@ TEST(BoardDetectTest, AMislabelledGridIsRefusedWithTheReason) {
   EXPECT_THAT(message(Charuco(8, 6)), HasSubstr("no marker of the board was found"));
 }
 
-// OpenCV 4.6 draws boards of an even number of rows with the other half of the squares marked.
+// Returns a board of 7 x 6 squares of 40 px as OpenCV draws it, without a margin. OpenCV 4.6 marks the other half of the squares where
+// the number of rows is even; from 4.7 on, that is its legacy pattern.
+cv::Mat CharucoByOpenCv() {
+  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50);
+  cv::Mat drawn;
+#if CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 7)
+  cv::aruco::CharucoBoard board(cv::Size(7, 6), 0.04f, 0.028f, dictionary);
+  board.setLegacyPattern(true);
+  board.generateImage(cv::Size(7 * 40, 6 * 40), drawn, 0, 1);
+#else
+  cv::aruco::CharucoBoard::create(7, 6, 0.04f, 0.028f, dictionary)
+      ->draw(cv::Size(7 * 40, 6 * 40), drawn, 0, 1);
+#endif
+  return drawn;
+}
+
 TEST(BoardDetectTest, OpenCvsOwnCharucoIsFoundWithoutItsHalfPixel) {
   const Board board = Charuco(7, 6);
-  const auto dictionary = cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50);
-  const auto theirs = cv::aruco::CharucoBoard::create(7, 6, 0.04f, 0.028f, dictionary);
-  cv::Mat drawn;
-  theirs->draw(cv::Size(7 * 40, 6 * 40), drawn, 0, 1);
+  cv::Mat drawn = CharucoByOpenCv();
   cv::copyMakeBorder(drawn, drawn, 40, 40, 40, 40, cv::BORDER_CONSTANT, cv::Scalar(255));
   cv::GaussianBlur(drawn, drawn, {0, 0}, 0.7);
   const ImagePlane grey = Eigen::Map<Eigen::Array<uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
