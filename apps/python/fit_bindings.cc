@@ -245,6 +245,7 @@ FoundLight FitWithoutSession(const MeshRoom& room, const py::dict& states,
   given.dimming = names.dimming;
   given.meter.readings = ReadingsOf(readings, names);
   given.albedo = KnownAlbedo(room, albedo);
+  given.luminance_weights_are_assumed = true;
   ObservePhotosOptions options;
   options.tag_family = tag_family;
   if (FindsFurniture(furniture)) {

@@ -81,6 +81,7 @@ class _Scene(TypedDict):
     unit: str
     metres_per_unit: float
     albedo_rgb: dict[str, NDArray[numpy.float64]]  # (3,) of each material that is given
+    neutral: list[str]  # materials that are white or grey
 
 class _Tag(TypedDict):
     """A surveyed tag."""
@@ -101,6 +102,7 @@ class _Camera(TypedDict):
     black_level: float  # counts
     cdm2_per_count_s: float  # cd/m2 per count and second, NaN where unknown
     luminance_weights: NDArray[numpy.float64]  # (3,), of R, G and B
+    xyz_from_rgb: Optional[NDArray[numpy.float64]]  # (3, 3), as given or as the photos state it; None: unknown
 
 class _Photos(TypedDict):
     """The photo table of a session, by columns."""

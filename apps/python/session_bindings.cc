@@ -34,6 +34,7 @@ py::object SceneDict(const Session& session) {
   dict["unit"] = session.scene->unit;
   dict["metres_per_unit"] = session.scene->metres_per_unit;
   dict["albedo_rgb"] = session.scene->known_albedo_rgb;
+  dict["neutral"] = session.scene->neutral;
   dict["corners_m"] = py::none();
   dict["heights_m"] = py::none();
   if (!session.scene->outline) return dict;
@@ -74,6 +75,7 @@ py::list CameraList(const Session& session) {
     dict["black_level"] = camera.black_level_counts;
     dict["cdm2_per_count_s"] = camera.cdm2_per_count_s > 0 ? camera.cdm2_per_count_s : kNan;
     dict["luminance_weights"] = camera.luminance_weights;
+    dict["xyz_from_rgb"] = OrNone(camera.xyz_from_rgb);
     list.append(dict);
   }
   return list;
@@ -177,11 +179,12 @@ void BindSession(py::module_& module) {
       .def_property_readonly(
           "scene", &SceneDict,
           "dict: mesh (None: a size or an outline), corners_m (n, 2) and heights_m (n,) of the outline (None "
-          "for a mesh), unit, metres_per_unit, albedo_rgb {material: (3,)}; None without [scene].")
+          "for a mesh), unit, metres_per_unit, albedo_rgb {material: (3,)}, neutral; None without [scene].")
       .def_property_readonly("tags", &TagList, "list of dicts: id, size_m, center_m, normal, up (3,).")
       .def_property_readonly(
           "cameras", &CameraList,
-          "list of dicts: id, intrinsics, response, vignetting, black_level, cdm2_per_count_s.")
+          "list of dicts: id, intrinsics, response, vignetting, black_level, cdm2_per_count_s, "
+          "luminance_weights, xyz_from_rgb.")
       .def_property_readonly(
           "photos", &PhotoColumns,
           "dict of columns: file, camera, view, state (lists), exposure_s (n,), NaN where the "
