@@ -225,8 +225,8 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
     for (int c = 0; c < 3; ++c) {
       const int key = 3 * luminaire + c;
       detail.tint(c, luminaire) = FactorOf(tints, key);
-      if (const auto own = direct.find(key); own != direct.end())
-        detail.tint_sigma(c, luminaire) = SigmaOfMedian(own->second, patches.at(luminaire).size());
+      if (const auto seen_by = direct.find(key); seen_by != direct.end())
+        detail.tint_sigma(c, luminaire) = SigmaOfMedian(seen_by->second, patches.at(luminaire).size());
     }
     mean += detail.tint.col(luminaire) / static_cast<double>(seen.size());
   }
