@@ -25,7 +25,8 @@ namespace luxfit {
 struct ColourProfile {
   std::string name;                       // "Display P3", "PQ (SMPTE ST 2084)"
   std::array<Eigen::VectorXd, 3> curves;  // f_c at shares 0, 1/255, ... 1 of full scale; f_c(1) = 1
-  // Of linear red, green and blue (CIE 1931), white as the profile's display has it; none where only a curve is stated.
+  // Takes linear red, green and blue to CIE 1931 XYZ, whose white is that of the profile's display. Empty where the file
+  // states only a curve.
   std::optional<Eigen::Matrix3d> xyz_from_rgb = {};
 
   // Returns the curves as a response, which is taken to err as SrgbResponse does.

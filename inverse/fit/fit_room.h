@@ -114,8 +114,6 @@ struct RoomFit {
   // By luminaire: red, green and blue of its light in the camera's own channels, in a common unit, and their relative sigmas
   // (inverse/fit/internal/light_colours.h). Empty where no neutral surface tells it.
   Eigen::Matrix3Xd light_rgb, light_rgb_sigma;
-  Eigen::Vector3d channel_balance =
-      Eigen::Vector3d::Ones();              // albedo_rgb and tint_rgb are in channels divided by it
   bool absolute = false;                    // whether fluxes are in lm
   bool is_scaled_by_readings = false;       // whether nothing but readings makes them so
   std::optional<DirectShare> direct_share;  // only for fits to readings alone with free reflectances

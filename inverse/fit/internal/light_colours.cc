@@ -102,7 +102,6 @@ void WarnOfAssumedWeights(const RoomObservations& given, const RoomFit& fit, Fin
 
 void AddLightColours(const Room& room, const RoomObservations& given, const Eigen::Vector3d& balance,
                      RoomFit& fit) {
-  fit.channel_balance = balance;
   const bool has_neutral = std::any_of(given.neutral.begin(), given.neutral.end(),
                                        [&](int material) { return IsSeen(room, given, material); });
   if (!has_neutral) return;

@@ -1,4 +1,4 @@
-// What a session, or its photos, say of a camera's colours.
+// Reads a camera's colours from a session, or from its photos.
 #include <gmock/gmock.h>
 
 #include <Eigen/LU>
