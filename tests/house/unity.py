@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The build of the packages (preset `package`) compiles ten files at a time as one: names that each file has for itself must not meet
+"""The presets `ci` and `package` compile several files at a time as one, tests among them: names that each file has for itself must not meet
 there, nor those of headers. Looks at the source alone: compiling every batch to see takes ten minutes.
 
   unity.py SOURCE
@@ -18,14 +18,14 @@ NAME = r"[A-Za-z_]\w*"
 def batches(source):
     """Returns for every batch of the preset its files."""
     with tempfile.TemporaryDirectory() as build:
-        subprocess.run(["cmake", "-S", source, "--preset", "package", "-B", build], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "-S", source, "--preset", "ci", "-B", build], check=True, stdout=subprocess.DEVNULL)
         for unit in sorted(pathlib.Path(build).rglob("Unity/unity_*_cxx.cxx")):
             yield [f for f in re.findall(r'#include "(.*)"', unit.read_text()) if not f.startswith(build)]
 
 
 def statements(path, space):
     """Yields what stands at the margin of a file's namespaces of one name, each up to its body or its end."""
-    text = pathlib.Path(path).read_text()
+    text = re.sub(r'R"(\w*)\(.*?\)\1"', '""', pathlib.Path(path).read_text(), flags=re.S)
     for inside in re.findall(rf"^namespace {space}\{{$(.*?)^\}}  // namespace {space}".rstrip() + "$", text, re.M | re.S):
         inside = re.sub(r"//[^\n]*", "", inside)
         yield from (" ".join(s.split()) for s in re.findall(r"^[A-Za-z_\[][^;{]*(?:;|\{[^\n]*)", inside, re.M))
@@ -72,7 +72,7 @@ def main():
     source, found = sys.argv[1], 0
     all_batches = list(batches(source))
     if not all_batches:
-        sys.exit("the preset package builds no batches")
+        sys.exit("the preset ci builds no batches")
     for batch in all_batches:
         files = collections.defaultdict(set)
         for path in batch:

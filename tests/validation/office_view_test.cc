@@ -25,7 +25,7 @@ namespace luxfit {
 namespace {
 
 const std::string kFolder = std::string(LUXFIT_FIXTURES) + "/office/";
-const Eigen::Vector3d kLuminanceWeights(0.265, 0.670, 0.065);
+const Eigen::Vector3d kWeights(0.265, 0.670, 0.065);
 constexpr int kBlock = 8;
 
 Eigen::Vector3d VectorOf(const nlohmann::json& json) {
@@ -115,7 +115,7 @@ class OfficeView : public testing::Test {
         // Four of the pixels stand for the block.
         Eigen::Matrix3Xd few(3, 4);
         few << directions.col(18), directions.col(21), directions.col(42), directions.col(45);
-        const double computed = (RenderView(room_, lit, view.eye, few) * kLuminanceWeights).mean();
+        const double computed = (RenderView(room_, lit, view.eye, few) * kWeights).mean();
         const double measured = photo.relative_luminance.block(v, u, kBlock, kBlock).mean() /
                                 truth_.at("cameras").at("cam0").at("counts_per_cdm2_s").get<double>();
         ratios.push_back(measured / computed);

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ResidualSvg, MagnifiesByARoundNumber) {
   const ImageFrame frame{640, 480};
@@ -35,9 +35,9 @@ TEST(ResidualSvg, DrawsPredictedLessSeen) {
 }
 
 TEST(ResidualSvg, OutliersWithoutAResidualAreCrossesAlone) {
-  const std::string svg = ResidualVectorsSvg({640, 480}, {{{10, 10}, {kNan, kNan}, true}});
+  const std::string svg = ResidualVectorsSvg({640, 480}, {{{10, 10}, {kNoValue, kNoValue}, true}});
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  EXPECT_EQ(ResidualHistogramSvg({{{10, 10}, {kNan, kNan}, true}}, 0.1), "");
+  EXPECT_EQ(ResidualHistogramSvg({{{10, 10}, {kNoValue, kNoValue}, true}}, 0.1), "");
   EXPECT_EQ(ResidualHistogramSvg({{{10, 10}, {0.1, 0}, false}}, 0), "");
 }
 
@@ -60,7 +60,7 @@ TEST(UncertaintySvg, LeavesBlankWhatLiesOutsideTheImageCircle) {
   UncertaintyMap map;
   map.width_px = 640;
   map.height_px = 480;
-  map.sigma_px = Eigen::MatrixXd::Constant(1, 2, kNan);
+  map.sigma_px = Eigen::MatrixXd::Constant(1, 2, kNoValue);
   const auto hatched = [&] {
     const std::string svg = UncertaintySvg(map, {});
     std::size_t count = 0;
@@ -97,7 +97,7 @@ TEST(RigSvg, DimensionsAreInMillimetres) {
 TEST(RigSvg, DrawsOneCameraWithoutBoardsAndWithoutAField) {
   DrawnRig rig;
   rig.cameras = {CameraAt("<alone>", 0)};
-  rig.cameras[0].corner_directions.fill(Eigen::Vector3d::Constant(kNan));
+  rig.cameras[0].corner_directions.fill(Eigen::Vector3d::Constant(kNoValue));
   for (const RigView view : {RigView::kPlan, RigView::kSide}) {
     const std::string svg = RigSvg(rig, view);
     EXPECT_THAT(svg, HasSubstr("&lt;alone&gt;"));

@@ -21,7 +21,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kOffice = std::string(LUXFIT_FIXTURES) + "/office";
+const std::string kOfficeFixture = std::string(LUXFIT_FIXTURES) + "/office";
 
 constexpr char kRoom[] = R"([scene]
 outline = [[0, 0], [7.2, 0], [7.2, 3], [4, 3], [4, 5], [0, 5]]
@@ -71,7 +71,8 @@ TEST_F(RoomCommandTest, JsonHasTheSame) {
 }
 
 TEST_F(RoomCommandTest, AMeshAndASessionWithAMeshAreTheSameRoom) {
-  const support::ProgramRun mesh = Run(kOffice + "/room.obj"), session = Run(kOffice + "/session.toml");
+  const support::ProgramRun mesh = Run(kOfficeFixture + "/room.obj"),
+                            session = Run(kOfficeFixture + "/session.toml");
   EXPECT_EQ(mesh.status, 0);
   EXPECT_EQ(session.status, 0);
   EXPECT_THAT(mesh.output, HasSubstr("6.00 x 4.00 x 2.80 m"));
@@ -96,7 +97,8 @@ TEST_F(RoomCommandTest, WhatIsWrongIsSaid) {
 }
 
 TEST_F(RoomCommandTest, TagsThatMissTheRoomAreSaidAndThePlanIsDrawn) {
-  folder_.Write("session.toml", "[scene]\nsize = [5, 5, 3]\n[tags]\nmap = \"" + kOffice + "/tags.json\"\n");
+  folder_.Write("session.toml",
+                "[scene]\nsize = [5, 5, 3]\n[tags]\nmap = \"" + kOfficeFixture + "/tags.json\"\n");
   const support::ProgramRun run = Run(folder_.Path("session.toml"), "-o '" + folder_.Path("plan.svg") + "'");
   EXPECT_EQ(run.status, 1);
   EXPECT_THAT(run.output,
@@ -115,7 +117,7 @@ TEST_F(RoomCommandTest, BadInputWritesNothing) {
     EXPECT_THAT(run.output, HasSubstr(message));
     EXPECT_FALSE(fs::exists(folder_.Path(out)));
   }
-  EXPECT_THAT(Run(kOffice + "/room.obj", "--unit yd").output, HasSubstr("--unit: expected"));
+  EXPECT_THAT(Run(kOfficeFixture + "/room.obj", "--unit yd").output, HasSubstr("--unit: expected"));
 }
 
 TEST_F(RoomCommandTest, AScanIsLaidOntoPlanes) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,8 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Scene FloorAndGable() {
   Scene scene;
@@ -107,7 +106,7 @@ TEST(RadianceScene, APanelHasItsLuminance) {
   std::istringstream numbers(text.scene.substr(at + 23));
   double radiance = 0;
   numbers >> radiance;
-  EXPECT_NEAR(radiance, 0.5 * 10 / (kPi * 0.18), 1e-6);
+  EXPECT_NEAR(radiance, 0.5 * 10 / (M_PI * 0.18), 1e-6);
   EXPECT_TRUE(RadianceSceneOf(panel, "lamp", 0).scene.empty());
 }
 

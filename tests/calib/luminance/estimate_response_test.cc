@@ -36,7 +36,7 @@ BracketSamples Shots(const CameraModel& camera, int pixels, const std::vector<do
   return samples;
 }
 
-const std::vector<double> kExposures{16, 8, 4, 2, 1, 0.5, 0.25};
+const std::vector<double> kExposureRatios{16, 8, 4, 2, 1, 0.5, 0.25};
 
 CameraModel FilmCamera() {
   CameraModel camera;
@@ -66,7 +66,7 @@ double FilmDecoded(double y) {
 
 TEST(EstimateResponseTest, DebevecFindsAFilmCurve) {
   auto rng = support::TestRng();
-  const std::vector<BracketSamples> samples{Shots(FilmCamera(), 1000, kExposures, rng)};
+  const std::vector<BracketSamples> samples{Shots(FilmCamera(), 1000, kExposureRatios, rng)};
   const CameraResponse response = SolveDebevec(samples, ResponseOptions{}, {1e-4});
   // At 4 % (10 counts) and at the shoulder one count is 9 % of exposure; some ten samples a knot average it.
   EXPECT_LT(WorstError(response, FilmDecoded, 255), 0.02);
@@ -76,7 +76,7 @@ TEST(EstimateResponseTest, RobertsonFindsTheEncodingOfEightBitPictures) {
   auto rng = support::TestRng();
   CameraModel camera = FilmCamera();
   camera.response = support::SrgbEncoded;
-  const std::vector<BracketSamples> samples{Shots(camera, 20000, kExposures, rng)};
+  const std::vector<BracketSamples> samples{Shots(camera, 20000, kExposureRatios, rng)};
   const CameraResponse response = SolveRobertson(samples, ResponseOptions{});
   // Nothing smooths it: half a count of the darkest 10 is 5 % of exposure.
   EXPECT_LT(WorstError(response, support::SrgbDecoded, 255), 0.05);
@@ -84,7 +84,7 @@ TEST(EstimateResponseTest, RobertsonFindsTheEncodingOfEightBitPictures) {
 
 TEST(EstimateResponseTest, TheBetterOnHeldOutExposuresIsTakenAndBeatsALinearOne) {
   auto rng = support::TestRng();
-  const std::vector<BracketSamples> samples{Shots(FilmCamera(), 1000, kExposures, rng)};
+  const std::vector<BracketSamples> samples{Shots(FilmCamera(), 1000, kExposureRatios, rng)};
   const ResponseEstimate estimate = EstimateResponse(samples, ResponseOptions{});
   ASSERT_TRUE(estimate.response.has_value()) << estimate.message;
   // Within one standard error, which is about 1 % of some ten thousand errors' mean.
@@ -153,7 +153,7 @@ TEST(EstimateResponseTest, SixteenBitCurvesAreFoundToo) {
   CameraModel camera;
   camera.response = support::SrgbEncoded;
   camera.full_well = 9 * 20000;
-  const std::vector<BracketSamples> samples{Shots(camera, 1000, kExposures, rng)};
+  const std::vector<BracketSamples> samples{Shots(camera, 1000, kExposureRatios, rng)};
   ResponseOptions options;
   options.full_scale_counts = 65535;
   const ResponseEstimate estimate = EstimateResponse(samples, options);

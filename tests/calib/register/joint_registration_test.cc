@@ -18,7 +18,7 @@ using support::FeatureRoom;
 using testing::Contains;
 using testing::IsEmpty;
 
-constexpr double kLikely = 27.9;  // e^T C^-1 e of 6 degrees of freedom: above it once in 10 000
+constexpr double kLikelyChi2 = 27.9;  // e^T C^-1 e of 6 degrees of freedom: above it once in 10 000
 
 std::vector<ViewDetections> DetectAll(const FeatureRoom& room, double noise_px, std::mt19937_64& rng) {
   std::vector<ViewDetections> views;
@@ -75,7 +75,7 @@ TEST(JointRegistrationTest, ViewsWithoutTagsComeInThroughFeatures) {
   EXPECT_NEAR(both.point_sigma_px, 0.3, 0.03);
   for (std::size_t v = 0; v < 10; ++v) {
     EXPECT_EQ(both.views[v].tags_used == 0, v == 1 || v == 4 || v == 7);
-    EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikely) << v;
+    EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikelyChi2) << v;
   }
   support::ExpectPositionSigmasBelow(6.5, both);  // 4.3 mm: view 7, blind
 }
@@ -92,7 +92,7 @@ TEST(JointRegistrationTest, OneTagSharedByTwoViewsIsEnough) {
   ASSERT_TRUE(both.IsUsable()) << both.message;
   ASSERT_EQ(both.views.size(), 10u);
   for (std::size_t v = 0; v < 10; ++v)
-    EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikely) << v;
+    EXPECT_LT(support::NormalisedError(both.views[v], room.poses[v]), kLikelyChi2) << v;
   // 24 mm: one tag of 0.2 m turns a room of 6 m by 4.5 mrad.
   support::ExpectPositionSigmasBelow(37, both);
 }
@@ -141,7 +141,7 @@ TEST(JointRegistrationTest, OutliersAmongFeaturesDoNoHarm) {
                     support::FeaturesOfRoom(room, {0.3, 0.2, 0.005}, AnySimilarity(), rng), Exact());
   ASSERT_EQ(registration.views.size(), 8u) << registration.message;
   for (std::size_t v = 0; v < 8; ++v)
-    EXPECT_LT(support::NormalisedError(registration.views[v], room.poses[v]), kLikely) << v;
+    EXPECT_LT(support::NormalisedError(registration.views[v], room.poses[v]), kLikelyChi2) << v;
   support::ExpectPositionSigmasBelow(8.8, registration);  // 5.9 mm from the four fifths that are no outliers
 }
 

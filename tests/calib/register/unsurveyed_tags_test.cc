@@ -22,7 +22,7 @@ RegisterViewsOptions OfSize(double size_m, double size_sigma) {
   return options;
 }
 
-std::vector<ViewDetections> DetectAll(const FeatureRoom& room, double noise_px, std::mt19937_64& rng) {
+std::vector<ViewDetections> DetectAllTags(const FeatureRoom& room, double noise_px, std::mt19937_64& rng) {
   std::vector<ViewDetections> views;
   for (std::size_t v = 0; v < room.poses.size(); ++v)
     views.push_back(support::DetectTagsOf(room, room.tags, v, noise_px, rng));
@@ -60,7 +60,8 @@ void ExpectTheTruth(const Registration& registration, const FeatureRoom& truth) 
 TEST(UnsurveyedTagsTest, PlacesAreRecoveredWithoutNoise) {
   std::mt19937_64 rng = support::TestRng();
   const FeatureRoom room = support::MakeFeatureRoom(12, 16, 0, rng);
-  const Registration registration = RegisterViews({room.camera}, {}, DetectAll(room, 0, rng), OfSize(0.2, 0));
+  const Registration registration =
+      RegisterViews({room.camera}, {}, DetectAllTags(room, 0, rng), OfSize(0.2, 0));
   ASSERT_TRUE(registration.IsUsable()) << registration.message;
   ASSERT_EQ(registration.frame.substr(0, 4), "tag ");
   EXPECT_EQ(registration.views.size(), 12u);
@@ -91,7 +92,7 @@ TEST(UnsurveyedTagsTest, NoiseAndScaleAreInTheCovariance) {
     const double size_error = 0.005 * normal(rng);
     for (SurveyedTag& tag : printed.tags) tag.size_m *= 1 + size_error;
     const Registration registration =
-        RegisterViews({room.camera}, {}, DetectAll(printed, 0.05, rng), OfSize(0.2, 0.005));
+        RegisterViews({room.camera}, {}, DetectAllTags(printed, 0.05, rng), OfSize(0.2, 0.005));
     ASSERT_GE(registration.views.size(), 12u) << registration.message;
     const FeatureRoom truth = InFrameOf(room, registration);
     const RegisteredView& last = registration.views.back();
@@ -106,7 +107,7 @@ TEST(UnsurveyedTagsTest, NoiseAndScaleAreInTheCovariance) {
 TEST(UnsurveyedTagsTest, FeaturesConnectViewsThatShareNoTag) {
   std::mt19937_64 rng = support::TestRng();
   const FeatureRoom room = support::MakeFeatureRoom(10, 6, 300, rng);
-  const std::vector<ViewDetections> detections = DetectAll(room, 0.05, rng);
+  const std::vector<ViewDetections> detections = DetectAllTags(room, 0.05, rng);
   const FeatureModel features = support::FeaturesOfRoom(room, {0.3, 0, 0.003}, support::AnySimilarity(), rng);
   const Registration alone = RegisterViews({room.camera}, {}, detections, OfSize(0.2, 0));
   const Registration both = RegisterViews({room.camera}, {}, detections, features, OfSize(0.2, 0));
@@ -119,7 +120,7 @@ TEST(UnsurveyedTagsTest, FeaturesConnectViewsThatShareNoTag) {
 TEST(UnsurveyedTagsTest, WhatDoesNotConnectIsNamed) {
   std::mt19937_64 rng = support::TestRng();
   const FeatureRoom room = support::MakeFeatureRoom(12, 40, 0, rng);
-  std::vector<ViewDetections> detections = DetectAll(room, 0.05, rng);
+  std::vector<ViewDetections> detections = DetectAllTags(room, 0.05, rng);
   // A tag that one view shows, alone.
   ViewDetections lone;
   lone.view = "lone";

@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-Board Chessboard(int columns, int rows) { return support::Chessboard(columns, rows, 0.03); }
+Board ChessboardOf(int columns, int rows) { return support::Chessboard(columns, rows, 0.03); }
 
 Board Charuco(int columns, int rows, const std::string& dictionary) {
   Board board = support::Charuco(columns, rows, 0.03, 0.021);
@@ -51,12 +51,12 @@ void ExpectFound(const Board& shown, const Board& expected) {
 }
 
 TEST(BoardSearch, AChessboardOfOtherCountsIsFound) {
-  ExpectFound(Chessboard(9, 6), Chessboard(8, 6));
-  ExpectFound(Chessboard(7, 4), Chessboard(9, 6));
+  ExpectFound(ChessboardOf(9, 6), ChessboardOf(8, 6));
+  ExpectFound(ChessboardOf(7, 4), ChessboardOf(9, 6));
 }
 
 TEST(BoardSearch, AChessboardLiesAsTheExpectedOne) {
-  const auto found = SearchBoard(PhotoOf(Chessboard(9, 6)), Chessboard(5, 8));
+  const auto found = SearchBoard(PhotoOf(ChessboardOf(9, 6)), ChessboardOf(5, 8));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->columns, 6);
   EXPECT_EQ(found->rows, 9);
@@ -83,19 +83,19 @@ TEST(BoardSearch, AnAprilGridOfOtherCountsOrFamilyIsFound) {
 }
 
 TEST(BoardSearch, ABoardOfAnotherKindIsFound) {
-  ExpectFound(Charuco(8, 6, "DICT_4X4_50"), Chessboard(7, 5));
+  ExpectFound(Charuco(8, 6, "DICT_4X4_50"), ChessboardOf(7, 5));
   ExpectFound(AprilGrid(6, 4, "tag36h11"), Charuco(6, 4, "DICT_4X4_50"));
-  ExpectFound(Chessboard(9, 6), Charuco(10, 7, "DICT_4X4_50"));
+  ExpectFound(ChessboardOf(9, 6), Charuco(10, 7, "DICT_4X4_50"));
 }
 
 TEST(BoardSearch, AWallShowsNone) {
-  EXPECT_FALSE(SearchBoard(ImagePlane::Constant(480, 640, 128), Chessboard(9, 6)));
-  EXPECT_FALSE(SearchBoard(ImagePlane(), Chessboard(9, 6)));
+  EXPECT_FALSE(SearchBoard(ImagePlane::Constant(480, 640, 128), ChessboardOf(9, 6)));
+  EXPECT_FALSE(SearchBoard(ImagePlane(), ChessboardOf(9, 6)));
 }
 
 TEST(BoardSearch, MostPhotosDecideAndPartsCountAsTheWhole) {
   const Board whole = Charuco(8, 6, "DICT_4X4_50"), part = Charuco(8, 4, "DICT_4X4_50");
-  const auto shown = MostShown({Chessboard(9, 6), part, std::nullopt, whole, part, Chessboard(8, 6)});
+  const auto shown = MostShown({ChessboardOf(9, 6), part, std::nullopt, whole, part, ChessboardOf(8, 6)});
   ASSERT_TRUE(shown);
   EXPECT_EQ(shown->photos, 3U);
   EXPECT_EQ(shown->board.rows, 6);

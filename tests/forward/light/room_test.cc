@@ -8,9 +8,9 @@ namespace luxfit {
 namespace {
 
 // A room with a screen across half of its width, a lamp behind it.
-class RoomWithScreen : public testing::Test {
+class ScreenedRoom : public testing::Test {
  protected:
-  RoomWithScreen() {
+  ScreenedRoom() {
     Scene scene = support::ClosedRoom({4, 4, 2});
     support::AddBox(scene, {Eigen::Vector3d(1.9, 0, 0), Eigen::Vector3d(2, 2, 2)}, support::Facing::kOutward,
                     {"screen"});
@@ -23,7 +23,7 @@ class RoomWithScreen : public testing::Test {
   Luminaire lamp_;
 };
 
-TEST_F(RoomWithScreen, ReceiversAreElementsThenSensors) {
+TEST_F(ScreenedRoom, ReceiversAreElementsThenSensors) {
   const int e = FloorElementAt(3, 1);
   ASSERT_GE(e, 0);
   EXPECT_LT((room_->patches.elements[static_cast<size_t>(e)].center - Eigen::Vector3d(3, 1, 0)).norm(), 0.25);
@@ -34,7 +34,7 @@ TEST_F(RoomWithScreen, ReceiversAreElementsThenSensors) {
   EXPECT_NEAR(receivers.sensor_to_element.sum(), 1, 1e-5);  // closed room; float rounding
 }
 
-TEST_F(RoomWithScreen, TheScreenHidesTheLampFromWhatLiesBehindIt) {
+TEST_F(ScreenedRoom, TheScreenHidesTheLampFromWhatLiesBehindIt) {
   const std::vector<int> elements = {FloorElementAt(1, 1), FloorElementAt(3, 1), FloorElementAt(1, 3)};
   const Receivers receivers = MakeReceivers(
       *room_, elements, {{{3, 1, 0.01}, {0, 0, 1}}, {{1, 2, 0.01}, {0, 0, 1}}, {{1, 2, 0.01}, {0, 0, -1}}});
@@ -48,7 +48,7 @@ TEST_F(RoomWithScreen, TheScreenHidesTheLampFromWhatLiesBehindIt) {
   }
 }
 
-TEST_F(RoomWithScreen, AShadowsEdgeCrossesElements) {
+TEST_F(ScreenedRoom, AShadowsEdgeCrossesElements) {
   // From (1, 1) past the screen's end at (1.9..2, 2): the edge meets y = 3 at x = 1 + 2 * 0.9 / 1 = 2.8.
   const LuminaireVisibility visibility = ComputeVisibility(*room_, MakeReceivers(*room_, {}, {}), {lamp_});
   EXPECT_EQ(visibility.elements(FloorElementAt(2.3, 3.1), 0), 1);

@@ -19,14 +19,14 @@ using support::Replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-Eigen::Vector3d Direction(double c_deg, double gamma_deg) {
+Eigen::Vector3d DirectionAt(double c_deg, double gamma_deg) {
   const double c = c_deg * kPi / 180, g = gamma_deg * kPi / 180;
   return {std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g)};
 }
 
 double CdTowards(const PhotometryFile& photometry, double c_deg, double gamma_deg) {
   return photometry.luminaire_flux_lm *
-         IntensityTowards(photometry.table, Direction(c_deg, gamma_deg)).cd_per_lm;
+         IntensityTowards(photometry.table, DirectionAt(c_deg, gamma_deg)).cd_per_lm;
 }
 
 PhotometryFile Parse(const std::string& text) { return ParsePhotometry(text, "a.ies"); }

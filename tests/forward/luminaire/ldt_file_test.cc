@@ -19,7 +19,7 @@ using support::Replaced;
 using testing::AllOf;
 using testing::HasSubstr;
 
-double CdTowards(const PhotometryFile& photometry, double c_deg, double gamma_deg) {
+double CdInPlane(const PhotometryFile& photometry, double c_deg, double gamma_deg) {
   const double c = c_deg * kPi / 180, g = gamma_deg * kPi / 180;
   const Eigen::Vector3d d(std::sin(g) * std::cos(c), std::sin(g) * std::sin(c), -std::cos(g));
   return photometry.luminaire_flux_lm * IntensityTowards(photometry.table, d).cd_per_lm;
@@ -52,7 +52,7 @@ TEST(LdtFile, IsReadAsItStands) {
 
 TEST(LdtFile, IsPer1000LumensOfTheLamps) {
   const PhotometryFile photometry = Parse(kLdt);
-  EXPECT_NEAR(CdTowards(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);  // conversion factor, 2000 lm
+  EXPECT_NEAR(CdInPlane(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);  // conversion factor, 2000 lm
   EXPECT_EQ(photometry.lamp_flux_lm, 2000);
   EXPECT_EQ(photometry.stated_flux_lm, 1600);
 }
@@ -60,13 +60,13 @@ TEST(LdtFile, IsPer1000LumensOfTheLamps) {
 TEST(LdtFile, ANegativeNumberOfLampsIsAbsolute) {
   const PhotometryFile photometry = Parse(Replaced(kLdt, "\n2\nlamp", "\n-1\nlamp"));
   EXPECT_EQ(photometry.lamp_flux_lm, 0);
-  EXPECT_NEAR(CdTowards(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);
+  EXPECT_NEAR(CdInPlane(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);
 }
 
 TEST(LdtFile, TheFirstLampSetCounts) {
   const PhotometryFile photometry =
       Parse(Replaced(kLdt, "\n1\n2\nlamp", "\n2\n2\nlamp\n4000\nwarm\n90\n72\n2\nlamp"));
-  EXPECT_NEAR(CdTowards(photometry, 0, 0), 300 * 1.5 * 4, 1e-9);
+  EXPECT_NEAR(CdInPlane(photometry, 0, 0), 300 * 1.5 * 4, 1e-9);
   EXPECT_THAT(photometry.notes, testing::ElementsAre(HasSubstr("first of 2 lamp sets")));
 }
 
@@ -93,7 +93,7 @@ TEST(LdtFile, EverySymmetryFillsTheCircle) {
   for (int isym = 0; isym <= 4; ++isym) {
     const PhotometryFile photometry = Parse(WithPlanes(isym, stored[isym]));
     for (int plane = 0; plane < 8; ++plane) {
-      EXPECT_NEAR(CdTowards(photometry, 45 * plane, 90),
+      EXPECT_NEAR(CdInPlane(photometry, 45 * plane, 90),
                   3 * (100 + expected[static_cast<size_t>(isym)][static_cast<size_t>(plane)]), 1e-9)
           << "Isym " << isym << ", C" << 45 * plane;
     }
@@ -168,8 +168,8 @@ TEST(LdtFile, TurnsIntoIesAndBack) {
     EXPECT_NEAR((ldt.size_m - photometry.size_m).norm(), 0, 1e-12);
     for (double c = 0; c < 360; c += 22.5) {
       for (const double gamma : {0.0, 30.0, 90.0}) {
-        EXPECT_NEAR(CdTowards(ldt, c, gamma), CdTowards(photometry, c, gamma), 1e-6);
-        EXPECT_NEAR(CdTowards(ies, c, gamma), CdTowards(photometry, c, gamma), 1e-6);
+        EXPECT_NEAR(CdInPlane(ldt, c, gamma), CdInPlane(photometry, c, gamma), 1e-6);
+        EXPECT_NEAR(CdInPlane(ies, c, gamma), CdInPlane(photometry, c, gamma), 1e-6);
       }
     }
   }

@@ -83,7 +83,7 @@ std::string Glb(const Json& json, const std::string& binary) {
 
 Scene Parse(const std::string& bytes) { return ParseScene(bytes, MeshFormat::kGltf, "room"); }
 
-std::string ErrorOf(const std::string& bytes) {
+std::string GltfErrorOf(const std::string& bytes) {
   try {
     Parse(bytes);
   } catch (const std::runtime_error& error) {
@@ -93,7 +93,7 @@ std::string ErrorOf(const std::string& bytes) {
 }
 
 std::string ErrorAt(const std::string& pointer, const Json& value) {
-  return ErrorOf(Patched(pointer, value).dump());
+  return GltfErrorOf(Patched(pointer, value).dump());
 }
 
 void ExpectWall(const Scene& scene) {
@@ -124,7 +124,8 @@ TEST(ReadScene, FindsBuffersBesideTheFile) {
   folder.Write("room.GLB", Glb(QuadJson(), QuadBytes()));
   ExpectWall(ReadScene(folder.Path("room.gltf")));
   ExpectWall(ReadScene(folder.Path("room.GLB")));
-  EXPECT_THAT(ErrorOf(json.dump()), StartsWith("room: /buffers/0/uri: expected a buffer within the file"));
+  EXPECT_THAT(GltfErrorOf(json.dump()),
+              StartsWith("room: /buffers/0/uri: expected a buffer within the file"));
   json["buffers"][0]["byteLength"] = 61;
   folder.Write("room.gltf", json.dump());
   EXPECT_THROW(ReadScene(folder.Path("room.gltf")), std::runtime_error);
@@ -249,7 +250,7 @@ TEST(ParseGltf, WhatLiesOutOfRangeIsNamed) {
   std::string bytes = QuadBytes();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(&bytes[12], &nan, sizeof(nan));
-  EXPECT_THAT(ErrorOf(QuadWith(bytes).dump()), HasSubstr("POSITION: expected finite vertices"));
+  EXPECT_THAT(GltfErrorOf(QuadWith(bytes).dump()), HasSubstr("POSITION: expected finite vertices"));
 }
 
 TEST(ParseGltf, NodesFormATree) {
@@ -279,7 +280,7 @@ TEST(ParseGltf, FewBytesDoNotBecomeManyTriangles) {
   std::vector<int> nodes(1000);
   for (int n = 0; n < 1000; ++n) nodes[static_cast<size_t>(n)] = n;
   json["scenes"][0]["nodes"] = nodes;
-  EXPECT_THAT(ErrorOf(json.dump()), HasSubstr("expected at most 4000000 triangles"));
+  EXPECT_THAT(GltfErrorOf(json.dump()), HasSubstr("expected at most 4000000 triangles"));
 }
 
 TEST(ParseGltf, WhatIsNotReadIsRefusedByName) {
@@ -298,11 +299,11 @@ TEST(ParseGltf, WhatIsNotReadIsRefusedByName) {
 }
 
 TEST(ParseGltf, TextThatIsNoJsonIsNamedWithItsLine) {
-  EXPECT_THAT(ErrorOf("{\"asset\":\n{\"version\": 2.0,}}"), StartsWith("room:2: expected the JSON"));
-  EXPECT_THAT(ErrorOf(""), StartsWith("room:1: expected the JSON"));
-  EXPECT_THAT(ErrorOf("[1e999]"), HasSubstr("expected numbers within 1e308"));
-  EXPECT_THAT(ErrorOf("[]"), StartsWith("room: expected an object, got array"));
-  EXPECT_THAT(ErrorOf(std::string(1'000'000, '[')), StartsWith("room:1: expected the JSON"));
+  EXPECT_THAT(GltfErrorOf("{\"asset\":\n{\"version\": 2.0,}}"), StartsWith("room:2: expected the JSON"));
+  EXPECT_THAT(GltfErrorOf(""), StartsWith("room:1: expected the JSON"));
+  EXPECT_THAT(GltfErrorOf("[1e999]"), HasSubstr("expected numbers within 1e308"));
+  EXPECT_THAT(GltfErrorOf("[]"), StartsWith("room: expected an object, got array"));
+  EXPECT_THAT(GltfErrorOf(std::string(1'000'000, '[')), StartsWith("room:1: expected the JSON"));
   EXPECT_THAT(ErrorAt("/scenes/0/nodes", "0"),
               StartsWith("room: /scenes/0/nodes: expected a list, got \"0\""));
   // Nested deeper than the stack, where a number belongs.
@@ -310,20 +311,21 @@ TEST(ParseGltf, TextThatIsNoJsonIsNamedWithItsLine) {
   const std::string scene = "\"scene\":0";
   text.replace(text.find(scene), scene.size(),
                "\"scene\":" + std::string(1'000'000, '[') + std::string(1'000'000, ']'));
-  EXPECT_THAT(ErrorOf(text), StartsWith("room: /scene: expected a whole number from 0 to 2^53, got array"));
+  EXPECT_THAT(GltfErrorOf(text),
+              StartsWith("room: /scene: expected a whole number from 0 to 2^53, got array"));
 }
 
 TEST(ParseGltf, EveryTruncationIsAnError) {
   for (const std::string& bytes : {Glb(QuadJson(), QuadBytes()), Quad().dump()}) {
     for (size_t length = 0; length < bytes.size(); ++length)
-      EXPECT_THAT(ErrorOf(bytes.substr(0, length)), StartsWith("room")) << length;
+      EXPECT_THAT(GltfErrorOf(bytes.substr(0, length)), StartsWith("room")) << length;
   }
   std::string other = Glb(QuadJson(), QuadBytes());
   other[4] = 1;
-  EXPECT_THAT(ErrorOf(other), StartsWith("room: expected GLB version 2, got 1"));
+  EXPECT_THAT(GltfErrorOf(other), StartsWith("room: expected GLB version 2, got 1"));
   other = Glb(QuadJson(), QuadBytes());
   other[13] = 9;  // the first chunk's length
-  EXPECT_THAT(ErrorOf(other), StartsWith("room: chunk 0: "));
+  EXPECT_THAT(GltfErrorOf(other), StartsWith("room: chunk 0: "));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of doubles summed over some thousand elements
+constexpr double kRoundOff = 1e-9;  // of doubles summed over some thousand elements
 
 // One sheared parallelogram and one scalene triangle, side by side.
 Scene TwoKinds() {
@@ -37,8 +37,8 @@ TEST(Subdivide, AreasAddUpToTheFacets) {
     of_elements[static_cast<size_t>(patch.facet)] += element.area_m2;
   }
   for (size_t f = 0; f < scene.facets.size(); ++f) {
-    EXPECT_NEAR(of_patches[f], scene.facets[f].AreaM2(), kRounding);
-    EXPECT_NEAR(of_elements[f], scene.facets[f].AreaM2(), kRounding);
+    EXPECT_NEAR(of_patches[f], scene.facets[f].AreaM2(), kRoundOff);
+    EXPECT_NEAR(of_elements[f], scene.facets[f].AreaM2(), kRoundOff);
   }
 }
 
@@ -58,8 +58,8 @@ TEST(Subdivide, ElementsOfAPatchAreConsecutiveAndMakeItsAreaAndCentre) {
       area += element.area_m2;
       moment += element.area_m2 * element.center;
     }
-    EXPECT_NEAR(patch.area_m2, area, kRounding);
-    EXPECT_NEAR((patch.center - moment / area).norm(), 0, kRounding);
+    EXPECT_NEAR(patch.area_m2, area, kRoundOff);
+    EXPECT_NEAR((patch.center - moment / area).norm(), 0, kRoundOff);
   }
   EXPECT_EQ(next, static_cast<int>(patches.elements.size()));
 }
@@ -69,13 +69,13 @@ TEST(Subdivide, NothingIsLargerThanAskedFor) {
   const Scene scene = TwoKinds();
   const Patches patches = SubdivisionOf(scene, options);
   for (const Element& element : patches.elements) {
-    EXPECT_LE(element.edge_u.norm(), options.element_size_m + kRounding);
-    EXPECT_LE(element.edge_v.norm(), options.element_size_m + kRounding);
+    EXPECT_LE(element.edge_u.norm(), options.element_size_m + kRoundOff);
+    EXPECT_LE(element.edge_v.norm(), options.element_size_m + kRoundOff);
     const Patch& patch = patches.patches[static_cast<size_t>(element.patch)];
     // Within half the patch's longest diagonal (two edges' lengths) of its centre.
     EXPECT_LE((element.center - patch.center).norm(), options.patch_size_m);
     EXPECT_NEAR((element.normal - scene.facets[static_cast<size_t>(patch.facet)].Normal()).norm(), 0,
-                kRounding);
+                kRoundOff);
   }
 }
 
@@ -102,8 +102,8 @@ TEST(ElementAt, ContainsThePoint) {
     EXPECT_EQ(patches.patches[static_cast<size_t>(element.patch)].facet, facet);
     const Eigen::Vector2d st =
         InElement(element, scene.facets[static_cast<size_t>(facet)].PointAt(uv[0], uv[1]));
-    EXPECT_GE(st.minCoeff(), -kRounding);
-    EXPECT_LE(triangle ? st.sum() : st.maxCoeff(), 1 + kRounding);
+    EXPECT_GE(st.minCoeff(), -kRoundOff);
+    EXPECT_LE(triangle ? st.sum() : st.maxCoeff(), 1 + kRoundOff);
   }
 }
 
@@ -132,7 +132,7 @@ double FloorAreaRoundBox(const Eigen::AlignedBox3d& box, const PatchesOptions& o
 TEST(Subdivide, LeavesOutTheFloorUnderABoxOnTheGrid) {
   Patches patches;
   const Eigen::AlignedBox3d box(Eigen::Vector3d(1, 1.5, 0), Eigen::Vector3d(2, 3, 0.8));
-  EXPECT_NEAR(FloorAreaRoundBox(box, {0.5, 0.1}, &patches), 16 - 1.5, kRounding);
+  EXPECT_NEAR(FloorAreaRoundBox(box, {0.5, 0.1}, &patches), 16 - 1.5, kRoundOff);
   EXPECT_EQ(patches.ElementAt(0, 1.55 / 4, 2.05 / 4), -1);
   EXPECT_GE(patches.ElementAt(0, 0.55 / 4, 2.05 / 4), 0);
 }
@@ -162,7 +162,7 @@ TEST(Subdivide, NothingLiesInsideASingleSheet) {
   support::AddParallelogram(scene, {2.4, 0.5, 0.74}, {1.4, 0, 0}, {0, 0.8, 0}, "sheet");
   const Eigen::VectorXd areas = FreeAreas(scene, {0.5, 0.1});
   for (size_t f = 0; f < scene.facets.size(); ++f)
-    EXPECT_NEAR(areas[static_cast<Eigen::Index>(f)], scene.facets[f].AreaM2(), kRounding) << f;
+    EXPECT_NEAR(areas[static_cast<Eigen::Index>(f)], scene.facets[f].AreaM2(), kRoundOff) << f;
 }
 
 TEST(Subdivide, WhatStandsInASolidDoesNotOpenIt) {
@@ -171,7 +171,7 @@ TEST(Subdivide, WhatStandsInASolidDoesNotOpenIt) {
                   {"cabinet"});
   support::AddBox(scene, {Eigen::Vector3d(1.4, 1.4, 0), Eigen::Vector3d(1.6, 1.6, 0.3)},
                   support::Facing::kOutward, {"pipe"});
-  EXPECT_NEAR(FreeAreas(scene, {0.5, 0.1})[4], 12 - 1, kRounding);  // of the floor
+  EXPECT_NEAR(FreeAreas(scene, {0.5, 0.1})[4], 12 - 1, kRoundOff);  // of the floor
 }
 
 TEST(Subdivide, RefusesSizesThatMakeNoSense) {

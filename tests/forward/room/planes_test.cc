@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 const Vector3d kRoom(5, 4, 2.5);
 
-Scene Furnished() {
+Scene FurnishedScan() {
   Scene scene = support::ClosedRoom(kRoom);
   support::AddBox(scene, {Vector3d(1, 1, 0.7), Vector3d(2.6, 1.8, 0.74)}, support::Facing::kOutward,
                   {"desk"});
@@ -32,7 +32,7 @@ Scene Furnished() {
 
 Scene ScanOfRoom(const support::ScanOptions& options = {}) {
   std::mt19937_64 rng(3);
-  return support::ScanOf(Furnished(), options, rng);
+  return support::ScanOf(FurnishedScan(), options, rng);
 }
 
 // The triangles of a scene's facets without any displacement.
@@ -66,7 +66,7 @@ void ExpectShell(const Scene& scene, double within_m, double within_rad) {
 }
 
 TEST(LayOnPlanes, ExactTrianglesBecomeTheFacesTheyTile) {
-  const Scene mesh = Triangulated(Furnished());
+  const Scene mesh = Triangulated(FurnishedScan());
   const OnPlanes laid = LayOnPlanes(mesh);
   EXPECT_EQ(laid.how.triangles, static_cast<int>(mesh.facets.size()));
   EXPECT_EQ(laid.how.closed_holes, 0);
@@ -85,7 +85,7 @@ TEST(LayOnPlanes, ErrorsOfAScanAverageOut) {
   EXPECT_LT(laid.how.rms_m, 0.008);
   EXPECT_LT(laid.scene.facets.size(), 100U);
   ExpectShell(laid.scene, 0.0015, 0.0018);
-  EXPECT_NEAR(CoveredM2(laid.scene), CoveredM2(Furnished()), 0.01 * CoveredM2(Furnished()));
+  EXPECT_NEAR(CoveredM2(laid.scene), CoveredM2(FurnishedScan()), 0.01 * CoveredM2(FurnishedScan()));
 }
 
 TEST(LayOnPlanes, TheScanStaysClosed) {
@@ -144,7 +144,7 @@ TEST(LayOnPlanes, MaterialsAreNamedByWhatPlanesAre) {
 
 // A drawn room of one material, with a box that photos showed.
 TEST(NamedPlanes, OfADrawnMeshAreItsFacets) {
-  Scene drawn = Furnished();
+  Scene drawn = FurnishedScan();
   for (Facet& facet : drawn.facets) facet.material = 0;
   drawn.materials = {"paint"};
   support::AddBox(drawn, {Vector3d(3, 2, 0), Vector3d(3.6, 2.4, 1)}, support::Facing::kOutward, {"found 1"});
@@ -176,7 +176,7 @@ TEST(NamedPlanes, OfADrawnMeshAreItsFacets) {
 }
 
 TEST(NamedPlanes, SeveralMaterialsStay) {
-  const Scene furnished = Furnished();
+  const Scene furnished = FurnishedScan();
   EXPECT_EQ(SoleMaterialOf(furnished), "");
   EXPECT_EQ(WithPlanesNamed(furnished, "").materials, furnished.materials);
 }
@@ -253,11 +253,11 @@ TEST(LayOnPlanes, ManySmallPlanesAreLaidOntoCoarserOnes) {
   PlanesOptions options;
   options.off_plane_m = 0.01;
   options.most_planes = 200;
-  EXPECT_LE(LayOnPlanes(support::ScanOf(Furnished(), rough, rng), options).scene.facets.size(), 200U);
+  EXPECT_LE(LayOnPlanes(support::ScanOf(FurnishedScan(), rough, rng), options).scene.facets.size(), 200U);
 }
 
 TEST(IsFinerThanPatches, ScansAreAndDrawnRoomsAreNot) {
-  EXPECT_FALSE(IsFinerThanPatches(Furnished(), {}));
+  EXPECT_FALSE(IsFinerThanPatches(FurnishedScan(), {}));
   EXPECT_TRUE(IsFinerThanPatches(ScanOfRoom(), {}));
 }
 

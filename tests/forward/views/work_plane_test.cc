@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-Room RoomOf(const Scene& scene) {
+Room RoomOfScene(const Scene& scene) {
   RoomOptions options;
   options.patches = {1.0, 1.0};
   return MakeRoom(scene, options);
@@ -53,7 +53,7 @@ TEST(WorkPlane, PointsOffTheFloorAndInSolidsDoNotCount) {
   }
   support::AddBox(scene, {Eigen::Vector3d(0, 3, 0), Eigen::Vector3d(1, 4, 2)}, support::Facing::kOutward,
                   {"wall"});
-  const Room room = RoomOf(scene);
+  const Room room = RoomOfScene(scene);
   auto plane = FloorPlane(scene, 0.75, 0);
   ASSERT_TRUE(plane);
   plane->spacing_m = 0.5;

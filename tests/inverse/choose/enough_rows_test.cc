@@ -49,9 +49,9 @@ TEST(EvenLevels, EachDoublesTheElements) {
 }
 
 // An isotropic point of 1 lm in a cube of 2 m without reflections: photos are closed forms.
-class PointInCube : public testing::Test {
+class RowsOfPointInCube : public testing::Test {
  protected:
-  PointInCube() {
+  RowsOfPointInCube() {
     data_.dimming = {Eigen::VectorXd::Ones(1)};
     data_.indirect_is_held = true;
     data_.observations = support::DirectPhotos(room_, kLamp, kRho);
@@ -92,7 +92,7 @@ class PointInCube : public testing::Test {
 };
 
 // Each doubling of independent rows moves the answer by about a sigma of it.
-TEST_F(PointInCube, IndependentErrorsAskForAllElements) {
+TEST_F(RowsOfPointInCube, IndependentErrorsAskForAllElements) {
   Err(0.02, 0);
   const EnoughRows enough = Fit();
   ASSERT_FALSE(enough.taken.doublings.empty());
@@ -105,7 +105,7 @@ TEST_F(PointInCube, IndependentErrorsAskForAllElements) {
 }
 
 // Errors of 3 % that a quarter of a facet shares do not go away with more of its elements.
-TEST_F(PointInCube, SharedErrorsAskForFew) {
+TEST_F(RowsOfPointInCube, SharedErrorsAskForFew) {
   Err(0.0005, 0.03);
   const EnoughRows enough = Fit();
   ASSERT_FALSE(enough.taken.doublings.empty());
@@ -123,7 +123,7 @@ TEST_F(PointInCube, SharedErrorsAskForFew) {
   EXPECT_LT(LargestShiftOf(enough.fit, moved).sigmas, kWorthSigmas / (1 - std::sqrt(0.5)));
 }
 
-TEST_F(PointInCube, FewElementsAreFittedAtOnce) {
+TEST_F(RowsOfPointInCube, FewElementsAreFittedAtOnce) {
   Err(0.02, 0);
   const EnoughRows enough = FitToEnoughRows(room_, data_, state_, {}, 2400 / kFewTimes, options_);
   EXPECT_TRUE(enough.taken.doublings.empty());

@@ -17,7 +17,7 @@ namespace luxfit {
 namespace {
 
 using support::kPi;
-const Eigen::Vector3d kLamp(0.13, -0.21, 1.5);
+const Eigen::Vector3d kRefinedLamp(0.13, -0.21, 1.5);
 
 // cd per lm. Between 0.2 at the nadir and a ring of 1.2 at 45 degrees, dark at 90: no cosine power.
 // Its flux: 2 pi int (0.2 cos + sin^2 2g) sin g dg = 2 pi (0.1 + 8 / 15).
@@ -33,7 +33,7 @@ LightData ReadingsOf(const std::function<double(const Eigen::Vector3d&)>& lux, d
   data.dimming = {Eigen::VectorXd::Ones(1)};
   for (const double below : {nearest_m, nearest_m + 0.5}) {
     const std::vector<Reading> plane =
-        support::ReadAt(support::PlanePoints(12, width_m, kLamp.z() - below), lux, 0.01, rng);
+        support::ReadAt(support::PlanePoints(12, width_m, kRefinedLamp.z() - below), lux, 0.01, rng);
     data.readings.insert(data.readings.end(), plane.begin(), plane.end());
   }
   return data;
@@ -41,7 +41,7 @@ LightData ReadingsOf(const std::function<double(const Eigen::Vector3d&)>& lux, d
 
 ModelChoice Choose(const LightData& data, const OpenRefinements& refinements, LuminaireFit* last = nullptr) {
   const Room room = MakeRoom(Scene{});
-  const LightState start = support::CosinePowerStart(kLamp + Eigen::Vector3d(0.05, 0.05, -0.05), 1);
+  const LightState start = support::CosinePowerStart(kRefinedLamp + Eigen::Vector3d(0.05, 0.05, -0.05), 1);
   const LuminaireFit fit = FitLuminaires(room, data, start);
   OpenChoice open;
   open.shape = false;
@@ -54,7 +54,8 @@ ModelChoice Choose(const LightData& data, const OpenRefinements& refinements, Lu
 
 TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
   const LightData data = ReadingsOf(
-      [](const Eigen::Vector3d& p) { return support::PointLx(900, BatwingCdPerLm, kLamp, p); }, 0.5, 4);
+      [](const Eigen::Vector3d& p) { return support::PointLx(900, BatwingCdPerLm, kRefinedLamp, p); }, 0.5,
+      4);
   OpenRefinements open;
   open.table = true;
   LuminaireFit fit;
@@ -68,7 +69,7 @@ TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
   EXPECT_LT(fit.effective_parts, 12);
   const Luminaire& lamp = fit.state.luminaires[0];
   ASSERT_EQ(lamp.distribution, Distribution::kMeasured);
-  EXPECT_LT((lamp.position - kLamp).norm(), 0.02);
+  EXPECT_LT((lamp.position - kRefinedLamp).norm(), 0.02);
   // To 70 degrees, where readings lie: 288 readings of 1 %, and straight lines over 7.5 degrees (0.13^2 / 8
   // of a second derivative of 8 times the peak: 2 %).
   const double peak = BatwingCdPerLm(std::sqrt(0.5)) * 900;
@@ -84,8 +85,8 @@ TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
 
 TEST(RefineLuminaire, ACosinePowerNeedsNoTable) {
   const auto cos3 = [](double c) { return 4 * std::pow(c, 3) / (2 * kPi); };
-  const LightData data =
-      ReadingsOf([&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kLamp, p); }, 0.8, 3);
+  const LightData data = ReadingsOf(
+      [&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kRefinedLamp, p); }, 0.8, 3);
   OpenRefinements open;
   open.table = true;
   const ModelChoice choice = Choose(data, open);
@@ -95,8 +96,8 @@ TEST(RefineLuminaire, ACosinePowerNeedsNoTable) {
 
 TEST(RefineLuminaire, ATableThatIsAskedForIsMade) {
   const auto cos3 = [](double c) { return 4 * std::pow(c, 3) / (2 * kPi); };
-  const LightData data =
-      ReadingsOf([&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kLamp, p); }, 0.8, 3);
+  const LightData data = ReadingsOf(
+      [&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kRefinedLamp, p); }, 0.8, 3);
   OpenRefinements open;
   open.table = open.table_asked_for = true;
   const ModelChoice choice = Choose(data, open);
@@ -108,12 +109,12 @@ TEST(RefineLuminaire, ATableThatIsAskedForIsMade) {
 TEST(RefineLuminaire, APanelThatShinesUnevenlyIsFoundToDoSo) {
   const auto lux = [](const Eigen::Vector3d& p) {
     const Eigen::Vector3d side(0.4, 0, 0);
-    return support::LambertianRectangleLx(600, kLamp - side, 0.4, 0.6, p) +
-           support::LambertianRectangleLx(300, kLamp + side, 0.4, 0.6, p);
+    return support::LambertianRectangleLx(600, kRefinedLamp - side, 0.4, 0.6, p) +
+           support::LambertianRectangleLx(300, kRefinedLamp + side, 0.4, 0.6, p);
   };
   const LightData data = ReadingsOf(lux, 0.25, 2);
   const Room room = MakeRoom(Scene{});
-  LightState start = support::CosinePowerStart(kLamp, 1);
+  LightState start = support::CosinePowerStart(kRefinedLamp, 1);
   start.luminaires[0].distribution = Distribution::kLambertian;
   start.luminaires[0].shape = LuminaireShape::kRectangle;
   start.luminaires[0].size_m = {1.1, 0.6};
@@ -138,7 +139,7 @@ TEST(RefineLuminaire, TheHeadingOfAGivenPhotometryIsFound) {
   constexpr double kTurned = 2.1;  // rad, far from all four starts
   const auto intensity = [](double c, double cosine) { return (1 + 0.6 * std::cos(c)) * cosine / kPi; };
   const auto lux = [&](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d d = p - kLamp;
+    const Eigen::Vector3d d = p - kRefinedLamp;
     const double cosine = -d.z() / d.norm();
     // C runs counter-clockwise seen from above, from the heading.
     const double c = std::atan2(d.y(), d.x()) - kTurned;
@@ -151,7 +152,7 @@ TEST(RefineLuminaire, TheHeadingOfAGivenPhotometryIsFound) {
   for (const double c : c_rad) {
     for (const double g : gamma_rad) table.push_back(intensity(c, std::max(0.0, std::cos(g))));
   }
-  LightState start = support::CosinePowerStart(kLamp, 1);
+  LightState start = support::CosinePowerStart(kRefinedLamp, 1);
   start.luminaires[0].distribution = Distribution::kMeasured;
   start.luminaires[0].table = std::make_shared<IntensityTable>(
       Normalized(ExpandPlanes(c_rad, gamma_rad, table, PlaneSymmetry::kNone)));

@@ -10,15 +10,13 @@
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // An equidistant fisheye of a whole hemisphere: 200 px a right angle.
 Camera Fisheye() {
   Camera camera;
   camera.lens = LensModel::kFisheye;
   camera.width_px = camera.height_px = 401;
   camera.cx_px = camera.cy_px = 200;
-  camera.fx_px = camera.fy_px = 200 / (kPi / 2);
+  camera.fx_px = camera.fy_px = 200 / (M_PI / 2);
   return camera;
 }
 
@@ -63,14 +61,14 @@ TEST(PhotoGlare, PixelsOfAPinholeAddUpToItsPyramid) {
   EXPECT_NEAR(field.solid_angle_sr.cast<double>().sum(), pyramid, 1e-4 * pyramid);
   const double x = a / std::sqrt(1 + a * a), y = b / std::sqrt(1 + b * b);
   const double form_factor =
-      2 / kPi * (x * std::atan(b / std::sqrt(1 + a * a)) + y * std::atan(a / std::sqrt(1 + b * b)));
+      2 / M_PI * (x * std::atan(b / std::sqrt(1 + a * a)) + y * std::atan(a / std::sqrt(1 + b * b)));
   EXPECT_NEAR(field.coverage, form_factor, 1e-4);
 }
 
 // Pixels that the border cuts count whole or not at all.
 TEST(PhotoGlare, PixelsOfAFisheyeAddUpToAHemisphere) {
   const PixelField field = FieldOf(Fisheye());
-  EXPECT_NEAR(field.solid_angle_sr.cast<double>().sum(), 2 * kPi, 2e-3 * 2 * kPi);
+  EXPECT_NEAR(field.solid_angle_sr.cast<double>().sum(), 2 * M_PI, 2e-3 * 2 * M_PI);
   EXPECT_NEAR(field.coverage, 1, 1e-3);
 }
 
@@ -78,11 +76,11 @@ TEST(PhotoGlare, AnEvenHemisphereHasItsIlluminanceAndNoGlare) {
   const PixelField field = FieldOf(Fisheye());
   const PhotoGlare glare = Glare(field, PhotoOf(field, 1000, {}));
   ASSERT_TRUE(glare.vertical_lx);
-  EXPECT_NEAR(*glare.vertical_lx, kPi * 1000, 1e-3 * kPi * 1000);
+  EXPECT_NEAR(*glare.vertical_lx, M_PI * 1000, 1e-3 * M_PI * 1000);
   EXPECT_TRUE(glare.sources.empty());
   const GlareRating rating = RatingOf(glare);
   EXPECT_FALSE(rating.ugr);
-  EXPECT_NEAR(*rating.dgp, 5.87e-5 * kPi * 1000 + 0.16, 1e-3);
+  EXPECT_NEAR(*rating.dgp, 5.87e-5 * M_PI * 1000 + 0.16, 1e-3);
   EXPECT_NEAR(rating.background_cd_m2, 1000, 2);
 }
 
@@ -93,12 +91,12 @@ TEST(PhotoGlare, ADiscOnTheAxisByHand) {
   const double a = 0.2, luminance = 20000, background = 200;
   const PhotoGlare glare = Glare(field, PhotoOf(field, 200, {{{0, 0, 1}, a, 20000}}));
   ASSERT_EQ(glare.sources.size(), 1u);
-  const double omega = 2 * kPi * (1 - std::cos(a)), source_lx = kPi * luminance * std::pow(std::sin(a), 2);
+  const double omega = 2 * M_PI * (1 - std::cos(a)), source_lx = M_PI * luminance * std::pow(std::sin(a), 2);
   // The disc has 2027 pixels: its border is known to some 0.5 % of its area.
   EXPECT_NEAR(glare.sources[0].solid_angle_sr, omega, 0.01 * omega);
   EXPECT_NEAR(glare.sources[0].luminance_cd_m2, luminance, 1e-6 * luminance);
   EXPECT_NEAR(glare.sources[0].illuminance_lx, source_lx, 0.01 * source_lx);
-  const double left = background * std::pow(std::cos(a), 2), vertical_lx = source_lx + kPi * left;
+  const double left = background * std::pow(std::cos(a), 2), vertical_lx = source_lx + M_PI * left;
   EXPECT_NEAR(*glare.vertical_lx, vertical_lx, 0.01 * vertical_lx);
   const GlareRating rating = RatingOf(glare);
   const double sum = luminance * luminance * omega;
@@ -124,7 +122,7 @@ TEST(PhotoGlare, AboveIsByThePoseAndNotByThePhoto) {
   const PixelField field = FieldOf(Fisheye());
   const ImagePlane photo = PhotoOf(field, 200, {{{1, 0, 1}, 0.05, 20000}});
   const Eigen::Matrix3d on_its_side =
-      UprightCamera() * Eigen::AngleAxisd(-kPi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      UprightCamera() * Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const PhotoGlare turned =
       GlareOfPhoto(photo, PixelMask::Constant(photo.rows(), photo.cols(), false), field, on_its_side);
   const PhotoGlare upright = Glare(field, PhotoOf(field, 200, {{{0, -1, 1}, 0.05, 20000}}));
@@ -170,7 +168,7 @@ TEST(PhotoGlare, APartOfTheFieldTellsOnlyOfItself) {
   const GlareRating given = RatingOf(Glare(field, photo, options));
   EXPECT_EQ(given.ugr_bound, GlareBound::kAtLeast);
   EXPECT_EQ(given.dgp_bound, GlareBound::kAtLeast);
-  const double source_lx = kPi * 20000 * std::pow(std::sin(0.1), 2), left = (1500 - source_lx) / kPi;
+  const double source_lx = M_PI * 20000 * std::pow(std::sin(0.1), 2), left = (1500 - source_lx) / M_PI;
   EXPECT_NEAR(given.background_cd_m2, left, 0.02 * left);
 }
 

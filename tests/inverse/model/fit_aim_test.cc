@@ -11,7 +11,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kFluxLm = 900, kExponent = 2;
+constexpr double kAimedFluxLm = 900, kExponent = 2;
 
 // Readings on a wall 2 m in front of the luminaire, which hangs at the origin.
 LightData ReadingsOnAWall(const Eigen::Vector3d& aim) {
@@ -21,7 +21,7 @@ LightData ReadingsOnAWall(const Eigen::Vector3d& aim) {
     for (int j = 0; j < 9; ++j) {
       const Eigen::Vector3d p(2, 0.5 * i - 2, 0.5 * j - 2);
       const double distance = p.norm(), cosine = std::max(0.0, aim.dot(p) / distance);
-      const double lx = kFluxLm * (kExponent + 1) / (2 * support::kPi) * std::pow(cosine, kExponent) *
+      const double lx = kAimedFluxLm * (kExponent + 1) / (2 * support::kPi) * std::pow(cosine, kExponent) *
                         (p.x() / distance) / (distance * distance);
       data.readings.push_back({{p, {-1, 0, 0}}, 0, lx, 0.01 * lx + 0.1, true});
     }
@@ -51,7 +51,7 @@ TEST(FitAim, ReachesAimsAtAndAboveTheHorizontalFromStraightDown) {
     const Luminaire& found = fit.state.luminaires[0];
     EXPECT_TRUE(fit.IsUsable()) << fit.message;
     EXPECT_LT((found.aim - truth).norm(), 1e-3) << found.aim.transpose();
-    EXPECT_NEAR(found.flux_lm / kFluxLm, 1, 1e-3);
+    EXPECT_NEAR(found.flux_lm / kAimedFluxLm, 1, 1e-3);
     EXPECT_NEAR(found.heading.dot(found.aim), 0, 1e-9);
     EXPECT_NEAR(found.heading.norm(), 1, 1e-9);
     EXPECT_TRUE(fit.at_bound.empty());

@@ -15,12 +15,12 @@ namespace luxfit {
 namespace {
 
 // A line through `clusters` groups of 20 points; errors have a part common to each group.
-struct Line {
+struct FittedLine {
   Eigen::MatrixXd jacobian;
   std::vector<int> cluster;
 };
-Line MakeLine(int clusters) {
-  Line line;
+FittedLine MakeLine(int clusters) {
+  FittedLine line;
   constexpr int kEach = 20;
   line.jacobian.resize(clusters * kEach, 2);
   for (int i = 0; i < clusters * kEach; ++i) {
@@ -31,7 +31,7 @@ Line MakeLine(int clusters) {
   return line;
 }
 
-WeightedRows RowsOf(const Line& line, const Eigen::VectorXd& error) {
+WeightedRows RowsOf(const FittedLine& line, const Eigen::VectorXd& error) {
   WeightedRows rows;
   rows.jacobian = line.jacobian;
   const Eigen::VectorXd x = line.jacobian.colPivHouseholderQr().solve(error);
@@ -47,7 +47,7 @@ TEST(FitCovarianceTest, IsTheJackknifeOverClusters) {
   std::mt19937_64 rng = support::TestRng();
   std::normal_distribution<double> normal;
   constexpr int kClusters = 30;
-  const Line line = MakeLine(kClusters);
+  const FittedLine line = MakeLine(kClusters);
   Eigen::VectorXd error(line.jacobian.rows());
   std::vector<double> common(kClusters);
   for (double& c : common) c = 20 * normal(rng);
@@ -83,7 +83,7 @@ TEST(FitCovarianceTest, IntervalsHoldTheTruthWithFewClusters) {
   std::mt19937_64 rng = support::TestRng();
   std::normal_distribution<double> normal;
   for (const int clusters : {6, 12, 40}) {
-    const Line line = MakeLine(clusters);
+    const FittedLine line = MakeLine(clusters);
     constexpr int kDraws = 1000;
     Eigen::Array2i held = Eigen::Array2i::Zero();
     for (int draw = 0; draw < kDraws; ++draw) {
@@ -162,7 +162,7 @@ TEST(FitCovarianceTest, TheLargerOfJackknifeAndBootstrapCounts) {
 }
 
 TEST(FitCovarianceTest, AKnownBiasIsContained) {
-  const Line line = MakeLine(6);
+  const FittedLine line = MakeLine(6);
   WeightedRows rows = RowsOf(line, Eigen::VectorXd::Zero(line.jacobian.rows()));
   const Eigen::MatrixXd without = CovarianceOf(rows).covariance;
   rows.biases = line.jacobian * Eigen::Vector2d(3, -4);  // moves the parameters by (3, -4)
@@ -174,7 +174,7 @@ TEST(FitCovarianceTest, AKnownBiasIsContained) {
 
 // Errors of independent causes add as b1 b1^T + b2 b2^T; their sum as one error would have products of both.
 TEST(FitCovarianceTest, BiasesOfTwoCausesAddUp) {
-  const Line line = MakeLine(6);
+  const FittedLine line = MakeLine(6);
   WeightedRows rows = RowsOf(line, Eigen::VectorXd::Zero(line.jacobian.rows()));
   const Eigen::MatrixXd without = CovarianceOf(rows).covariance;
   Eigen::Matrix2d moves;
@@ -187,7 +187,7 @@ TEST(FitCovarianceTest, BiasesOfTwoCausesAddUp) {
 }
 
 TEST(FitCovarianceTest, WhatNothingDeterminesIsNamed) {
-  Line line = MakeLine(6);
+  FittedLine line = MakeLine(6);
   line.jacobian.col(1) = 2 * line.jacobian.col(0);
   WeightedRows rows;
   rows.jacobian = line.jacobian;
@@ -223,7 +223,7 @@ TEST(FitCovarianceTest, StudentFactorIsThatOfTheTables) {
 // Residuals of unit variance in clusters of `each` rows with one Jacobian row; `rho` is their intra-class correlation.
 WeightedRows CorrelatedRows(int clusters, int each, double rho, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
-  Line line;
+  FittedLine line;
   line.jacobian.resize(clusters * each, 2);
   Eigen::VectorXd error(line.jacobian.rows());
   for (int c = 0; c < clusters; ++c) {

@@ -19,7 +19,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRho = 0.5, kNoise = 0.003, kRadiusM = 0.06;
+constexpr double kRho = 0.5, kLightNoise = 0.003, kRadiusM = 0.06;
 constexpr double kCommonM = 0.010, kOwnM = 0.002;
 
 // Returns 32 rays that touch the sphere, at half the angle asin(r / d) of its cone. Scale: 2000 px/rad.
@@ -75,8 +75,8 @@ class WrongEyes : public testing::Test {
           support::DirectPhotos(room_, places_[k], kRho, static_cast<int>(k));
       for (size_t e = k * kEvery / 2; e < all.size(); e += kEvery) {
         Observation o = all[e];
-        o.relative_luminance *= 1 + kNoise * normal(rng);
-        o.variance = std::pow(kNoise * o.relative_luminance, 2);
+        o.relative_luminance *= 1 + kLightNoise * normal(rng);
+        o.variance = std::pow(kLightNoise * o.relative_luminance, 2);
         data_.observations.push_back(o);
       }
     }

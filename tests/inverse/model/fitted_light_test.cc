@@ -48,7 +48,7 @@ ParameterCovariance Diagonal(const std::vector<ParameterId>& ids, const Eigen::V
   return {ids, sigma.cwiseAbs2().asDiagonal()};
 }
 
-const ParameterId kFluxOfA{ParameterKind::kLogFlux, "A"};
+const ParameterId kFluxLmOfA{ParameterKind::kLogFlux, "A"};
 const ParameterId kHeightOfB{ParameterKind::kLuminaire, "B", LuminaireQuantity::kPositionZ};
 const ParameterId kExponentOfB{ParameterKind::kLuminaire, "B", LuminaireQuantity::kExponent};
 const ParameterId kWall{ParameterKind::kAlbedo, "wall"};
@@ -56,7 +56,7 @@ const ParameterId kNodeOfZ{ParameterKind::kLuminaire, "Z", LuminaireQuantity::kG
 
 TEST(FittedLight, ColumnsAreThoseOfTheForwardModel) {
   const Office office;
-  const PlaceLight predicted = office.Predicted(Diagonal({kFluxOfA}, Eigen::VectorXd::Constant(1, 0.02)));
+  const PlaceLight predicted = office.Predicted(Diagonal({kFluxLmOfA}, Eigen::VectorXd::Constant(1, 0.02)));
   const Eigen::MatrixXd light = office.Light(office.luminaires, office.albedo);
   EXPECT_LT((predicted.total_lx - light).cwiseAbs().maxCoeff(), 1e-4 * light.maxCoeff());
   EXPECT_TRUE((predicted.direct_lx.array() < predicted.total_lx.array()).all());
@@ -66,7 +66,7 @@ TEST(FittedLight, ColumnsAreThoseOfTheForwardModel) {
 TEST(FittedLight, AFluxMovesItsOwnColumn) {
   const Office office;
   const PlaceLight predicted = office.Predicted(
-      Diagonal({kFluxOfA, {ParameterKind::kLogCameraScale, ""}}, Eigen::Vector2d(0.02, 0.5)));
+      Diagonal({kFluxLmOfA, {ParameterKind::kLogCameraScale, ""}}, Eigen::Vector2d(0.02, 0.5)));
   for (Eigen::Index i = 0; i < 2; ++i) {
     EXPECT_NEAR(predicted.factor.row(2 * i).norm(), 0.02 * predicted.total_lx(i, 0), 1e-9);
     EXPECT_NEAR(predicted.factor.row(2 * i + 1).norm(), 0, 1e-9);
@@ -101,9 +101,9 @@ TEST(FittedLight, SigmasAreThoseOfFiniteDifferences) {
 
 TEST(FittedLight, UnknownParametersAreNamed) {
   const Office office;
-  const PlaceLight predicted = office.Predicted(Diagonal({kFluxOfA, kNodeOfZ}, Eigen::Vector2d(0.02, 1)));
+  const PlaceLight predicted = office.Predicted(Diagonal({kFluxLmOfA, kNodeOfZ}, Eigen::Vector2d(0.02, 1)));
   EXPECT_EQ(predicted.left_out, std::vector<ParameterId>{kNodeOfZ});
-  EXPECT_THROW(office.Predicted({{kFluxOfA}, {}}), std::invalid_argument);
+  EXPECT_THROW(office.Predicted({{kFluxLmOfA}, {}}), std::invalid_argument);
 }
 
 TEST(FittedLight, WithoutACovarianceThereIsLightAlone) {

@@ -17,7 +17,7 @@ Parameter Own(LuminaireQuantity quantity, const std::string& id) {
   return {ParameterKind::kLuminaire, 0, quantity, -1, 1, id};
 }
 const Parameter kScale{ParameterKind::kLogCameraScale, 0, {}, -50, 50, ""};
-const Parameter kWall{ParameterKind::kAlbedo, 0, {}, 0, 1, "wall"};
+const Parameter kWallMaterial{ParameterKind::kAlbedo, 0, {}, 0, 1, "wall"};
 
 NullDirection Even(const std::vector<Parameter>& parameters) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
@@ -39,7 +39,7 @@ TEST(NullDirectionTest, LuminairesThatAreAlwaysOnTogether) {
 }
 
 TEST(NullDirectionTest, DirectAndReflectedLight) {
-  const NullDirection direction = Even({Flux("A"), kWall});
+  const NullDirection direction = Even({Flux("A"), kWallMaterial});
   EXPECT_THAT(direction.meaning, HasSubstr("direct and reflected light are not told apart"));
   EXPECT_THAT(direction.remedy, HasSubstr("dark cloth"));
 }
@@ -52,14 +52,14 @@ TEST(NullDirectionTest, HeightLobeAndFluxOfOneLuminaire) {
 }
 
 TEST(NullDirectionTest, WhatChangesNothing) {
-  EXPECT_EQ(Even({kWall}).meaning, "the reflectance of wall changes nothing that was measured");
+  EXPECT_EQ(Even({kWallMaterial}).meaning, "the reflectance of wall changes nothing that was measured");
   EXPECT_EQ(Even({Own(LuminaireQuantity::kTiltAlong, "D")}).meaning,
             "aim of D changes nothing that was measured");
 }
 
 TEST(NullDirectionTest, SmallPartsAreNotNamedAndTheStrongestComesFirst) {
   const NullDirection direction =
-      DescribeNullDirection({Flux("A"), kWall, kScale}, Eigen::Vector3d(-0.5, 0.05, 0.86));
+      DescribeNullDirection({Flux("A"), kWallMaterial, kScale}, Eigen::Vector3d(-0.5, 0.05, 0.86));
   EXPECT_THAT(direction.parameters, ElementsAre(kScale.id(), Flux("A").id()));
   EXPECT_THROW(DescribeNullDirection({kScale}, Eigen::Vector2d(1, 0)), std::invalid_argument);
 }

@@ -16,7 +16,7 @@
 namespace luxfit {
 namespace {
 
-constexpr double kRho = 0.5, kNoise = 0.005;
+constexpr double kWallAlbedo = 0.5, kNoise = 0.005;
 const std::vector<Eigen::Vector3d> kLamps = {{0.8, 1.1, 1.2}, {1.3, 0.8, 0.9}};
 
 // Two isotropic points of 1 lm, one on in each state, in a cube of 2 m without reflections: photos are closed forms.
@@ -33,11 +33,11 @@ class LackingLight : public testing::Test {
       state_.luminaires[k].distribution = Distribution::kIsotropic;
       state_.luminaires[k].position = kLamps[k];
     }
-    state_.albedo = Eigen::VectorXd::Constant(1, kRho);
+    state_.albedo = Eigen::VectorXd::Constant(1, kWallAlbedo);
     state_.albedo_free = {true};
     state_.camera_scale_free = false;
     // Without reflections, nothing else tells the reflectance from the fluxes.
-    priors_ = {{ParameterKind::kAlbedo, 0, {}, kRho, 0.02}};
+    priors_ = {{ParameterKind::kAlbedo, 0, {}, kWallAlbedo, 0.02}};
   }
 
   // `texture`: sigma of the elements' reflectances about their mean, the same in both states.
@@ -47,8 +47,9 @@ class LackingLight : public testing::Test {
     for (double& f : factor) f = std::exp(texture * normal(rng_));
     std::vector<double> lost;
     for (int state = 0; state < 2; ++state) {
-      const auto photos = support::DirectPhotos(room_, kLamps[static_cast<size_t>(state)], kRho, state);
-      const auto faint = support::DirectPhotos(room_, {1.1, 1.0, 1.05}, kRho, state);
+      const auto photos =
+          support::DirectPhotos(room_, kLamps[static_cast<size_t>(state)], kWallAlbedo, state);
+      const auto faint = support::DirectPhotos(room_, {1.1, 1.0, 1.05}, kWallAlbedo, state);
       for (size_t e = 0; e < photos.size(); ++e) {
         Observation o = photos[e];
         lost.push_back(kLacking * factor[e] * faint[e].relative_luminance);

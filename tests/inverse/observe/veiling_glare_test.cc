@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-struct Photos {
+struct VeiledPhotos {
   std::vector<Observation> observations;
   PictureMeans means;
   std::vector<int> camera_of_view;
@@ -25,11 +25,11 @@ double Veil(double share, double light, double mean) { return light + share * me
 
 // Views of 300 elements in two states, with noise of 1 %, exposures up to 30 % off, and one element in twenty that a view sees as
 // something else. Pictures hold the elements and luminaires: their means differ by up to a factor of two.
-Photos Draw(const std::vector<int>& camera_of_view, const Lens& lens, std::uint64_t seed) {
+VeiledPhotos Draw(const std::vector<int>& camera_of_view, const Lens& lens, std::uint64_t seed) {
   std::mt19937_64 rng(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
-  Photos photos;
+  VeiledPhotos photos;
   photos.camera_of_view = camera_of_view;
   for (int state = 0; state < 2; ++state) {
     std::vector<double> light(300);
@@ -53,7 +53,7 @@ Photos Draw(const std::vector<int>& camera_of_view, const Lens& lens, std::uint6
   return photos;
 }
 
-std::vector<std::optional<VeilingGlare>> Find(const Photos& photos, int cameras = 1) {
+std::vector<std::optional<VeilingGlare>> FindVeil(const VeiledPhotos& photos, int cameras = 1) {
   return FindVeilingGlare(photos.observations, photos.means, photos.camera_of_view, cameras);
 }
 
@@ -63,7 +63,7 @@ double Plain(double light, double, double, int) { return light; }
 TEST(VeilingGlareTest, ShareIsFound) {
   for (const double g : {0.005, 0.02, 0.06}) {
     const auto lens = [g](double light, double mean, double, int) { return Veil(g, light, mean); };
-    const auto found = Find(Draw({0, 0, 0, 0, 0, 0}, lens, 3))[0];
+    const auto found = FindVeil(Draw({0, 0, 0, 0, 0, 0}, lens, 3))[0];
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->IsFound()) << g;
     EXPECT_NEAR(found->share, g / (1 + g), 4 * found->sigma + 0.01 * g);
@@ -77,7 +77,7 @@ TEST(VeilingGlareTest, ShareIsFound) {
 TEST(VeilingGlareTest, ClearLensesAreLeftAlone) {
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const auto found = Find(Draw({0, 0, 0, 0, 0}, Plain, seed))[0];
+    const auto found = FindVeil(Draw({0, 0, 0, 0, 0}, Plain, seed))[0];
     ASSERT_TRUE(found);
     EXPECT_FALSE(found->IsFound()) << seed;
     squares += std::pow(found->share / found->sigma, 2) / 60;
@@ -89,7 +89,7 @@ TEST(VeilingGlareTest, DarkCornersAndACurveAreNoVeil) {
   const auto dark = [](double light, double, double side, int) { return light * (1 - 0.3 * side * side); };
   const auto curve = [](double light, double, double, int) { return std::pow(light, 0.7); };
   for (const Lens& lens : {Lens(dark), Lens(curve)}) {
-    const auto found = Find(Draw({0, 0, 0, 0, 0, 0}, lens, 4))[0];
+    const auto found = FindVeil(Draw({0, 0, 0, 0, 0, 0}, lens, 4))[0];
     ASSERT_TRUE(found);
     EXPECT_FALSE(found->IsFound());
   }
@@ -99,14 +99,14 @@ TEST(VeilingGlareTest, OneCameraOfTwo) {
   const auto lens = [](double light, double mean, double, int camera) {
     return Veil(camera == 1 ? 0.03 : 0, light, mean);
   };
-  const auto found = Find(Draw({0, 1, 0, 1, 0, 1, 0, 1}, lens, 5), 2);
+  const auto found = FindVeil(Draw({0, 1, 0, 1, 0, 1, 0, 1}, lens, 5), 2);
   ASSERT_TRUE(found[0] && found[1]);
   EXPECT_FALSE(found[0]->IsFound());
   EXPECT_TRUE(found[1]->IsFound());
 }
 
 TEST(VeilingGlareTest, TwoViewsAreNotJudged) {
-  EXPECT_FALSE(Find(Draw(
+  EXPECT_FALSE(FindVeil(Draw(
       {0, 0}, [](double l, double m, double, int) { return Veil(0.05, l, m); }, 6))[0]);
 }
 
