@@ -13,7 +13,6 @@
 #include "inverse/choose/internal/choose_bodies.h"
 #include "inverse/choose/internal/choose_colour.h"
 #include "inverse/choose/internal/choose_model.h"
-#include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
 #include "inverse/choose/internal/enough_rows.h"
 #include "inverse/choose/internal/luminaire_types.h"
@@ -68,15 +67,17 @@ class RoomFitter {
       result_.direct_share = ProfileDirectShare(room_, result_.data, fit, open_, Priors());
       RecordDirectShare(*result_.direct_share, result_.findings);
     }
-    result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
-    if (is_whole) CompareDetails(fit);
+    if (is_whole) {
+      CompareDetails(fit);
+    } else {
+      result_.albedo_rgb = EstimateAlbedoRgb(room_, result_.data, fit);
+    }
     RecordTexture(room_, fit, result_.findings);
     result_.types = CompareTypeFluxes(fit);
     WarnOfDeviatingFluxes(fit.state, result_.types, result_.findings);
     WarnOfOddLuminaires(fit.state, FindOddLuminaires(fit, result_.data), result_.findings);
     WarnOfOversizedLuminaires(fit.state, FindOversizedLuminaires(fit, shown_), result_.findings);
     result_.fit = WithPredictedReadings(room_, result_.data, std::move(fit));
-    AddLightColours(room_, given_, light_.balance, result_);
     WarnOfAssumedWeights(given_, result_, result_.findings);
     WarnOfMisfit(room_, result_, result_.findings);
     WarnOfIndirectAlbedo(room_, result_, result_.findings);
@@ -280,18 +281,7 @@ class RoomFitter {
   void CompareDetails(const LuminaireFit& fit) {
     const auto step = Begin("detail", "");
     RecordDetail(CompareDetail(room_, result_.data, fit, Priors()), taken_, result_.findings);
-    const ColourDetail colours = CompareColours(room_, result_.data, fit);
-    RecordColours(given_, room_, colours, result_.findings);
-    if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) {
-      result_.tint_rgb = colours.tint;
-      result_.tint_rgb_sigma = colours.tint_sigma;
-      result_.tinted_material_rgb = colours.material_rgb;
-    }
-    for (size_t m = 0; m < colours.materials.size(); ++m) {
-      const Eigen::Index material = static_cast<Eigen::Index>(m);
-      if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)
-        result_.albedo_rgb.col(material).setConstant(fit.state.albedo[material]);
-    }
+    RecordColours(given_, room_, AddColours(room_, given_, light_.balance, fit, result_), result_.findings);
   }
 
   // Turns a luminaire into a point where its size has shrunk to nothing.

@@ -109,8 +109,6 @@ struct RoomFit {
   // one colour.
   Eigen::Matrix3Xd tint_rgb;
   Eigen::Matrix3Xd tint_rgb_sigma;  // relative
-  Eigen::Matrix3Xd
-      tinted_material_rgb;  // by material: rho_c / rho as fitted beside the tints; empty with them
   // By luminaire: red, green and blue of its light in the camera's own channels, in a common unit, and their relative sigmas
   // (inverse/fit/internal/light_colours.h). Empty where no neutral surface tells it.
   Eigen::Matrix3Xd light_rgb, light_rgb_sigma;

@@ -232,12 +232,33 @@ void CompareLuminaires(std::vector<Row> rows, ColourDetail& detail) {
   }
   for (const auto& [luminaire, count] : seen)
     detail.tint.col(luminaire) = detail.tint.col(luminaire).cwiseQuotient(mean);
-  for (const auto& [key, factor] : refitted) detail.material_rgb(key % 3, key / 3) = factor * mean[key % 3];
+}
+
+void FindNeutralLight(const std::vector<Row>& rows, const std::vector<int>& neutral, ColourDetail& detail) {
+  const bool differ = !detail.luminaires.among.empty() && detail.luminaires.chosen != 0;
+  Ratios ratios;
+  std::set<int> patches;
+  for (const Row& row : rows) {
+    const bool is_neutral = std::find(neutral.begin(), neutral.end(), row.material) != neutral.end();
+    if (!is_neutral || row.direct <= row.indirect || (differ && row.luminaire < 0)) continue;
+    const double tint = differ ? detail.tint(row.channel, row.luminaire) : 1;
+    const double rho = row.grey / (row.indirect + row.direct),
+                 light = (row.value / rho - row.indirect) / (tint * row.direct);
+    if (!(light > 0)) continue;
+    ratios[row.channel].push_back(light);
+    patches.insert(row.patch);
+  }
+  for (const auto& [channel, of_channel] : ratios) {
+    if (of_channel.size() < kMinRows) continue;
+    detail.neutral_light[channel] = Median(of_channel);
+    detail.neutral_light_sigma[channel] = SigmaOfMedian(of_channel, patches.size());
+  }
 }
 
 }  // namespace
 
-ColourDetail CompareColours(const Room& room, const LightData& data, const LuminaireFit& fit) {
+ColourDetail CompareColours(const Room& room, const LightData& data, const LuminaireFit& fit,
+                            const std::vector<int>& neutral) {
   ColourDetail detail;
   const size_t materials = room.scene.materials.size();
   detail.materials.resize(materials);
@@ -254,6 +275,7 @@ ColourDetail CompareColours(const Room& room, const LightData& data, const Lumin
     if (fit.state.albedo_free[m]) detail.materials[m] = CompareMaterial(of_material[m]);
   }
   CompareLuminaires(rows, detail);
+  FindNeutralLight(rows, neutral, detail);
   return detail;
 }
 

@@ -8,6 +8,8 @@
 // rho_c free, one for each material and channel. t: tint of luminaire k, 1 or free; it is free where at
 // least two luminaires are seen one by one.
 //
+// Neutral surfaces tell the light: l_c = median of (Y_c / rho - I_c) / (t_ck (Y / rho - I)), where direct light exceeds indirect light.
+//
 // The models are fitted to four fifths of the patches and scored on the fifth left out: the mean of min(z^2,
 // 9) over the channels. A material is coloured, and luminaires differ, where the simpler model is not within
 // one standard error. Luminaires of one colour are assumed neutral in the camera's RGB, as in
@@ -31,12 +33,14 @@ struct ColourDetail {
   DetailChoice luminaires;      // one colour or each its own; empty where fewer than two are seen one by one
   Eigen::Matrix3Xd tint;        // by luminaire, relative to their mean; NaN where not seen alone
   Eigen::Matrix3Xd tint_sigma;  // relative
-  // By material: rho_c / rho in the mean light of the luminaires, as fitted beside the tints; NaN where not seen under one alone.
-  Eigen::Matrix3Xd material_rgb;
+  // Red, green and blue of the luminaires' mean light over its luminance, and their relative sigmas; NaN where no neutral surface is lit
+  // more by luminaires than by other surfaces.
+  Eigen::Vector3d neutral_light, neutral_light_sigma;
 };
 
-// `fit`: the fit to `data`.
-ColourDetail CompareColours(const Room& room, const LightData& data, const LuminaireFit& fit);
+// `fit`: the fit to `data`. `neutral`: materials that reflect red, green and blue alike.
+ColourDetail CompareColours(const Room& room, const LightData& data, const LuminaireFit& fit,
+                            const std::vector<int>& neutral = {});
 
 }  // namespace luxfit
 

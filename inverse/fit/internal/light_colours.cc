@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "inverse/albedo/internal/albedo_rgb.h"
+
 namespace luxfit {
 namespace {
 
@@ -36,20 +38,33 @@ bool IsSeen(const Room& room, const RoomObservations& given, int material) {
                      [&](const Observation& o) { return MaterialOf(room, o) == material; });
 }
 
-// Returns r: the mean over neutral materials whose colour was estimated; ones where that of none was.
-Eigen::Vector3d LeftOfNeutral(const RoomObservations& given, const RoomFit& fit) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int count = 0;
-  for (const int material : given.neutral) {
-    const Eigen::Vector3d ratio =
-        fit.tinted_material_rgb.cols() > material
-            ? Eigen::Vector3d(fit.tinted_material_rgb.col(material))
-            : Eigen::Vector3d(fit.albedo_rgb.col(material) / fit.fit.state.albedo[material]);
-    if (!ratio.allFinite() || !(ratio.minCoeff() > 0)) continue;
-    sum += ratio;
-    ++count;
+// Records whether neutral surfaces told the colour of light.
+void RecordLight(const RoomObservations& given, const ColourDetail& colours, Findings& findings) {
+  if (given.neutral.empty()) return;
+  const bool is_told = colours.neutral_light.allFinite();
+  findings.choices.push_back({"colour of light",
+                              is_told ? "by neutral surfaces" : "not determined",
+                              {"by neutral surfaces", "not determined"},
+                              is_told ? "luminaires light them more than other surfaces do"
+                                      : "no neutral surface that photos show gets more light from luminaires "
+                                        "than from other surfaces: name "
+                                        "one that they light in scene.neutral"});
+}
+
+// Returns the colours of light in the camera's own channels, and sets their sigmas.
+void AddLight(const Eigen::Vector3d& balance, const ColourDetail& colours, RoomFit& result) {
+  const Eigen::Index luminaires = static_cast<Eigen::Index>(colours.tint.cols());
+  const bool differ = result.tint_rgb.cols() == luminaires;
+  result.light_rgb = balance.cwiseProduct(colours.neutral_light).replicate(1, luminaires);
+  result.light_rgb_sigma.resize(3, luminaires);
+  for (Eigen::Index k = 0; k < luminaires; ++k) {
+    if (differ) result.light_rgb.col(k) = result.light_rgb.col(k).cwiseProduct(result.tint_rgb.col(k)).eval();
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const double of_tint = differ ? result.tint_rgb_sigma(c, k) : 0;
+      result.light_rgb_sigma(c, k) =
+          std::hypot(kNeutralSigma, std::hypot(of_tint, colours.neutral_light_sigma[c]));
+    }
   }
-  return count > 0 ? Eigen::Vector3d(sum / count) : Eigen::Vector3d::Ones();
 }
 
 }  // namespace
@@ -100,24 +115,32 @@ void WarnOfAssumedWeights(const RoomObservations& given, const RoomFit& fit, Fin
        "matrix"});
 }
 
-void AddLightColours(const Room& room, const RoomObservations& given, const Eigen::Vector3d& balance,
-                     RoomFit& fit) {
-  const bool has_neutral = std::any_of(given.neutral.begin(), given.neutral.end(),
-                                       [&](int material) { return IsSeen(room, given, material); });
-  if (!has_neutral) return;
-  const Eigen::Vector3d left = LeftOfNeutral(given, fit);
-  for (auto material : fit.albedo_rgb.colwise()) material = material.cwiseQuotient(left).eval();
-  const Eigen::Index luminaires = static_cast<Eigen::Index>(fit.fit.state.luminaires.size());
-  const bool differ = fit.tint_rgb.cols() == luminaires;
-  fit.light_rgb.resize(3, luminaires);
-  fit.light_rgb_sigma.setConstant(3, luminaires, kNeutralSigma);
-  for (Eigen::Index k = 0; k < luminaires; ++k) {
-    fit.light_rgb.col(k) = balance.cwiseProduct(left);
-    if (!differ) continue;
-    fit.light_rgb.col(k) = fit.light_rgb.col(k).cwiseProduct(fit.tint_rgb.col(k)).eval();
-    fit.light_rgb_sigma.col(k) =
-        fit.tint_rgb_sigma.col(k).unaryExpr([](double own) { return std::hypot(own, kNeutralSigma); });
+ColourDetail AddColours(const Room& room, const RoomObservations& given, const Eigen::Vector3d& balance,
+                        const LuminaireFit& fit, RoomFit& result) {
+  LightData data = result.data;
+  ColourDetail colours = CompareColours(room, data, fit, given.neutral);
+  const bool is_told = colours.neutral_light.allFinite();
+  if (is_told) {
+    // What is grey shows where light is white.
+    data = WithBalance(std::move(data), colours.neutral_light);
+    const Eigen::Vector3d light = colours.neutral_light, sigma = colours.neutral_light_sigma;
+    colours = CompareColours(room, data, fit);
+    colours.neutral_light = light;
+    colours.neutral_light_sigma = sigma;
   }
+  result.albedo_rgb = EstimateAlbedoRgb(room, data, fit);
+  for (size_t m = 0; m < colours.materials.size(); ++m) {
+    const Eigen::Index material = static_cast<Eigen::Index>(m);
+    if (!colours.materials[m].among.empty() && colours.materials[m].chosen == 0)
+      result.albedo_rgb.col(material).setConstant(fit.state.albedo[material]);
+  }
+  if (!colours.luminaires.among.empty() && colours.luminaires.chosen != 0) {
+    result.tint_rgb = colours.tint;
+    result.tint_rgb_sigma = colours.tint_sigma;
+  }
+  if (is_told) AddLight(balance, colours, result);
+  RecordLight(given, colours, result.findings);
+  return colours;
 }
 
 }  // namespace luxfit

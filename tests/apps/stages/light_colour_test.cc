@@ -94,7 +94,7 @@ std::vector<std::string> CodesOf(const json& result) {
 }
 
 // The sensor's counts as they are, which the matrix turns into luminance.
-TEST(LightColour, TheSensorsMatrixAndANeutralCeilingTellFluxesAndColourTemperatures) {
+TEST(LightColour, TheSensorsMatrixAndANeutralCabinetTellFluxesAndColourTemperatures) {
   const support::OfficeCopy office;
   MakeColoured(office, Eigen::Vector3d::Ones());
   const Eigen::Matrix3d matrix = support::MatrixOfSensor();
@@ -103,7 +103,7 @@ TEST(LightColour, TheSensorsMatrixAndANeutralCeilingTellFluxesAndColourTemperatu
     rows.push_back(fmt::format("[{}, {}, {}]", row[0], row[1], row[2]));
   office.Replace("office/session.toml", "vignetting = \"none\"",
                  fmt::format("vignetting = \"none\"\nxyz_from_rgb = [{}]", fmt::join(rows, ", ")));
-  office.Replace("office/session.toml", "unit = \"m\"", "unit = \"m\"\nneutral = [\"ceiling\"]");
+  office.Replace("office/session.toml", "unit = \"m\"", "unit = \"m\"\nneutral = [\"cabinet\"]");
   const json result = office.ResultOf("run", 0, "--budget 900");
   EXPECT_LT(SpreadOfFluxes(result), 2);
   EXPECT_THAT(CodesOf(result), testing::Not(testing::Contains("luminance_weights_assumed")));
