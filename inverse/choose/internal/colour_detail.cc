@@ -265,8 +265,8 @@ ColourDetail CompareColours(const Room& room, const LightData& data, const Lumin
   detail.tint.setConstant(3, static_cast<Eigen::Index>(fit.state.luminaires.size()),
                           std::numeric_limits<double>::quiet_NaN());
   detail.tint_sigma = detail.tint;
-  detail.material_rgb.setConstant(3, static_cast<Eigen::Index>(materials),
-                                  std::numeric_limits<double>::quiet_NaN());
+  detail.neutral_light.setConstant(std::numeric_limits<double>::quiet_NaN());
+  detail.neutral_light_sigma = detail.neutral_light;
   if (!fit.IsUsable() || data.observations.empty()) return detail;
   const std::vector<Row> rows = RowsOf(room, data, fit);
   std::vector<std::vector<Row>> of_material(materials);
