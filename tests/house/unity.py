@@ -39,12 +39,27 @@ def headers(source, path):
     return direct.union(*(headers(source, h) for h in direct))
 
 
-def parameter_types(parameters):
-    """Returns the types of a parameter list without names and defaults."""
-    plain = parameters
-    while re.search(r"<[^<>]*,[^<>]*>", plain):
-        plain = re.sub(r"<([^<>]*),([^<>]*)>", r"<\1;\2>", plain)
-    return tuple(re.sub(rf"(?<=[\s&*])({NAME})?\s*(=.*)?$", "", p.strip()).replace(" ", "") for p in plain.split(","))
+def parameters(statement):
+    """Returns what stands between a statement's first parenthesis and the one that closes it."""
+    begin, depth = statement.index("(") + 1, 1
+    for end in range(begin, len(statement)):
+        depth += {"(": 1, ")": -1}.get(statement[end], 0)
+        if depth == 0:
+            return statement[begin:end]
+    return statement[begin:]
+
+
+def parameter_types(plain):
+    """Yields the types of a parameter list without names, and again without each of the last that have defaults."""
+    while re.search(r"[<({][^<>(){}]*,[^<>(){}]*[>)}]", plain):
+        plain = re.sub(r"([<({][^<>(){}]*),([^<>(){}]*[>)}])", r"\1;\2", plain)
+    types = [re.sub(rf"(?<=[\s&*])({NAME})?\s*(=.*)?$", "", p.strip()).replace(" ", "") for p in plain.split(",")]
+    yield types
+    for p in reversed(plain.split(",")):
+        if "=" not in p:
+            return
+        types = types[:-1]
+        yield types or [""]
 
 
 def names(statement):
@@ -57,15 +72,21 @@ def names(statement):
         return
     elif "=" in statement.split("(")[0] or re.match(rf"(constexpr|const|static|std::)[^()]*\b{NAME}(\{{|;)", statement):
         yield from re.findall(rf"\b({NAME})(?:\[\w*\])? ?(?==(?!=)|\{{)", re.sub(r"\([^()]*\)", "", statement))
-    else:
-        function = re.match(rf"[^(]*?\b({NAME})\((.*)\)[^)]*[{{;]", statement)
-        if function:
-            yield f"{function.group(1)}({','.join(parameter_types(function.group(2)))})"
+    elif re.match(r"(constexpr|const) [^()]*\bk[A-Z]\w*\(", statement):
+        yield from re.findall(r"\b(k[A-Z]\w*)\(", statement)
+    elif function := re.match(rf"[^(]*?\b({NAME})\(", statement):
+        for types in parameter_types(parameters(statement)):
+            yield f"{function.group(1)}({','.join(types)})"
 
 
 def defined(path, space):
     """Returns the names of a file's namespaces of one name."""
     return {n for s in statements(path, space) if not s.startswith("namespace ") for n in names(s)}
+
+
+def borrowed(path):
+    """Returns the names that a file takes from other namespaces, such as kPi of `using support::kPi`."""
+    return {n for s in statements(path, "") for n in re.findall(rf"^using [\w:]*::({NAME});", s)}
 
 
 def main():
@@ -87,6 +108,9 @@ def main():
                     files[name].add(header)
                 elif "json&" in name and hidden in own:
                     files[hidden] = files.get(hidden, set()) | own[hidden] | {header}
+        for path in batch:
+            for name in borrowed(path) & files.keys():
+                files[name].add(path)
         for name, paths in files.items():
             paths = paths | files.get(name.split("(")[0], set())  # a type hides, or is hidden by, a function of its name
             if len(paths) > 1:

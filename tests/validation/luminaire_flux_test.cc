@@ -14,12 +14,13 @@
 #include "forward/luminaire/internal/ies_file.h"
 #include "forward/luminaire/photometry.h"
 #include "forward/luminaire/photometry_file.h"
+#include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 // Intensities of a lobe that leans to one side, on planes all round, from nadir to zenith.
 std::shared_ptr<const IntensityTable> LeaningLobe() {

@@ -18,7 +18,7 @@ namespace {
 using support::kPi;
 
 // Twice as bright along C0 as along C180, and some light above the horizontal.
-std::shared_ptr<const IntensityTable> LopsidedTable() {
+std::shared_ptr<const IntensityTable> LopsidedGrid() {
   std::vector<double> c_rad, gamma_rad, intensity;
   for (int i = 0; i < 24; ++i) c_rad.push_back(2 * kPi * i / 24);
   for (int j = 0; j <= 24; ++j) gamma_rad.push_back(kPi * j / 24);
@@ -35,7 +35,7 @@ Luminaire LuminaireOf(const DistributionOps& ops) {
   Luminaire luminaire;
   luminaire.distribution = ops.distribution;
   luminaire.cosine_exponent = 2.5;
-  luminaire.table = LopsidedTable();
+  luminaire.table = LopsidedGrid();
   luminaire.aim = Eigen::Vector3d(0.3, -0.2, -1).normalized();
   luminaire.heading = Eigen::Vector3d(1, 1, 0).normalized();
   return luminaire;

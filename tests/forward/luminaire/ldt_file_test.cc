@@ -25,7 +25,7 @@ double CdInPlane(const PhotometryFile& photometry, double c_deg, double gamma_de
   return photometry.luminaire_flux_lm * IntensityTowards(photometry.table, d).cd_per_lm;
 }
 
-PhotometryFile Parse(const std::string& text) { return ParsePhotometry(text, "a.ldt"); }
+PhotometryFile ParseEulumdat(const std::string& text) { return ParsePhotometry(text, "a.ldt"); }
 
 // All planes alike in gamma; their intensity at gamma = 90 is their place in the file.
 std::string WithPlanes(int isym, int stored) {
@@ -51,34 +51,34 @@ TEST(LdtFile, IsReadAsItStands) {
 }
 
 TEST(LdtFile, IsPer1000LumensOfTheLamps) {
-  const PhotometryFile photometry = Parse(kLdt);
+  const PhotometryFile photometry = ParseEulumdat(kLdt);
   EXPECT_NEAR(CdInPlane(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);  // conversion factor, 2000 lm
   EXPECT_EQ(photometry.lamp_flux_lm, 2000);
   EXPECT_EQ(photometry.stated_flux_lm, 1600);
 }
 
 TEST(LdtFile, ANegativeNumberOfLampsIsAbsolute) {
-  const PhotometryFile photometry = Parse(Replaced(kLdt, "\n2\nlamp", "\n-1\nlamp"));
+  const PhotometryFile photometry = ParseEulumdat(Replaced(kLdt, "\n2\nlamp", "\n-1\nlamp"));
   EXPECT_EQ(photometry.lamp_flux_lm, 0);
   EXPECT_NEAR(CdInPlane(photometry, 45, 45), 220 * 1.5 * 2, 1e-9);
 }
 
 TEST(LdtFile, TheFirstLampSetCounts) {
   const PhotometryFile photometry =
-      Parse(Replaced(kLdt, "\n1\n2\nlamp", "\n2\n2\nlamp\n4000\nwarm\n90\n72\n2\nlamp"));
+      ParseEulumdat(Replaced(kLdt, "\n1\n2\nlamp", "\n2\n2\nlamp\n4000\nwarm\n90\n72\n2\nlamp"));
   EXPECT_NEAR(CdInPlane(photometry, 0, 0), 300 * 1.5 * 4, 1e-9);
   EXPECT_THAT(photometry.notes, testing::ElementsAre(HasSubstr("first of 2 lamp sets")));
 }
 
 TEST(LdtFile, LengthRunsAlongC90) {
-  const PhotometryFile photometry = Parse(kLdt);
+  const PhotometryFile photometry = ParseEulumdat(kLdt);
   EXPECT_EQ(photometry.shape, LuminaireShape::kRectangle);
   EXPECT_NEAR(photometry.size_m[0], 0.18, 1e-12);
   EXPECT_NEAR(photometry.size_m[1], 1.1, 1e-12);
-  const PhotometryFile disc = Parse(Replaced(kLdt, "\n1100\n180\n", "\n300\n0\n"));
+  const PhotometryFile disc = ParseEulumdat(Replaced(kLdt, "\n1100\n180\n", "\n300\n0\n"));
   EXPECT_EQ(disc.shape, LuminaireShape::kDisc);
   EXPECT_NEAR(disc.size_m[0], 0.3, 1e-12);
-  EXPECT_EQ(Parse(Replaced(kLdt, "\n1100\n180\n", "\n0\n0\n")).shape, LuminaireShape::kPoint);
+  EXPECT_EQ(ParseEulumdat(Replaced(kLdt, "\n1100\n180\n", "\n0\n0\n")).shape, LuminaireShape::kPoint);
 }
 
 TEST(LdtFile, EverySymmetryFillsTheCircle) {
@@ -91,7 +91,7 @@ TEST(LdtFile, EverySymmetryFillsTheCircle) {
       {0, 1, 2, 1, 0, 1, 2, 1}};
   const int stored[] = {8, 1, 5, 5, 3};
   for (int isym = 0; isym <= 4; ++isym) {
-    const PhotometryFile photometry = Parse(WithPlanes(isym, stored[isym]));
+    const PhotometryFile photometry = ParseEulumdat(WithPlanes(isym, stored[isym]));
     for (int plane = 0; plane < 8; ++plane) {
       EXPECT_NEAR(CdInPlane(photometry, 45 * plane, 90),
                   3 * (100 + expected[static_cast<size_t>(isym)][static_cast<size_t>(plane)]), 1e-9)
@@ -160,7 +160,7 @@ TEST(LdtFile, ReadsBackEqual) {
 // From one format to the other and back the light is the same.
 TEST(LdtFile, TurnsIntoIesAndBack) {
   for (const std::string& text : {std::string(kLdt), WithPlanes(0, 8), WithPlanes(1, 1), WithPlanes(3, 5)}) {
-    const PhotometryFile photometry = Parse(text);
+    const PhotometryFile photometry = ParseEulumdat(text);
     const PhotometryFile ies = PhotometryOf(ParseIes(IesText(MakeIes(photometry)), "a.ies"));
     const PhotometryFile ldt = PhotometryOf(ParseLdt(LdtText(MakeLdt(ies)), "a.ldt"));
     EXPECT_NEAR(ldt.luminaire_flux_lm, photometry.luminaire_flux_lm, 1e-9 * photometry.luminaire_flux_lm);

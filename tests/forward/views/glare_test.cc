@@ -6,11 +6,12 @@
 #include <tuple>
 
 #include "forward/room/scene.h"
+#include "tests/support/closed_forms.h"
 
 namespace luxfit {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using support::kPi;
 
 const Observer kObserver{{0, 0, 1.2}, {1, 0, 0}};
 

@@ -15,7 +15,7 @@
 namespace luxfit {
 namespace {
 
-const Eigen::Vector3d kLamp(0.13, -0.21, 1.5);
+const Eigen::Vector3d kRoomLamp(0.13, -0.21, 1.5);
 
 // Readings of 1 % in no room, on two planes; the upper one `nearest_m` below the lamp.
 template <typename Lux>
@@ -24,7 +24,7 @@ LightData ReadingsOf(const Lux& lux, double nearest_m, double width_m, std::mt19
   data.dimming = {Eigen::VectorXd::Ones(1)};
   for (const double below : {nearest_m, nearest_m + 0.5}) {
     const std::vector<Reading> plane =
-        support::ReadAt(support::PlanePoints(10, width_m, kLamp.z() - below), lux, 0.01, rng);
+        support::ReadAt(support::PlanePoints(10, width_m, kRoomLamp.z() - below), lux, 0.01, rng);
     data.readings.insert(data.readings.end(), plane.begin(), plane.end());
   }
   return data;
@@ -39,7 +39,7 @@ LightData ReadingsOf(const Lux& lux, double nearest_m, double width_m) {
 // What the stages do: a converged fit with a cosine-power point, then the choice.
 std::string ChosenName(const LightData& data, ModelChoice* result = nullptr) {
   const Room room = MakeRoom(Scene{});
-  const LightState start = support::CosinePowerStart(kLamp + Eigen::Vector3d(0.1, 0.1, -0.1), 2);
+  const LightState start = support::CosinePowerStart(kRoomLamp + Eigen::Vector3d(0.1, 0.1, -0.1), 2);
   const LuminaireFit fit = FitLuminaires(room, data, start);
   const ModelChoice choice = ChooseLuminaireModels(room, data, fit.state, {OpenChoice{}});
   if (result != nullptr) *result = choice;
@@ -51,7 +51,7 @@ std::string ChosenName(const LightData& data, ModelChoice* result = nullptr) {
 // a normal variate exceeds 1, in one of six; three standard deviations of a hundred draws are 11.
 TEST(ChooseModel, ALambertianPointIsChosenForItself) {
   const auto lux = [](const Eigen::Vector3d& p) {
-    return support::PointLx(800, support::LambertianCdPerLm, kLamp, p);
+    return support::PointLx(800, support::LambertianCdPerLm, kRoomLamp, p);
   };
   std::mt19937_64 rng = support::TestRng();
   int chosen = 0;
@@ -70,7 +70,7 @@ TEST(ChooseModel, ALambertianPointIsChosenForItself) {
 // 4 / 200; a model error that a draw's scatter seems to show beside the stated 1 % takes up to 0.2.
 TEST(ChooseModel, TheTrueModelScoresAsItsNoise) {
   const auto lux = [](const Eigen::Vector3d& p) {
-    return support::PointLx(800, support::IsotropicCdPerLm, kLamp, p);
+    return support::PointLx(800, support::IsotropicCdPerLm, kRoomLamp, p);
   };
   std::mt19937_64 rng = support::TestRng();
   constexpr int kDraws = 10;
@@ -89,7 +89,7 @@ TEST(ChooseModel, TheTrueModelScoresAsItsNoise) {
 TEST(ChooseModel, AnIsotropicPointIsChosenForItself) {
   ModelChoice choice;
   const auto lux = [](const Eigen::Vector3d& p) {
-    return support::PointLx(800, support::IsotropicCdPerLm, kLamp, p);
+    return support::PointLx(800, support::IsotropicCdPerLm, kRoomLamp, p);
   };
   EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "isotropic point") << support::TableOf(choice);
 }
@@ -97,7 +97,7 @@ TEST(ChooseModel, AnIsotropicPointIsChosenForItself) {
 TEST(ChooseModel, ANarrowLobeIsACosinePower) {
   ModelChoice choice;
   const auto cos4 = [](double c) { return 5 * std::pow(c, 4) / (2 * support::kPi); };
-  const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, cos4, kLamp, p); };
+  const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, cos4, kRoomLamp, p); };
   EXPECT_EQ(ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice), "cosine_power point") << support::TableOf(choice);
   // Readings of 1 %, 200 of them: the exponent is known to a few percent.
   EXPECT_NEAR(choice.state.luminaires[0].cosine_exponent, 4, 0.3);
@@ -106,7 +106,7 @@ TEST(ChooseModel, ANarrowLobeIsACosinePower) {
 TEST(ChooseModel, ALongPanelReadFromNearByIsARectangle) {
   ModelChoice choice;
   const auto lux = [](const Eigen::Vector3d& p) {
-    return support::LambertianRectangleLx(800, kLamp, 1.2, 0.6, p);
+    return support::LambertianRectangleLx(800, kRoomLamp, 1.2, 0.6, p);
   };
   EXPECT_EQ(ChosenName(ReadingsOf(lux, 0.4, 2.5), &choice), "lambertian rectangle")
       << support::TableOf(choice);
@@ -116,11 +116,12 @@ TEST(ChooseModel, ALongPanelReadFromNearByIsARectangle) {
   EXPECT_NEAR(lamp.size_m[1], 0.6, 0.06);
 }
 
-// A Lambertian panel of 800 lm at kLamp, turned about the vertical: the light of the straight one where the
+// A Lambertian panel of 800 lm at kRoomLamp, turned about the vertical: the light of the straight one where the
 // receiver is turned back.
 double PanelLx(const Eigen::Vector2d& size_m, double heading_deg, const Eigen::Vector3d& p) {
   const Eigen::AngleAxisd back(-heading_deg * support::kPi / 180, Eigen::Vector3d::UnitZ());
-  return support::LambertianRectangleLx(800, kLamp, size_m.x(), size_m.y(), kLamp + back * (p - kLamp));
+  return support::LambertianRectangleLx(800, kRoomLamp, size_m.x(), size_m.y(),
+                                        kRoomLamp + back * (p - kRoomLamp));
 }
 
 bool IsRectangle(const std::string& name) { return name.find("rectangle") != std::string::npos; }
@@ -140,7 +141,7 @@ TEST(ChooseModel, AStripIsARectangleAndNoPoint) {
       EXPECT_NEAR(support::LongShortHeading(lamp)[0], 1.2, 0.05 * 1.2);
       EXPECT_LT(support::LongShortHeading(lamp)[1], 0.12);
       EXPECT_NEAR(support::LongShortHeading(lamp)[2], 0, 2);
-      EXPECT_LT((lamp.position - kLamp).norm(), 0.01);
+      EXPECT_LT((lamp.position - kRoomLamp).norm(), 0.01);
       EXPECT_NEAR(lamp.flux_lm, 800, 0.01 * 800);
     }
   }
@@ -163,7 +164,7 @@ TEST(ChooseModel, ATurnedPanelIsFoundToBeTurned) {
         EXPECT_NEAR(found[0], 0.9, 0.06 * 0.9);
         EXPECT_NEAR(found[1], 0.4, 0.06 * 0.4);
         EXPECT_NEAR(found[2], heading_deg, 2);
-        EXPECT_LT((lamp.position - kLamp).norm(), 0.01);
+        EXPECT_LT((lamp.position - kRoomLamp).norm(), 0.01);
         EXPECT_NEAR(lamp.flux_lm, 800, 0.01 * 800);
       }
     }
@@ -197,7 +198,7 @@ TEST(ChooseModel, AHeadingThatIsGivenIsNotTried) {
   const Room room = MakeRoom(Scene{});
   const auto lux = [](const Eigen::Vector3d& p) { return PanelLx({0.9, 0.4}, 30, p); };
   const LightData data = ReadingsOf(lux, 0.25, 2.5);
-  const LuminaireFit fit = FitLuminaires(room, data, support::CosinePowerStart(kLamp, 1));
+  const LuminaireFit fit = FitLuminaires(room, data, support::CosinePowerStart(kRoomLamp, 1));
   OpenChoice open;
   open.heading = false;
   const ModelChoice choice = ChooseLuminaireModels(room, data, fit.state, {open});
@@ -210,7 +211,7 @@ TEST(ChooseModel, AHeadingThatIsGivenIsNotTried) {
 TEST(ChooseModel, ATurnedSpotIsFoundToBeTurned) {
   const Eigen::Vector3d aim(std::sin(0.44), 0, -std::cos(0.44));
   const auto lux = [&](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d d = p - kLamp;
+    const Eigen::Vector3d d = p - kRoomLamp;
     const double to_axis = std::max(0.0, d.normalized().dot(aim)), to_normal = -d.normalized().z();
     return 800 * 5 / (2 * support::kPi) * std::pow(to_axis, 4) * to_normal / d.squaredNorm();
   };
@@ -222,13 +223,13 @@ TEST(ChooseModel, ATurnedSpotIsFoundToBeTurned) {
   EXPECT_GT(choice.aims[0].score_held, 2 * choice.aims[0].score_free);
   const double off_deg = std::acos(choice.state.luminaires[0].aim.dot(aim)) * 180 / support::kPi;
   EXPECT_LT(off_deg, 1.0);  // 200 readings of 1 %
-  EXPECT_LT((choice.state.luminaires[0].position - kLamp).norm(), 0.02);
+  EXPECT_LT((choice.state.luminaires[0].position - kRoomLamp).norm(), 0.02);
 }
 
 TEST(ChooseModel, LampsThatPointDownAreNotTurned) {
   for (const double exponent : {1.0, 2.0, 4.0}) {
     const auto lobe = [&](double c) { return (exponent + 1) * std::pow(c, exponent) / (2 * support::kPi); };
-    const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, lobe, kLamp, p); };
+    const auto lux = [&](const Eigen::Vector3d& p) { return support::PointLx(800, lobe, kRoomLamp, p); };
     ModelChoice choice;
     ChosenName(ReadingsOf(lux, 1.0, 2.5), &choice);
     ASSERT_EQ(choice.aims.size(), 1u) << exponent;
@@ -239,13 +240,13 @@ TEST(ChooseModel, LampsThatPointDownAreNotTurned) {
 
 TEST(ChooseModel, WhatTheCallerGaveIsKept) {
   const auto lux = [](const Eigen::Vector3d& p) {
-    return support::PointLx(800, support::LambertianCdPerLm, kLamp, p);
+    return support::PointLx(800, support::LambertianCdPerLm, kRoomLamp, p);
   };
   const LightData data = ReadingsOf(lux, 1.0, 2.5);
   const Room room = MakeRoom(Scene{});
   LightState start;
   start.luminaires.resize(1);
-  start.luminaires[0].position = kLamp;
+  start.luminaires[0].position = kRoomLamp;
   start.luminaires[0].flux_lm = 800;
   start.luminaires[0].distribution = Distribution::kCosinePower;
   start.free.resize(1);

@@ -16,10 +16,10 @@ namespace luxfit {
 namespace {
 
 constexpr double kFluxLm = 1000, kAlbedo = 0.6;
-const Eigen::Vector3d kSize(3, 3, 2.5), kLamp(1.5, 1.4, 2.4);
+const Eigen::Vector3d kSize(3, 3, 2.5), kKnownLamp(1.5, 1.4, 2.4);
 
 double DirectLx(const Eigen::Vector3d& p, const Eigen::Vector3d& normal) {
-  return support::PointLx(kFluxLm, support::LambertianCdPerLm, kLamp, p, normal);
+  return support::PointLx(kFluxLm, support::LambertianCdPerLm, kKnownLamp, p, normal);
 }
 
 // Interreflected light by paths: E = mean over paths of sum_k rho^k D(x_k).
@@ -47,7 +47,7 @@ class DirectShareTest : public testing::Test {
  protected:
   DirectShareTest() {
     data_.dimming = {Eigen::VectorXd::Ones(1)};
-    start_ = support::CosinePowerStart(kLamp, 1.5);
+    start_ = support::CosinePowerStart(kKnownLamp, 1.5);
     start_.free[0].position = false;
   }
 

@@ -26,8 +26,8 @@ double BatwingCdPerLm(double cosine) {
   return (0.2 * cosine + 4 * sine2 * cosine * cosine) / (2 * kPi * (0.1 + 8.0 / 15));
 }
 
-LightData ReadingsOf(const std::function<double(const Eigen::Vector3d&)>& lux, double nearest_m,
-                     double width_m) {
+LightData ReadingsNear(const std::function<double(const Eigen::Vector3d&)>& lux, double nearest_m,
+                       double width_m) {
   std::mt19937_64 rng = support::TestRng();
   LightData data;
   data.dimming = {Eigen::VectorXd::Ones(1)};
@@ -53,7 +53,7 @@ ModelChoice Choose(const LightData& data, const OpenRefinements& refinements, Lu
 }
 
 TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
-  const LightData data = ReadingsOf(
+  const LightData data = ReadingsNear(
       [](const Eigen::Vector3d& p) { return support::PointLx(900, BatwingCdPerLm, kRefinedLamp, p); }, 0.5,
       4);
   OpenRefinements open;
@@ -85,7 +85,7 @@ TEST(RefineLuminaire, ABatwingIsATableThatRecoversItsIntensities) {
 
 TEST(RefineLuminaire, ACosinePowerNeedsNoTable) {
   const auto cos3 = [](double c) { return 4 * std::pow(c, 3) / (2 * kPi); };
-  const LightData data = ReadingsOf(
+  const LightData data = ReadingsNear(
       [&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kRefinedLamp, p); }, 0.8, 3);
   OpenRefinements open;
   open.table = true;
@@ -96,7 +96,7 @@ TEST(RefineLuminaire, ACosinePowerNeedsNoTable) {
 
 TEST(RefineLuminaire, ATableThatIsAskedForIsMade) {
   const auto cos3 = [](double c) { return 4 * std::pow(c, 3) / (2 * kPi); };
-  const LightData data = ReadingsOf(
+  const LightData data = ReadingsNear(
       [&](const Eigen::Vector3d& p) { return support::PointLx(900, cos3, kRefinedLamp, p); }, 0.8, 3);
   OpenRefinements open;
   open.table = open.table_asked_for = true;
@@ -112,7 +112,7 @@ TEST(RefineLuminaire, APanelThatShinesUnevenlyIsFoundToDoSo) {
     return support::LambertianRectangleLx(600, kRefinedLamp - side, 0.4, 0.6, p) +
            support::LambertianRectangleLx(300, kRefinedLamp + side, 0.4, 0.6, p);
   };
-  const LightData data = ReadingsOf(lux, 0.25, 2);
+  const LightData data = ReadingsNear(lux, 0.25, 2);
   const Room room = MakeRoom(Scene{});
   LightState start = support::CosinePowerStart(kRefinedLamp, 1);
   start.luminaires[0].distribution = Distribution::kLambertian;
@@ -145,7 +145,7 @@ TEST(RefineLuminaire, TheHeadingOfAGivenPhotometryIsFound) {
     const double c = std::atan2(d.y(), d.x()) - kTurned;
     return 700 * intensity(c, cosine) * cosine / d.squaredNorm();
   };
-  const LightData data = ReadingsOf(lux, 0.8, 3);
+  const LightData data = ReadingsNear(lux, 0.8, 3);
   std::vector<double> c_rad, gamma_rad, table;
   for (int c = 0; c < 360; c += 10) c_rad.push_back(c * kPi / 180);
   for (int g = 0; g <= 90; g += 3) gamma_rad.push_back(g * kPi / 180);

@@ -24,7 +24,7 @@ namespace luxfit {
 namespace {
 
 constexpr double kNoise = 0.005;
-const Eigen::Vector3d kSize(4, 3, 2.5);
+const Eigen::Vector3d kBoxSize(4, 3, 2.5);
 
 // A room of 4 m x 3 m x 2.5 m with a different material on each side and two luminaires, as a converged fit
 // leaves it: what is observed is what is modelled, with noise.
@@ -36,8 +36,8 @@ class FittedRoom : public testing::Test {
     RoomOptions options;
     options.patches.patch_size_m = patch_size_m;
     options.patches.element_size_m = element_size_m;
-    room_ =
-        MakeRoom(support::ClosedRoom(kSize, {"west", "east", "south", "north", "floor", "ceiling"}), options);
+    room_ = MakeRoom(support::ClosedRoom(kBoxSize, {"west", "east", "south", "north", "floor", "ceiling"}),
+                     options);
     data_.dimming = {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)};
     for (int k = 0; k < 2; ++k) {
       Luminaire luminaire;
