@@ -294,5 +294,22 @@ TEST_F(FittedRoom, AWarmLuminaireKeepsItsLuminance) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(colours.tint(c, 1) / colours.tint(c, 0), warm[c], 0.015) << c;
 }
 
+// Red walls colour what a grey surface reflects. The floor has light of the luminaires in it, the ceiling has none.
+TEST_F(FittedRoom, ANeutralSurfaceTellsTheLightOfLuminairesThatLightIt) {
+  constexpr int kFloor = 4, kCeiling = 5;
+  Make(0.5, 0.25);
+  const Eigen::Vector3d warm(1.2, 1, 0.8);
+  Eigen::Matrix3Xd albedo = Eigen::Matrix3Xd::Constant(3, 6, 0.5);
+  for (int wall = 0; wall < 4; ++wall) albedo.col(wall) = Eigen::Vector3d(0.7, 0.5, 0.3);
+  Photograph(albedo, 1000 * warm.replicate<1, 2>());
+  const ColourDetail by_floor = CompareColours(room_, data_, fit_, {kFloor});
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(by_floor.neutral_light[c], warm[c], 0.005) << c;
+    EXPECT_LT(by_floor.neutral_light_sigma[c], 0.005) << c;
+  }
+  EXPECT_TRUE(CompareColours(room_, data_, fit_, {kCeiling}).neutral_light.array().isNaN().all());
+  EXPECT_TRUE(CompareColours(room_, data_, fit_).neutral_light.array().isNaN().all());
+}
+
 }  // namespace
 }  // namespace luxfit
