@@ -30,7 +30,10 @@ class SeenSearch {
       for (const SeenPlace& place : OfState(state)) Merge(place, places);
     }
     AddPlacesAtCommonHeights(sights_, places);
-    for (SeenPlace& place : places) place.dark_states = sights_.DarkStates(place);
+    for (SeenPlace& place : places) {
+      place.dark_states = sights_.DarkStates(place);
+      place.position = sights_.InFrontOfSurfaces(place);
+    }
     std::stable_sort(places.begin(), places.end(),
                      [](const SeenPlace& a, const SeenPlace& b) { return a.views > b.views; });
     return places;

@@ -176,9 +176,9 @@ class Count {
     }
     AddSurePlaces();
     constexpr size_t kMost = 12, kBeyondSure = 2;
-    first_ = std::max(known_, found_.sources.size());
-    most_ = options.max_count > 0 ? static_cast<size_t>(options.max_count)
-                                  : std::max(kMost, first_ + kBeyondSure);
+    most_ = options.max_count > 0
+                ? static_cast<size_t>(options.max_count)
+                : std::max(kMost, std::max(known_, found_.sources.size()) + doubtful_.size() + kBeyondSure);
   }
 
   bool CanJudge() const { return problem_.CanJudge(); }
@@ -189,15 +189,18 @@ class Count {
     const FirstGuessOptions guess;
     const GroupedLight light = GroupLight(room_, WithCount(seen_, 1), guess.max_elements);
     const SparseSearch search(room_, light, guess.grid_m, guess.refinements);
-    for (size_t count = first_; count <= most_; ++count) {
+    if (SurePlacesAreAll(search)) return;
+    AddDoubtfulPlaces(search);
+    for (size_t count = std::max(known_, found_.sources.size()); count <= most_; ++count) {
       if (data.checkpoint) data.checkpoint(data.is_part);
-      found_ = search.Find(0, static_cast<int>(count), found_.sources);
-      if (trials_.empty()) count = LeaveOutDark();
-      if (found_.sources.size() < std::max(count, known_) ||
-          !AllGiveLight(found_.sources, options_.least_share) || !Try(found_, trials_.size()))
+      if (found_.sources.size() < count) found_ = search.Find(0, static_cast<int>(count), found_.sources);
+      if (found_.sources.size() < count || !AllGiveLight(found_.sources, options_.least_share) ||
+          !Try(found_, trials_.size()))
         return;
-      if (AreShown()) return;
-      if (count > known_ && trials_.size() == 1) TryFewer(data);
+      if (count > known_ && trials_.size() == 1) {
+        TryFewer(data);
+        count = found_.sources.size();
+      }
       if (trials_.size() - 1 - Select().best >= kPatience) return;
     }
   }
@@ -234,10 +237,35 @@ class Count {
       const auto is_there = [&](const SparseSource& source) {
         return source.is_held && (source.luminaire.position - place.position).norm() < kSame_m;
       };
-      if (options_.max_count > 0 && found_.sources.size() >= static_cast<size_t>(options_.max_count)) return;
-      if (!IsSure(place) || std::any_of(found_.sources.begin(), found_.sources.end(), is_there)) continue;
-      found_.sources.push_back(SourceAt(place));
+      if (std::any_of(found_.sources.begin(), found_.sources.end(), is_there)) continue;
+      if (!IsSure(place)) {
+        doubtful_.push_back(place);
+      } else if (options_.max_count == 0 || found_.sources.size() < static_cast<size_t>(options_.max_count)) {
+        found_.sources.push_back(SourceAt(place));
+      }
     }
+  }
+
+  // Tries the sure places alone, where they are alike. Returns whether they are all luminaires there are.
+  bool SurePlacesAreAll(const SparseSearch& search) {
+    const std::vector<SparseSource> sure = found_.sources;
+    found_ = search.Find(0, static_cast<int>(sure.size()), sure);
+    LeaveOutDark();
+    const bool are_all = found_.sources.size() >= known_ &&
+                         !SourcesAtAlike(places_, found_.sources.size()).empty() && Try(found_, 0) &&
+                         AreShown();
+    if (are_all) return true;
+    trials_.clear();
+    found_.sources = sure;
+    return false;
+  }
+
+  // Adds doubtful places where they help to explain the light, and leaves out all that give none: beside a luminaire that is missing,
+  // the true ones may seem dark.
+  void AddDoubtfulPlaces(const SparseSearch& search) {
+    const size_t places = std::min(most_, found_.sources.size() + doubtful_.size());
+    found_ = search.Find(0, static_cast<int>(places), found_.sources, doubtful_, [] { return false; });
+    LeaveOutDark();
   }
 
   Selection Select() const {
@@ -261,8 +289,8 @@ class Count {
     return true;
   }
 
-  // Leaves out the places seen that give no light: mirror images, white things. Returns how many luminaires stay.
-  size_t LeaveOutDark() {
+  // Leaves out the places seen that give no light: mirror images, white things.
+  void LeaveOutDark() {
     ShareAmongAlike(places_, found_.sources);
     const double all = StrengthOf(found_.sources);
     found_.sources.erase(std::remove_if(found_.sources.begin(), found_.sources.end(),
@@ -271,29 +299,45 @@ class Count {
                                                  !GivesLight(source, all, options_.least_share);
                                         }),
                          found_.sources.end());
-    return std::max(known_, found_.sources.size());
   }
 
-  // Leaves out one seen luminaire after the other, the weakest first, as long as the others alone predict better by
-  // more than a standard error: that photos show a luminaire is evidence, too.
+  bool IsAtSurePlace(const SparseSource& source) const {
+    const SeenPlace* place = source.is_seen ? PlaceOf(source, places_) : nullptr;
+    return place && IsSure(*place);
+  }
+
+  // Leaves out one seen luminaire after the other, the weakest first. One at a sure place stays unless the others alone predict better
+  // by more than a standard error: that photos show it is evidence, too. One at a doubtful place stays only where it helps by more
+  // than that.
   void TryFewer(const LightData& data) {
-    SparseLuminaires fewer = found_;
-    const auto is_weaker = [](const SparseSource& a, const SparseSource& b) {
-      return std::pair(!a.is_seen, a.strength) < std::pair(!b.is_seen, b.strength);
-    };
-    while (fewer.sources.size() > known_) {
-      if (data.checkpoint) data.checkpoint(data.is_part);
-      const auto weakest = std::min_element(fewer.sources.begin(), fewer.sources.end(), is_weaker);
-      if (!weakest->is_seen) return;
-      fewer.sources.erase(weakest);
-      if (!Try(fewer, 0)) return;
-      const Selection selection = Select();
-      if (selection.best != 0 || selection.score[1] - selection.score[0] < selection.standard_error[1]) {
-        trials_.erase(trials_.begin());
-        return;
-      }
-      found_ = fewer;
+    std::sort(found_.sources.begin(), found_.sources.end(),
+              [](const SparseSource& a, const SparseSource& b) { return a.strength < b.strength; });
+    for (size_t i = 0; i < found_.sources.size() && found_.sources.size() > known_;) {
+      const SparseSource& source = found_.sources[i];
+      if (!source.is_seen || IsAtSurePlace(source) || !TryWithout(i, data)) ++i;
     }
+    while (found_.sources.size() > known_) {
+      const auto weakest = std::find_if(found_.sources.begin(), found_.sources.end(),
+                                        [&](const SparseSource& source) { return IsAtSurePlace(source); });
+      if (weakest == found_.sources.end() ||
+          !TryWithout(static_cast<size_t>(weakest - found_.sources.begin()), data))
+        return;
+    }
+  }
+
+  // Returns whether the luminaire is left out from now on.
+  bool TryWithout(size_t index, const LightData& data) {
+    if (data.checkpoint) data.checkpoint(data.is_part);
+    SparseLuminaires fewer = found_;
+    fewer.sources.erase(fewer.sources.begin() + static_cast<std::ptrdiff_t>(index));
+    if (!Try(fewer, 0)) return false;
+    const Selection selection = Select();
+    const bool is_better =
+        selection.best == 0 && selection.score[1] - selection.score[0] >= selection.standard_error[1];
+    const bool is_out = IsAtSurePlace(found_.sources[index]) ? is_better : selection.chosen == 0;
+    trials_.erase(is_out ? trials_.end() - 1 : trials_.begin());
+    if (is_out) found_ = std::move(fewer);
+    return is_out;
   }
 
   const Room& room_;
@@ -303,7 +347,8 @@ class Count {
   const SubProblem problem_;
   const LightData seen_;  // without the judging fold
   const size_t known_;
-  size_t first_ = 1, most_ = 1;
+  std::vector<SeenPlace> doubtful_;  // not sure
+  size_t most_ = 1;
   SparseLuminaires found_;
   std::vector<Trial> trials_;  // by number
 };

@@ -139,6 +139,21 @@ bool PlaceSights::IsFreeFrom(int view, const SeenPlace& place) const {
   return !room_.rays.Occluded(eye, place.position + skipped_m * to_eye.normalized());
 }
 
+Eigen::Vector3d PlaceSights::InFrontOfSurfaces(const SeenPlace& place) const {
+  constexpr double kInFrontM = 0.01;
+  Eigen::Vector3d position = place.position;
+  for (size_t v = 0; v < views_.size(); ++v) {
+    if (!IsFreeFrom(static_cast<int>(v), place)) continue;
+    const Eigen::Vector3d eye = views_[v].cam_from_world.inverse().translation(), to_place = position - eye;
+    const RayHit hit = room_.rays.Trace(eye, to_place.normalized());
+    if (hit.facet < 0 || !hit.front || hit.distance > to_place.norm()) continue;
+    const Facet& facet = room_.scene.facets[static_cast<size_t>(hit.facet)];
+    const Eigen::Vector3d normal = facet.Normal();
+    position += (normal.dot(facet.PointAt(hit.u, hit.v) - position) + kInFrontM) * normal;
+  }
+  return position;
+}
+
 bool PlaceSights::IsOnTag(const SeenPlace& place) const {
   constexpr double kPaperOverTag = 1.5;  // side of the sheet's white square over that of the tag
   return std::any_of(options_.tags.begin(), options_.tags.end(), [&](const SurveyedTag& tag) {

@@ -51,6 +51,10 @@ class PlaceSights {
   // Returns whether no surface stands between the place and the view.
   bool IsFreeFrom(int view, const SeenPlace& place) const;
 
+  // Returns where the place lies in front of the surfaces that bound its free sights: triangulation may put what hangs under a ceiling
+  // above it.
+  Eigen::Vector3d InFrontOfSurfaces(const SeenPlace& place) const;
+
   // Returns whether the place lies on a tag's paper, within three sigmas.
   bool IsOnTag(const SeenPlace& place) const;
 
