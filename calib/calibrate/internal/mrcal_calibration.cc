@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "calib/lens/internal/rotation_vector.h"
 #include "calib/lens/lens_family.h"
@@ -191,6 +192,18 @@ CalibrationState StateOf(const MrcalArguments& arguments, CalibrationState state
   return state;
 }
 
+// Scales a packed state to full units by libmrcal's function, which takes the number of boards, too, from 2.4 on.
+template <typename Function>
+void Unpack(Function* unpack, const MrcalArguments& a, std::vector<double>& state) {
+  if constexpr (std::is_invocable_v<Function*, double*, int, int, int, int, int, mrcal_problem_selections_t,
+                                    const mrcal_lensmodel_t*>) {
+    unpack(state.data(), a.cameras, a.extrinsics, a.frames, a.points, a.points, a.selections, &a.model);
+  } else {
+    unpack(state.data(), a.cameras, a.extrinsics, a.frames, a.points, a.points, a.board_count(), a.selections,
+           &a.model);
+  }
+}
+
 // libmrcal gives the transpose of the Jacobian as compressed columns. The range of each point fills a third
 // row, which holds no information.
 Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
@@ -226,9 +239,7 @@ Eigen::SparseMatrix<double> JacobianOf(const MrcalArguments& arguments) {
           &arguments.constants, arguments.spacing_m, arguments.columns, arguments.rows, false))
     throw std::runtime_error("calibration: libmrcal refused its optimiser's callback");
   std::vector<double> scale(static_cast<std::size_t>(states), 1.0);
-  mrcal_unpack_solver_state_vector(scale.data(), arguments.cameras, arguments.extrinsics, arguments.frames,
-                                   arguments.points, arguments.points, arguments.selections,
-                                   &arguments.model);
+  Unpack(&mrcal_unpack_solver_state_vector, arguments, scale);
   const Eigen::Map<const Eigen::VectorXd> unit(scale.data(), states);
   const Eigen::Map<const Eigen::SparseMatrix<double>> jt(states, measurements, non_zeros, starts.data(),
                                                          indices.data(), values.data());

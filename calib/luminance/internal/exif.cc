@@ -66,7 +66,7 @@ std::vector<std::uint8_t> ReadIccProfile(const std::string& path) {
     if (!image->iccProfileDefined()) return {};
 #if EXIV2_TEST_VERSION(0, 28, 0)
     const Exiv2::DataBuf& profile = image->iccProfile();
-    return {profile.begin(), profile.end()};
+    return {profile.cbegin(), profile.cend()};
 #else
     const Exiv2::DataBuf& profile = *image->iccProfile();
     return {profile.pData_, profile.pData_ + profile.size_};
