@@ -265,6 +265,7 @@ class Count {
   void AddDoubtfulPlaces(const SparseSearch& search) {
     const size_t places = std::min(most_, found_.sources.size() + doubtful_.size());
     found_ = search.Find(0, static_cast<int>(places), found_.sources, doubtful_, [] { return false; });
+    for (SparseSource& source : found_.sources) source.is_seen = !source.is_held;
     LeaveOutDark();
   }
 

@@ -292,13 +292,14 @@ class AllOnRun : public testing::Test {
     folder_.Write(name, kept);
   }
 
-  // [states] away, something else in its place.
-  void ReplaceStates(const std::string& text) {
-    std::ifstream file(office_ / "session.toml");
+  // What stands in the session from one text on, up to another, is replaced.
+  void Replace(const std::string& begin, const std::string& end, const std::string& text) {
+    std::ifstream file(folder_.Path("session.toml"));
     std::string session((std::istreambuf_iterator<char>(file)), {});
-    const size_t from = session.find("[states]"), to = session.find("[luxmeter]");
+    const size_t from = session.find(begin), to = session.find(end);
     folder_.Write("session.toml", session.substr(0, from) + text + session.substr(to));
   }
+  void ReplaceStates(const std::string& text) { Replace("[states]", "[luxmeter]", text); }
 
   const std::filesystem::path office_ = std::string(LUXFIT_FIXTURES) + "/office";
   TempFolder folder_;
@@ -319,6 +320,20 @@ TEST_F(AllOnRun, CountsTheLuminairesAndFindsThem) {
   EXPECT_LT(comparison.worst_position_mm, 13);
   EXPECT_LT(comparison.worst_flux_percent, 1.6);
   EXPECT_LT(comparison.worst_albedo, 0.0081);
+}
+
+// Nothing is known of the room but three lengths. Photos show the panels a few millimetres above the ceiling.
+TEST_F(AllOnRun, CountsThemInARoomWithoutAMesh) {
+  ReplaceStates("[luminaires]\ncount = \"estimate\"\n\n");
+  Replace("mesh =", "unit =", "size = [6, 4, 2.8]\n");
+  const json result = Run();
+  ASSERT_EQ(status_, 0);
+  const TruthComparison comparison = CompareWithTruth(result, Read(office_ / "truth.json"));
+  EXPECT_EQ(result["luminaires"].size(), 4u);
+  EXPECT_EQ(comparison.luminaires_missing, 0);
+  std::printf("all on, three lengths: worst position %.2f mm, flux %.2f %%\n", comparison.worst_position_mm,
+              comparison.worst_flux_percent);
+  EXPECT_LT(comparison.worst_position_mm, 25);  // the goal of a room without a mesh
 }
 
 // Named, they are the same four, in some order.

@@ -110,6 +110,19 @@ TEST_F(CountedRoom, LuminairesThatPhotosShowAreCountedAndOtherBrightThingsAreNot
   EXPECT_EQ(Count(lamps, places), 6);
 }
 
+// The first two alone explain the light badly: beside a luminaire that lacks, one of them may seem dark.
+TEST_F(CountedRoom, ADoubtfulPlaceCountsWhereItHelps) {
+  const std::vector<Luminaire> lamps = {Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500),
+                                        Downlight({2.9, 0.6, 2.4}, 1000)};
+  std::vector<SeenPlace> places;
+  for (const Luminaire& lamp : lamps) places.push_back(Seen(lamp.position));
+  places[0].views = 2;
+  EXPECT_EQ(Count(lamps, places), 3);
+  places.push_back(Seen({2.0, 1.5, 2.2}));
+  places[3].views = 2;
+  EXPECT_EQ(Count(lamps, places), 3);
+}
+
 // One that photos do not show is found by its light.
 TEST_F(CountedRoom, WhatPhotosDoNotShowIsAdded) {
   const Luminaire a = Downlight({1.1, 1.2, 2.4}, 2000), b = Downlight({3.1, 2.1, 2.35}, 1500);

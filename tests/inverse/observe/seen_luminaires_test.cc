@@ -135,6 +135,16 @@ TEST_F(SeenLuminaires, SigmaIsTheScatterOfManyDraws) {
   }
 }
 
+// Every view saw it from the room, whatever triangulation says.
+TEST_F(SeenLuminaires, APlaceAboveTheCeilingLiesJustBelowIt) {
+  std::mt19937_64 rng = support::TestRng();
+  const Eigen::Vector3d above(2.7, 2.3, 2.815);
+  const auto places = Find(NoisyBlobs(above, 5, 0.2, rng));
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_NEAR(places[0].position.z(), 2.79, 1e-6);
+  EXPECT_LT((places[0].position - above).head<2>().norm(), 0.01);
+}
+
 TEST_F(SeenLuminaires, SeveralLampsAreTheirOwnPlaces) {
   const LampScene scene{{{{1.5, 2.0, 2.79}, {0.3, 0.3}, 100}, {{2.9, 0.9, 2.78}, {0.05, 0.05}, 300}}, {}, {}};
   const auto places = Find(SeenByAll(scene));
