@@ -174,7 +174,7 @@ class Count {
       found_.sources.back().luminaire.position = *place;
       found_.sources.back().is_held = true;
     }
-    AddSurePlaces();
+    SortPlaces();
     constexpr size_t kMost = 12, kBeyondSure = 2;
     most_ = options.max_count > 0
                 ? static_cast<size_t>(options.max_count)
@@ -230,8 +230,8 @@ class Count {
            !SourcesAtAlike(places_, found_.sources.size()).empty();
   }
 
-  // The surest places come first. Photos show known luminaires, too.
-  void AddSurePlaces() {
+  // Takes sure places as sources, and keeps the doubtful ones aside. Photos show known luminaires, too.
+  void SortPlaces() {
     constexpr double kSame_m = 0.3;
     for (const SeenPlace& place : places_) {
       const auto is_there = [&](const SparseSource& source) {

@@ -121,7 +121,7 @@ ColourDetail AddColours(const Room& room, const RoomObservations& given, const E
   ColourDetail colours = CompareColours(room, data, fit, given.neutral);
   const bool is_told = colours.neutral_light.allFinite();
   if (is_told) {
-    // What is grey shows where light is white.
+    // White light shows what is grey.
     data = WithBalance(std::move(data), colours.neutral_light);
     const Eigen::Vector3d light = colours.neutral_light, sigma = colours.neutral_light_sigma;
     colours = CompareColours(room, data, fit);

@@ -292,7 +292,7 @@ class AllOnRun : public testing::Test {
     folder_.Write(name, kept);
   }
 
-  // What stands in the session from one text on, up to another, is replaced.
+  // Replaces the session's text from `begin` up to `end`.
   void Replace(const std::string& begin, const std::string& end, const std::string& text) {
     std::ifstream file(folder_.Path("session.toml"));
     std::string session((std::istreambuf_iterator<char>(file)), {});
