@@ -220,10 +220,10 @@ class Count {
   }
 
  private:
-  // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 5 %, as
-  // in the search for places: then their light, which is alike, too, decides nothing.
+  // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 2 %:
+  // then their light, which is alike, too, decides nothing.
   bool AreShown() const {
-    constexpr double kExplained = 0.05;
+    constexpr double kExplained = 0.02;
     return trials_.size() == 1 && trials_[0].left_out.relative_sigma < kExplained &&
            std::all_of(found_.sources.begin(), found_.sources.end(),
                        [](const SparseSource& source) { return source.is_seen; }) &&
@@ -307,35 +307,46 @@ class Count {
     return place && IsSure(*place);
   }
 
-  // Leaves out one seen luminaire after the other, the weakest first. One at a sure place stays unless the others alone predict better
-  // by more than a standard error: that photos show it is evidence, too. One at a doubtful place stays only where it helps by more
-  // than that.
+  // Returns what is left out with a luminaire at a sure place: those like it, which share their light, where they are three and more.
+  std::vector<size_t> TogetherWith(size_t index) const {
+    std::vector<size_t> like = SourcesLike(places_, found_.sources, index);
+    like.erase(
+        std::remove_if(like.begin(), like.end(), [&](size_t k) { return !IsAtSurePlace(found_.sources[k]); }),
+        like.end());
+    return like.size() < kFewestAlike ? std::vector<size_t>{index} : like;
+  }
+
+  // Leaves out one seen luminaire after the other, the weakest first. One at a sure place stays, with those like it, unless the others
+  // alone predict better by more than a standard error: that photos show it is evidence, too. One at a doubtful place stays only where
+  // it helps by more than that.
   void TryFewer(const LightData& data) {
     std::sort(found_.sources.begin(), found_.sources.end(),
               [](const SparseSource& a, const SparseSource& b) { return a.strength < b.strength; });
     for (size_t i = 0; i < found_.sources.size() && found_.sources.size() > known_;) {
       const SparseSource& source = found_.sources[i];
-      if (!source.is_seen || IsAtSurePlace(source) || !TryWithout(i, data)) ++i;
+      if (!source.is_seen || IsAtSurePlace(source) || !TryWithout({i}, data)) ++i;
     }
-    while (found_.sources.size() > known_) {
+    for (;;) {
       const auto weakest = std::find_if(found_.sources.begin(), found_.sources.end(),
                                         [&](const SparseSource& source) { return IsAtSurePlace(source); });
-      if (weakest == found_.sources.end() ||
-          !TryWithout(static_cast<size_t>(weakest - found_.sources.begin()), data))
-        return;
+      if (weakest == found_.sources.end()) return;
+      const std::vector<size_t> out = TogetherWith(static_cast<size_t>(weakest - found_.sources.begin()));
+      if (found_.sources.size() < known_ + out.size() || !TryWithout(out, data)) return;
     }
   }
 
-  // Returns whether the luminaire is left out from now on.
-  bool TryWithout(size_t index, const LightData& data) {
+  // Returns whether the luminaires, in the order of their indices, are left out from now on.
+  bool TryWithout(const std::vector<size_t>& indices, const LightData& data) {
     if (data.checkpoint) data.checkpoint(data.is_part);
+    const bool is_sure = IsAtSurePlace(found_.sources[indices.front()]);
     SparseLuminaires fewer = found_;
-    fewer.sources.erase(fewer.sources.begin() + static_cast<std::ptrdiff_t>(index));
+    for (auto index = indices.rbegin(); index != indices.rend(); ++index)
+      fewer.sources.erase(fewer.sources.begin() + static_cast<std::ptrdiff_t>(*index));
     if (!Try(fewer, 0)) return false;
     const Selection selection = Select();
     const bool is_better =
         selection.best == 0 && selection.score[1] - selection.score[0] >= selection.standard_error[1];
-    const bool is_out = IsAtSurePlace(found_.sources[index]) ? is_better : selection.chosen == 0;
+    const bool is_out = is_sure ? is_better : selection.chosen == 0;
     trials_.erase(is_out ? trials_.end() - 1 : trials_.begin());
     if (is_out) found_ = std::move(fewer);
     return is_out;

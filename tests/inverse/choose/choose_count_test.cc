@@ -123,6 +123,25 @@ TEST_F(CountedRoom, ADoubtfulPlaceCountsWhereItHelps) {
   EXPECT_EQ(Count(lamps, places), 3);
 }
 
+// Photos show the first three, alike; the fourth lights a room that they alone explain badly.
+TEST_F(CountedRoom, AlikeOnesStayWhereTheyExplainTheLightBadly) {
+  const std::vector<Luminaire> lamps = {Downlight({0.9, 1.2, 2.4}, 800), Downlight({2.1, 1.2, 2.4}, 800),
+                                        Downlight({3.3, 1.2, 2.4}, 800), Downlight({3.6, 2.6, 0.9}, 1500)};
+  std::vector<SeenPlace> places;
+  for (int i = 0; i < 3; ++i) places.push_back(Seen(lamps[static_cast<size_t>(i)].position));
+  EXPECT_EQ(Count(lamps, places), 4);
+}
+
+// Three bright posters share their light, and go together.
+TEST_F(CountedRoom, AlikeOnesThatGiveNoLightAreLeftOut) {
+  const std::vector<Luminaire> lamps = {Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500)};
+  std::vector<SeenPlace> places;
+  for (const Luminaire& lamp : lamps) places.push_back(Seen(lamp.position));
+  places[1].area_m2 = 0.04;  // unlike the first
+  for (const double x : {0.8, 2.0, 3.2}) places.push_back(Seen({x, 0.02, 1.3}));
+  EXPECT_EQ(Count(lamps, places), 2);
+}
+
 // One that photos do not show is found by its light.
 TEST_F(CountedRoom, WhatPhotosDoNotShowIsAdded) {
   const Luminaire a = Downlight({1.1, 1.2, 2.4}, 2000), b = Downlight({3.1, 2.1, 2.35}, 1500);

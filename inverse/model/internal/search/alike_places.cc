@@ -37,20 +37,26 @@ const SeenPlace* PlaceOf(const SparseSource& source, const std::vector<SeenPlace
   return place == places.end() ? nullptr : &*place;
 }
 
+std::vector<size_t> SourcesLike(const std::vector<SeenPlace>& places,
+                                const std::vector<SparseSource>& sources, size_t i) {
+  std::vector<size_t> like;
+  const SeenPlace* place = PlaceOf(sources[i], places);
+  for (size_t k = 0; place && k < sources.size(); ++k) {
+    const SeenPlace* other = PlaceOf(sources[k], places);
+    if (other && AreAlike(*place, *other)) like.push_back(k);
+  }
+  return like;
+}
+
 void ShareAmongAlike(const std::vector<SeenPlace>& places, std::vector<SparseSource>& sources) {
   std::vector<double> shared;
   shared.reserve(sources.size());
-  for (const SparseSource& source : sources) {
-    const SeenPlace* place = PlaceOf(source, places);
+  for (size_t i = 0; i < sources.size(); ++i) {
+    const std::vector<size_t> like = SourcesLike(places, sources, i);
     double sum = 0;
-    size_t count = 0;
-    for (const SparseSource& other : sources) {
-      const SeenPlace* like = PlaceOf(other, places);
-      if (!place || !like || !AreAlike(*place, *like)) continue;
-      sum += other.strength;
-      ++count;
-    }
-    shared.push_back(count < kFewestAlike ? source.strength : sum / static_cast<double>(count));
+    for (const size_t k : like) sum += sources[k].strength;
+    shared.push_back(like.size() < kFewestAlike ? sources[i].strength
+                                                : sum / static_cast<double>(like.size()));
   }
   for (size_t i = 0; i < sources.size(); ++i) sources[i].strength = shared[i];
 }

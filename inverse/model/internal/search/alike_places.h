@@ -26,6 +26,10 @@ std::vector<SparseSource> SourcesAtAlike(const std::vector<SeenPlace>& places, s
 // Returns the place in photos of a source; null: it has none of `places`.
 const SeenPlace* PlaceOf(const SparseSource& source, const std::vector<SeenPlace>& places);
 
+// Returns the indices of the sources at places like that of source `i`, its own among them; none where it has no place.
+std::vector<size_t> SourcesLike(const std::vector<SeenPlace>& places,
+                                const std::vector<SparseSource>& sources, size_t i);
+
 // Gives sources at three like places and more the mean of their strengths.
 void ShareAmongAlike(const std::vector<SeenPlace>& places, std::vector<SparseSource>& sources);
 

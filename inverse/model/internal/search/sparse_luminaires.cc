@@ -126,8 +126,7 @@ class GroupFinder {
         searches_on_(std::move(searches_on)) {}
 
   SparseLuminaires Run(const std::vector<SparseSource>& start, const std::vector<SeenPlace>& seen) {
-    if (seen.empty())
-      return SearchesOn() ? WithRivals(BestLobes(start, grid_(), refinements_)) : SparseLuminaires();
+    if (seen.empty() && SearchesOn()) return WithRivals(BestLobes(start, grid_(), refinements_));
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(seen.size());
     for (const SeenPlace& place : seen) positions.push_back(place.position);

@@ -72,8 +72,8 @@ class SparseSearch {
   // the light unexplained, nothing else is searched. Else the sources at sure places stay, and the search adds
   // what is missing: where the mesh is wrong about something, places in mid-air explain the light a little better
   // than the true ones. Sources of a search anywhere are their rivals; they are kept where they leave less than two
-  // thirds of the squares. `searches_on` is asked before anything but the seen places is tried: false leaves it at
-  // them.
+  // thirds of the squares. `searches_on` is asked before anything but `start` and the seen places is tried: false
+  // leaves it at them.
   SparseLuminaires Find(int group, int count, const std::vector<SparseSource>& start = {},
                         const std::vector<SeenPlace>& seen = {},
                         const std::function<bool()>& searches_on = {}) const;
