@@ -25,6 +25,7 @@ luxfit_test(inverse/furniture furniture_test WHOLE LINK luxfit_apps nlohmann_jso
 luxfit_test(inverse/furniture see_through_test LINK luxfit::inverse)
 luxfit_test(inverse/furniture missing_pieces_test WHOLE LINK luxfit_apps nlohmann_json::nlohmann_json)
 luxfit_test(inverse/furniture moved_walls_test WHOLE LINK luxfit_apps nlohmann_json::nlohmann_json)
+luxfit_test(inverse/furniture painted_parts_test WHOLE LINK luxfit_apps nlohmann_json::nlohmann_json)
 luxfit_test(inverse/model light_model_test LINK luxfit::inverse)
 luxfit_test(inverse/model penumbra_test LINK luxfit::inverse)
 luxfit_test(inverse/model point_horizon_test LINK luxfit::inverse)

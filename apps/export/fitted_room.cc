@@ -117,6 +117,8 @@ Session FittedSession(const json& result, const std::string& given, const std::s
     session.scene->walls = WallsFromJson(result.at("walls_moved"));
   if (session.scene && result.contains("furniture_moved"))
     session.scene->moves = MovesFromJson(result.at("furniture_moved"));
+  if (session.scene && result.contains("painted_parts"))
+    session.scene->parts = PartsFromJson(result.at("painted_parts"));
   if (session.count_is_estimated)
     session = WithMoreLuminaires(std::move(session), static_cast<int>(result.at("luminaires").size()));
   session = WithGroupsOf(result, std::move(session));

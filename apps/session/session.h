@@ -24,6 +24,7 @@
 #include "forward/direct/sensor.h"
 #include "forward/room/frame_mistakes.h"
 #include "forward/room/outline.h"
+#include "forward/room/painted_rectangles.h"
 #include "forward/room/pieces.h"
 #include "forward/room/plane_moves.h"
 
@@ -39,10 +40,11 @@ struct SessionScene {
   bool finds_furniture = true;                              // furniture = "find"
   bool names_planes = true;                                 // materials = "find"
   std::vector<std::string> neutral;                         // materials of one reflectance at all wavelengths
-  std::optional<MeshMove> mesh_move;  // where the mesh is instead, as a run's corrections have it
-  std::vector<RoomBox> furniture;     // found in photos (apps/stages/observe/found_furniture.h), m
-  std::vector<PlaneMove> walls;       // of the mesh, which photos show elsewhere
-  std::vector<PieceMove> moves;       // of the mesh's furniture, which photos show elsewhere or not at all
+  std::optional<MeshMove> mesh_move;    // where the mesh is instead, as a run's corrections have it
+  std::vector<RoomBox> furniture;       // found in photos (apps/stages/observe/found_furniture.h), m
+  std::vector<PlaneMove> walls;         // of the mesh, which photos show elsewhere
+  std::vector<PieceMove> moves;         // of the mesh's furniture, which photos show elsewhere or not at all
+  std::vector<PaintedRectangle> parts;  // of walls, which photos show painted otherwise
 };
 
 struct SessionTags {

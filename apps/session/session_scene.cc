@@ -77,7 +77,7 @@ Scene SceneOf(const SessionScene& scene) {
   Scene given = scene.outline ? SceneFrom(*scene.outline) : ReadScene(scene.mesh, scene.metres_per_unit);
   if (scene.mesh_move) given = WithMeshMoved(std::move(given), *scene.mesh_move);
   Scene standing = WithPiecesMoved(WithPlanesMoved(std::move(given), scene.walls), scene.moves);
-  return WithBoxes(standing, scene.furniture);
+  return WithPaintedRectangles(WithBoxes(standing, scene.furniture), scene.parts);
 }
 
 std::string RoomText(const SessionScene& scene) {

@@ -79,6 +79,7 @@ void ChangeFurniture(const FurnitureChange& change, Session& session, Room& room
   session.scene->furniture = change.boxes;
   session.scene->moves = change.moves;
   session.scene->walls = change.walls;
+  session.scene->parts = change.parts;
   RunContext changed;
   changed.is_quiet = true;
   room = LoadRoom(session, changed);
@@ -104,9 +105,10 @@ void CheckReadingsAgain(const Session& session, const Room& room, std::vector<Lu
 SessionInputs WithFurniture(SessionInputs inputs, const Session& session) {
   if (!session.scene) return inputs;
   const SessionScene& scene = *session.scene;
-  if (!(scene.furniture.empty() && scene.moves.empty() && scene.walls.empty()))
-    inputs.observe["found furniture"] = HashText(
-        BoxesJson(scene.furniture).dump() + MovesJson(scene.moves).dump() + WallsJson(scene.walls).dump());
+  if (!(scene.furniture.empty() && scene.moves.empty() && scene.walls.empty() && scene.parts.empty()))
+    inputs.observe["found furniture"] =
+        HashText(BoxesJson(scene.furniture).dump() + MovesJson(scene.moves).dump() +
+                 WallsJson(scene.walls).dump() + PartsJson(scene.parts).dump());
   return inputs;
 }
 

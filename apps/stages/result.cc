@@ -303,6 +303,8 @@ json ResultJson(const Session& session, const std::vector<LuminaireReading>& rea
   if (session.scene && !session.scene->walls.empty()) result["walls_moved"] = WallsJson(session.scene->walls);
   if (session.scene && !session.scene->moves.empty())
     result["furniture_moved"] = MovesJson(session.scene->moves);
+  if (session.scene && !session.scene->parts.empty())
+    result["painted_parts"] = PartsJson(session.scene->parts);
   result["luminaires"] = LuminairesJson(session, fit, files);
   if (!fit.types.empty()) result["luminaire_types"] = TypesJson(fit);
   // Relative luminance per cd/m2, by which the camera is a luminance meter.

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char kFormat[] = "luxfit-stage-4";
+constexpr char kFormat[] = "luxfit-stage-5";
 
 std::string PathOf(const std::string& out, const std::string& stage) {
   return out + "/stages/" + stage + ".cbor";

@@ -5,7 +5,8 @@
 //
 // Planes are swept upwards and along the room's two main horizontal directions, every 2 cm. The strongest face is
 // taken first; what it explains of the views' pixels takes no part in later ones. A view counts for a face only
-// where the mesh does not explain what it sees.
+// where the mesh does not explain what it sees. With two states and more, what is left is swept again at 5/3 of the tolerance, for
+// varnished tops.
 //
 // Metres, world frame. Boxes stand along the room's main directions. Mirrors, black and thin things, and what fewer
 // than three views see, are not found. What is not a box becomes the boxes of its large flat faces.

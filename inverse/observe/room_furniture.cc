@@ -50,6 +50,7 @@ RevisedRoom LookForFurniture(const Scene& mesh, const Scene& room, const RoomPho
     const Scene standing = WithPlanesMoved(mesh, ChangeOf(revised).walls);
     revised.furniture = ReviseFurniture(standing, standing, signatures, options);
   }
+  revised.parts = FindPaintedParts(WithChange(mesh, ChangeOf(revised)), signatures);
   return revised;
 }
 
@@ -58,12 +59,13 @@ FurnitureChange ChangeOf(const RevisedRoom& revised) {
   for (const FoundBox& found : revised.furniture.found) change.boxes.push_back(found.box);
   for (const MissingPiece& piece : revised.furniture.missing) change.moves.push_back(piece.move);
   for (const MovedWall& wall : revised.walls) change.walls.push_back(wall.move);
+  for (const PaintedPart& part : revised.parts) change.parts.push_back(part.rectangle);
   return change;
 }
 
 Scene WithChange(Scene mesh, const FurnitureChange& change) {
   Scene standing = WithPiecesMoved(WithPlanesMoved(std::move(mesh), change.walls), change.moves);
-  return WithBoxes(std::move(standing), change.boxes);
+  return WithPaintedRectangles(WithBoxes(std::move(standing), change.boxes), change.parts);
 }
 
 }  // namespace luxfit

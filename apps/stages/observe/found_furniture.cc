@@ -114,6 +114,30 @@ void RecordWall(const MovedWall& wall, Findings& findings) {
        "\"given\" under [scene] where they are right"});
 }
 
+// Returns where the part lies and how bright it is.
+std::string PartText(const PaintedPart& part) {
+  const PaintedRectangle& r = part.rectangle;
+  const Eigen::Vector3d middle = r.corner + 0.5 * (r.edge_u + r.edge_v);
+  return fmt::format(
+      "{} of {}, {:.2f} m x {:.2f} m about ({:.2f}, {:.2f}, {:.2f}) m, {:.2g} times as bright as around it",
+      r.name, part.material, r.edge_u.norm(), r.edge_v.norm(), middle.x(), middle.y(), middle.z(),
+      part.luminance_ratio);
+}
+
+void RecordParts(const std::vector<PaintedPart>& parts, Findings& findings) {
+  if (parts.empty()) return;
+  std::string words;
+  for (const PaintedPart& part : parts) words += (words.empty() ? "" : "; ") + PartText(part);
+  findings.warnings.push_back(
+      {"paint_found",
+       fmt::format("photos show {} of walls painted otherwise than the room has {}, and the fit gives {} a "
+                   "reflectance of its own: {}",
+                   parts.size() == 1 ? "a part" : fmt::format("{} parts", parts.size()),
+                   parts.size() == 1 ? "it" : "them", parts.size() == 1 ? "it" : "each", words),
+       "give doors, windows and boards as scene.opening or as materials of the mesh, or write furniture = "
+       "\"given\" under [scene] where there are none"});
+}
+
 json PointJson(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 Eigen::Vector3d PointFromJson(const json& p) {
@@ -211,6 +235,24 @@ std::vector<PlaneMove> WallsFromJson(const json& list) {
   return walls;
 }
 
+json PartsJson(const std::vector<PaintedRectangle>& parts) {
+  json list = json::array();
+  for (const PaintedRectangle& part : parts)
+    list.push_back({{"name", part.name},
+                    {"corner_m", PointJson(part.corner)},
+                    {"edge_u_m", PointJson(part.edge_u)},
+                    {"edge_v_m", PointJson(part.edge_v)}});
+  return list;
+}
+
+std::vector<PaintedRectangle> PartsFromJson(const json& list) {
+  std::vector<PaintedRectangle> parts;
+  for (const json& entry : list)
+    parts.push_back({entry.at("name"), PointFromJson(entry.at("corner_m")),
+                     PointFromJson(entry.at("edge_u_m")), PointFromJson(entry.at("edge_v_m"))});
+  return parts;
+}
+
 void RecordFurniture(const RevisedRoom& revised, Findings& findings) {
   if (!revised.mesh_as_if.empty())
     findings.warnings.push_back(
@@ -218,6 +260,7 @@ void RecordFurniture(const RevisedRoom& revised, Findings& findings) {
   for (const MovedWall& wall : revised.walls) RecordWall(wall, findings);
   for (const MissingPiece& piece : revised.furniture.missing) RecordMove(piece, findings);
   RecordBoxes(revised.furniture.found, findings);
+  RecordParts(revised.parts, findings);
 }
 
 KeptFurniture FurnitureKept(const Session& session, const LinearizedPhotos& photos,
@@ -227,7 +270,7 @@ KeptFurniture FurnitureKept(const Session& session, const LinearizedPhotos& phot
     return {};
   if (const auto kept = KeptProduct("furniture", inputs.furniture, context))
     return {{BoxesFromJson(kept->at("boxes")), MovesFromJson(kept->at("moves")),
-             WallsFromJson(kept->at("walls"))},
+             WallsFromJson(kept->at("walls")), PartsFromJson(kept->at("parts"))},
             MeshAsIfFromJson(kept->at("mesh_as_if"))};
   const StageMark mark(context);
   const StageTimer timer(context, "furniture", "what views agree on and the room lacks, or sees through");
@@ -244,6 +287,7 @@ KeptFurniture FurnitureKept(const Session& session, const LinearizedPhotos& phot
   const json product = {{"boxes", BoxesJson(change.boxes)},
                         {"moves", MovesJson(change.moves)},
                         {"walls", WallsJson(change.walls)},
+                        {"parts", PartsJson(change.parts)},
                         {"mesh_as_if", MeshAsIfJson(revised.mesh_as_if)}};
   json artifact = ProvenanceJson("luxfit-furniture-1", context.provenance);
   artifact.update(product);

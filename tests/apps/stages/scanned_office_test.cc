@@ -115,9 +115,10 @@ TEST(ScannedOffice, ThreeLengthsAreEnough) {
   const OfficeErrors errors = RunOffice([](const TempFolder& office) {
     office.Replace("office/session.toml", "mesh = \"room.obj\"", "size = [6, 4, 2.8]");
   });
-  EXPECT_LT(errors.luminaires.worst_position_mm, 26);    // 17.6 mm
-  EXPECT_LT(errors.luminaires.worst_flux_percent, 6.3);  // 4.2 %
-  EXPECT_LT(errors.readings_percent, 1.9);               // 1.24 %
+  EXPECT_LT(errors.luminaires.worst_position_mm,
+            25);  // the goals of a room without a mesh; 9.0 mm, 1.3 %, 1.1 %
+  EXPECT_LT(errors.luminaires.worst_flux_percent, 3);
+  EXPECT_LT(errors.readings_percent, 2.5);
   EXPECT_EQ(errors.boxes_found, 3);
 }
 
