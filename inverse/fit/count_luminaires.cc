@@ -36,7 +36,7 @@ void Record(const CountChoice& choice, const std::string& group, Findings& findi
   }
   findings.choices.push_back(
       {"number of luminaires" + (group.empty() ? "" : " of " + group), std::to_string(choice.chosen), among,
-       choice.are_shown ? "photos show them, alike in height and area, and they explain the light to 2 %"
+       choice.are_shown ? "photos show them, alike in height and area, and they explain the light to 5 %"
                         : "smallest within one standard error of the best on patches left out (mean squared "
                           "normalised error: " +
                               scores + ")"});

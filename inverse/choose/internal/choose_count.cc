@@ -220,10 +220,10 @@ class Count {
   }
 
  private:
-  // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 2 %:
+  // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 5 %:
   // then their light, which is alike, too, decides nothing.
   bool AreShown() const {
-    constexpr double kExplained = 0.02;
+    constexpr double kExplained = 0.05;
     return trials_.size() == 1 && trials_[0].left_out.relative_sigma < kExplained &&
            std::all_of(found_.sources.begin(), found_.sources.end(),
                        [](const SparseSource& source) { return source.is_seen; }) &&

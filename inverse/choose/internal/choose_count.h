@@ -8,7 +8,7 @@
 // 3. They are scored on the fold left out (inverse/choose/internal/left_out.h).
 // The smallest n within one standard error of the best score is chosen (paired, facet by facet). The first number is
 // that of the places that photos show beyond doubt (IsSure) and that give light. Where these are three and more that are
-// alike (inverse/model/internal/search/alike_places.h) and explain the light to 2 %, that is the number. Else doubtful places that give light are
+// alike (inverse/model/internal/search/alike_places.h) and explain the light to 5 %, that is the number. Else doubtful places that give light are
 // added, and those that give least are left out, one after the other: doubtful ones that do not help by more than a standard error, sure ones as
 // long as the others predict better by more than that, three and more that are alike at once. Windows and highlights are seen, too. Then
 // numbers are tried upwards until two in a row bring no gain.

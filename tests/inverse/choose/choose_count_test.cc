@@ -126,7 +126,7 @@ TEST_F(CountedRoom, ADoubtfulPlaceCountsWhereItHelps) {
 // Photos show the first three, alike; the fourth lights a room that they alone explain badly.
 TEST_F(CountedRoom, AlikeOnesStayWhereTheyExplainTheLightBadly) {
   const std::vector<Luminaire> lamps = {Downlight({0.9, 1.2, 2.4}, 800), Downlight({2.1, 1.2, 2.4}, 800),
-                                        Downlight({3.3, 1.2, 2.4}, 800), Downlight({3.6, 2.6, 0.9}, 1500)};
+                                        Downlight({3.3, 1.2, 2.4}, 800), Downlight({3.6, 2.6, 0.9}, 3000)};
   std::vector<SeenPlace> places;
   for (int i = 0; i < 3; ++i) places.push_back(Seen(lamps[static_cast<size_t>(i)].position));
   EXPECT_EQ(Count(lamps, places), 4);
