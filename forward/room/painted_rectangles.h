@@ -4,7 +4,7 @@
 //
 // A parallelogram in the rectangle's plane that faces as it does, with edges parallel to its own, is cut into what the rectangle
 // covers and up to four strips beside it. Other facets stay whole, and so do scenes that cover their facets in part (Scene::surface).
-// What would be narrower than 5 mm is not cut off. Metres, world frame.
+// A strip narrower than 5 mm goes to the rectangle. Metres, world frame.
 #ifndef LUXFIT_FORWARD_ROOM_PAINTED_RECTANGLES_H_
 #define LUXFIT_FORWARD_ROOM_PAINTED_RECTANGLES_H_
 

@@ -3,8 +3,9 @@
 //
 // Where [scene] furniture is "find", found boxes become part of the room, and pieces that views see through stand where
 // views show them, or are left out. Boxes are said in a warning ("furniture_found"), in the lines of a session that would
-// give them, pieces and walls in others ("furniture_moved", "wall_moved"), parts of walls that are painted otherwise in "paint_found". Nothing is looked for where the session has no [scene], where fewer
-// than three views are registered, or where furniture is "given".
+// give them, pieces and walls in others ("furniture_moved", "wall_moved"), parts of walls that are painted otherwise in
+// "paint_found". Nothing is looked for where the session has no [scene], where fewer than three views are registered, or where
+// furniture is "given".
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_FOUND_FURNITURE_H_
 

@@ -4,7 +4,7 @@
 //   step(a, b)   = median over states of ln Y_s(b) - ln Y_s(a)                     paint is the same in all, light is not
 //   apart(cell)  = quantile over views of median over states of |ln Y_s of a view - ln Y_s(cell)|, kAgreeing of the views
 //
-// What stands before the facet covers other cells in each view, so that views are far apart on the cells behind it.
+// A thing before the facet covers other cells in each view, so that views are far apart on the cells behind it.
 // Cells are about kPictureCellM wide. Metres, world frame.
 #ifndef LUXFIT_INVERSE_FURNITURE_INTERNAL_FACET_PICTURE_H_
 #define LUXFIT_INVERSE_FURNITURE_INTERNAL_FACET_PICTURE_H_
