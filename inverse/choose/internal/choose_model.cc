@@ -26,14 +26,19 @@ struct ChosenType {
     if (model.choice) result.choices.push_back(*model.choice);
     if (model.aim) result.aims.push_back(*model.aim);
     if (places) result.places.push_back(*places);
-    if (model.fitted) TakeOver(*model.fitted, result.state, luminaires);
     for (Refinement step : refined.steps) {
       step.luminaire = first;
       result.refinements.push_back(std::move(step));
     }
-    for (size_t m = 0; m < luminaires.size() && refined.changed; ++m) {
-      result.state.luminaires[static_cast<size_t>(luminaires[m])] = refined.members[m];
-      result.state.free[static_cast<size_t>(luminaires[m])] = refined.free;
+    TakeOverInto(result.state, luminaires);
+  }
+
+  // Gives its model to luminaires of a state, in the order of its own.
+  void TakeOverInto(LightState& state, const std::vector<int>& members) const {
+    if (model.fitted) TakeOver(*model.fitted, state, members);
+    for (size_t m = 0; m < members.size() && refined.changed; ++m) {
+      state.luminaires[static_cast<size_t>(members[m])] = refined.members[m];
+      state.free[static_cast<size_t>(members[m])] = refined.free;
     }
   }
 };
@@ -101,13 +106,16 @@ FittedModel Untied(const Room& room, const SubProblem& problem, const FittedCand
 }
 
 // Returns the luminaires of a type each with a model of its own where that predicts better by more than a
-// standard error, else the type. Models of their own are looked for only where the type's numbers, untied,
-// predict better: luminaires of one kind are spared the search, and others start from places that are right.
+// standard error, else the type. The type is weighed as it was refined: luminaires that one table explains need no
+// exponents of their own. Models of their own are looked for only where the type's numbers, untied, predict better:
+// luminaires of one kind are spared the search, and others start from places that are right.
 std::vector<ChosenType> OneOrSeveral(const Room& room, const LightData& data, const LightState& start,
                                      const std::vector<OpenChoice>& open,
                                      const std::vector<ParameterPrior>& priors, const ChosenType& type) {
   const SubProblem problem = MakeSubProblem(room, data, start, type.luminaires, priors);
-  const FittedModel& tied = type.model.fitted->model;
+  LightState as_type = problem.state;
+  type.TakeOverInto(as_type, problem.members);
+  const FittedModel tied = type.refined.changed ? FitState(room, problem, as_type) : type.model.fitted->model;
   const FittedModel untied = Untied(room, problem, *type.model.fitted);
   if (SelectAmong(problem, {&tied, &untied}, {0, 1}).chosen == 0) return {type};
   LightState near = start;
@@ -120,7 +128,7 @@ std::vector<ChosenType> OneOrSeveral(const Room& room, const LightData& data, co
     const int k = type.luminaires[m];
     single.push_back(ChooseType(room, data, near, {k}, open[static_cast<size_t>(k)], priors, nullptr));
     if (!single.back().model.fitted) return {type};
-    TakeOver(*single.back().model.fitted, apart, {problem.members[m]});
+    single.back().TakeOverInto(apart, {problem.members[m]});
   }
   const FittedModel several = FitState(room, problem, apart);
   const Selection selection = SelectAmong(problem, {&tied, &several}, {0, 1});

@@ -195,8 +195,19 @@ class GroupFinder {
     if (IsComplete(simple) && simple.mean_square_of_all < kWellExplained) return simple;
     SparseRun aimed = RunWith(LobeSet::kAimed, start, grid, refinements);
     const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
-                           kRival * aimed.mean_square_of_all < simple.mean_square_of_all;
+                           (kRival * aimed.mean_square_of_all < simple.mean_square_of_all ||
+                            !ExplainsHalf(simple, aimed, start));
     return is_turned ? std::move(aimed) : std::move(simple);
+  }
+
+  // Returns whether lobes explain at least half of what others explain beyond the start. At the right place, simple lobes
+  // may explain next to nothing of a turned beam, though reflected light makes up most of what all leave.
+  bool ExplainsHalf(const SparseRun& lobes, const SparseRun& others,
+                    const std::vector<SparseSource>& start) const {
+    GroupSearch at_start(room_, sensors_, box_, equations_, LobeSet::kSimple, step_m_, 0);
+    for (const SparseSource& source : start) at_start.Start(source);
+    const double left = at_start.MeanSquareIn(equations_);
+    return left - lobes.mean_square_of_all >= 0.5 * (left - others.mean_square_of_all);
   }
 
   // Returns the start with those sources that `alone` has at sure places.

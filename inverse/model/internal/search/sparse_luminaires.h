@@ -11,7 +11,7 @@
 //
 // Simple lobes come first. Where they leave more than 2 % rms of the light in the beam, lobes of any aim are searched too
 // (inverse/model/internal/search/lobes.h), refined in place, aim and width at once. They are kept where simple ones
-// leave half more squares.
+// leave half more squares, or explain less than half as much.
 //
 // For robustness the search runs twice. The second run lowers the weight of rows that the first did not
 // explain. Rows are weighted by a relative error of 10 %, with a floor where there is little light. Distances
