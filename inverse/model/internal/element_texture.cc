@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGaussianMedian = 0.6744898;  // of |z|
 constexpr size_t kFewestElements = 20;
-constexpr double kLargestSigma = 1, kLeastSigma = 1e-3;  // a damped one below ends
-constexpr double kDarkest = -0.95;                       // a black element has no ratio
+constexpr double kLargestSigma = 1;
+constexpr double kDarkest = -0.95;  // a black element has no ratio
 // Strays of plain materials may be a luminaire before its ceiling: their light is not exchanged.
 constexpr double kExchangedSigma = 0.03;
 
@@ -53,37 +53,32 @@ double CentreOf(const std::vector<OwnDeviation>& deviations) {
   return Median(std::move(values));
 }
 
-// Returns 0 where at least half of the elements, all but strays, scatter no more than their own rows' errors say, and 1
-// where they surely do. Between the two it grows evenly: the errors are estimated from the same rows, and a sudden end
-// would let a fit go from one to the other and back for ever.
-double ShareOfTexture(const std::vector<OwnDeviation>& deviations, double centre) {
+// Returns whether at least half of the elements, all but strays, scatter no more than their own rows' errors
+// say.
+bool IsPlain(const std::vector<OwnDeviation>& deviations, double centre) {
   std::vector<OwnDeviation> near;
   near.reserve(deviations.size());
   for (const OwnDeviation& d : deviations) {
     const double off = d.value - centre;
     if (off * off <= kStraySigmas * kStraySigmas * d.variance) near.push_back(d);
   }
-  constexpr double kHalf = 0.5, kMostly = 0.6;
-  const double near_share = static_cast<double>(near.size()) / static_cast<double>(deviations.size());
-  if (near_share <= kHalf) return 1;
+  if (2 * near.size() < deviations.size()) return false;
   // The standard error of the median of |z|, over that median, is 1.17 / sqrt(n); 2.33: one-sided 99 %.
   const double chance = 2.33 * 1.17 / std::sqrt(static_cast<double>(near.size()));
-  const double excess = (MedianZ(near, CentreOf(near), 0) - 1) / chance - 1;
-  return std::clamp(std::max(excess, (kMostly - near_share) / (kMostly - kHalf)), 0.0, 1.0);
+  return MedianZ(near, CentreOf(near), 0) < 1 + chance;
 }
 
 double SigmaOf(const std::vector<OwnDeviation>& deviations) {
   if (deviations.size() < kFewestElements) return 0;
   const double centre = CentreOf(deviations);  // an error of the reflectance is not texture
-  const double share = ShareOfTexture(deviations, centre);
-  if (share == 0) return 0;
+  if (IsPlain(deviations, centre)) return 0;
   double low = 0, high = kLargestSigma;
   constexpr double kTolerance = 1e-4;
   while (high - low > kTolerance) {
     const double middle = 0.5 * (low + high);
     (MedianZ(deviations, centre, middle) > 1 ? low : high) = middle;
   }
-  return share * 0.5 * (low + high);
+  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -109,8 +104,7 @@ ElementTexture TextureEstimator::None(Eigen::Index rows, Eigen::Index materials)
 }
 
 ElementTexture TextureEstimator::Estimate(const Eigen::VectorXd& model, const Eigen::VectorXd& measured,
-                                          const Eigen::VectorXd& root_weight,
-                                          const Eigen::VectorXd& last) const {
+                                          const Eigen::VectorXd& root_weight) const {
   if (!has_several_states_) return None(model.size(), materials_);
   std::vector<OwnDeviation> own;
   own.reserve(rows_.size());
@@ -120,11 +114,8 @@ ElementTexture TextureEstimator::Estimate(const Eigen::VectorXd& model, const Ei
     if (own.back().is_known) of_material[static_cast<size_t>(material_[e])].push_back(own.back());
   }
   ElementTexture texture = None(model.size(), materials_);
-  for (Eigen::Index m = 0; m < materials_; ++m) {
-    const double sigma = SigmaOf(of_material[static_cast<size_t>(m)]);
-    const double damped = 0.5 * (last[m] + sigma);
-    texture.sigma_of_material[m] = sigma == 0 && damped < kLeastSigma ? 0 : damped;
-  }
+  for (Eigen::Index m = 0; m < materials_; ++m)
+    texture.sigma_of_material[m] = SigmaOf(of_material[static_cast<size_t>(m)]);
   for (size_t e = 0; e < rows_.size(); ++e) {
     const double tau = texture.sigma_of_material[material_[e]];
     const double expected = tau * tau + own[e].variance, t2 = own[e].value * own[e].value;

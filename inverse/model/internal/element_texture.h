@@ -15,9 +15,7 @@
 //
 // tau_m is estimated for each material from the elements that at least two states show: the median normalised
 // |t_e| is to be a Gaussian's. It is 0 where at least half of the elements, all but strays, scatter no more
-// than their rows' errors say (one-sided, 99 %): plain paint costs nothing. Those errors are estimated at the same
-// state, so that a sudden end would let a fit go from plain to textured and back for ever: tau grows evenly from there
-// to twice that excess, and goes half way from one state to the next. An element more than kStraySigmas
+// than their rows' errors say (one-sided, 99 %): plain paint costs nothing. An element more than kStraySigmas
 // off (a poster on plain paint) gets a variance of its own, a ninth of its t_e^2: it keeps its ratios and
 // loses its say on the material's reflectance, as with Cauchy's loss. Strays of plain materials have no such
 // row.
@@ -56,10 +54,9 @@ class TextureEstimator {
   TextureEstimator(const Room& room, const LightData& data);
 
   // Returns the texture for the model's values at t = 0 and the measured ones. `root_weight`: sqrt(weight) /
-  // sigma of each row, 0 for rows that the fit leaves out. `last`: tau at the state before, from which it goes
-  // half way.
+  // sigma of each row, 0 for rows that the fit leaves out.
   ElementTexture Estimate(const Eigen::VectorXd& model, const Eigen::VectorXd& measured,
-                          const Eigen::VectorXd& root_weight, const Eigen::VectorXd& last) const;
+                          const Eigen::VectorXd& root_weight) const;
   // Returns one row for each textured material. `model` and `root_weight` as in Estimate.
   std::vector<TextureMean> Means(const Eigen::VectorXd& model, const Eigen::VectorXd& root_weight,
                                  const ElementTexture& texture) const;

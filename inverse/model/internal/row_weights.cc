@@ -160,7 +160,7 @@ RowWeights RowWeigher::Weigh(const LightState& state, const Eigen::VectorXd& val
     }
     // The first state of a fit may be far off: what all states then miss alike is the luminaires' fault.
     if (options_.has_texture && last.weight.size() == rows)
-      weights.texture = elements_.Estimate(value, values_, plain, last.texture.sigma_of_material);
+      weights.texture = elements_.Estimate(value, values_, plain);
     weights.root_weight = plain.cwiseProduct((1 + weights.texture.deviation.array()).matrix());
     weights.whitening =
         WhiteningOf(model_, state, elements_, value, weights.root_weight, weights.texture, views);

@@ -61,19 +61,9 @@ class TexturedElements : public testing::Test {
     }
     return simulated;
   }
-  static ElementTexture Once(const LightData& data, const Simulated& rows, double last) {
-    return TextureEstimator(*room_, data)
-        .Estimate(rows.model, rows.measured, rows.root_weight, Eigen::VectorXd::Constant(1, last));
-  }
-  // Returns what the estimate settles at.
-  static ElementTexture Settled(const LightData& data, const Simulated& rows) {
-    constexpr int kRounds = 12;
-    ElementTexture texture = Once(data, rows, 0);
-    for (int i = 1; i < kRounds; ++i) texture = Once(data, rows, texture.sigma_of_material[0]);
-    return texture;
-  }
   ElementTexture Estimate(const LightData& data, const Eigen::VectorXd& t) {
-    return Settled(data, Simulate(data, t));
+    const Simulated rows = Simulate(data, t);
+    return TextureEstimator(*room_, data).Estimate(rows.model, rows.measured, rows.root_weight);
   }
 
   Eigen::VectorXd DrawTexture(double tau) {
@@ -138,34 +128,6 @@ TEST_F(TexturedElements, PlainPaintHasNone) {
   EXPECT_GE(plain, kDraws - 1);
 }
 
-// No small step of the paint may turn it from plain to textured at once.
-TEST_F(TexturedElements, TheirSigmaGrowsEvenly) {
-  const LightData data = Observe(kStates);
-  const Eigen::VectorXd t = DrawTexture(1);
-  const std::mt19937_64 noise = rng_;
-  double before = 0, steepest = 0;
-  constexpr double kStep = 2e-5, kEnd = 2e-3;
-  for (double tau = 0; tau < kEnd; tau += kStep) {
-    rng_ = noise;
-    normal_.reset();
-    const double sigma = Estimate(data, tau * t).sigma_of_material[0];
-    steepest = std::max(steepest, sigma - before);
-    before = sigma;
-  }
-  EXPECT_GT(before, 0.5 * kEnd);
-  EXPECT_LT(steepest, 0.3 * before);
-}
-
-TEST_F(TexturedElements, TheirSigmaGoesHalfWay) {
-  const LightData data = Observe(kStates);
-  constexpr double kTau = 0.1, kLast = 0.2;
-  const Simulated rows = Simulate(data, DrawTexture(kTau)), plain = Simulate(data, Plain());
-  const double settled = Settled(data, rows).sigma_of_material[0];
-  EXPECT_NEAR(Once(data, rows, kLast).sigma_of_material[0], 0.5 * (settled + kLast), 1e-4);
-  EXPECT_NEAR(Once(data, plain, kLast).sigma_of_material[0], 0.5 * kLast, 1e-9);
-  EXPECT_EQ(Once(data, plain, kNoise / 2).sigma_of_material[0], 0);
-}
-
 // A reflectance that is 5 % off moves all elements alike.
 TEST_F(TexturedElements, AWrongReflectanceIsNone) {
   const LightData data = Observe(kStates);
@@ -184,7 +146,8 @@ TEST_F(TexturedElements, RowsThatTheFitLeavesOutTellNothing) {
   const LightData data = Observe(kStates);
   Simulated rows = Simulate(data, DrawTexture(0.2));
   rows.root_weight.tail(rows.root_weight.size() * (kStates - 1) / kStates).setZero();
-  const ElementTexture texture = Settled(data, rows);
+  const ElementTexture texture =
+      TextureEstimator(*room_, data).Estimate(rows.model, rows.measured, rows.root_weight);
   EXPECT_EQ(texture.sigma_of_material[0], 0);
 }
 
