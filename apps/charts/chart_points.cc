@@ -9,7 +9,7 @@
 #include "apps/text/seconds.h"
 #include "forward/factors/form_factors.h"
 #include "forward/light/light_tracer.h"
-#include "forward/room/mesh_check.h"
+#include "forward/mesh/mesh_check.h"
 
 namespace luxfit {
 namespace {

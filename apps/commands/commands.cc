@@ -15,7 +15,7 @@
 #include "apps/stages/albedo/stage_stereo.h"
 #include "apps/stages/calibrate/calibration_table.h"
 #include "apps/stages/calibrate/stage_calibrate.h"
-#include "apps/stages/check_report.h"
+#include "apps/stages/check/check_report.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/stages.h"
 #include "apps/text/input_error.h"

@@ -11,7 +11,7 @@
 #include "apps/text/seconds.h"
 #include "apps/text/suggest.h"
 #include "forward/factors/form_factors.h"
-#include "forward/room/mesh_check.h"
+#include "forward/mesh/mesh_check.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {

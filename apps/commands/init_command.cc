@@ -19,8 +19,9 @@
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
 #include "calib/lens/camera_file.h"
-#include "forward/room/mesh_check.h"
-#include "forward/room/outline.h"
+#include "forward/mesh/mesh_check.h"
+#include "forward/mesh/mesh_file.h"
+#include "forward/mesh/outline.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {

@@ -17,10 +17,11 @@
 #include "apps/text/formats/artifact.h"
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
-#include "forward/room/mesh_check.h"
-#include "forward/room/named_planes.h"
-#include "forward/room/planes.h"
-#include "forward/room/ray_shares.h"
+#include "forward/mesh/mesh_check.h"
+#include "forward/mesh/mesh_file.h"
+#include "forward/mesh/named_planes.h"
+#include "forward/mesh/planes.h"
+#include "forward/mesh/ray_shares.h"
 
 namespace luxfit {
 namespace {

@@ -1,6 +1,6 @@
 // Writes planes of named quantities as one OpenEXR picture.
 //
-// An OpenEXR picture holds what the three colours of calib/luminance/image.h cannot. The call gives the
+// An OpenEXR picture holds what the three colours of calib/photo_files/image.h cannot. The call gives the
 // channels as a list; the file stores them by name, as the format does. Values are 32-bit floats, ZIP
 // compressed; NaN and infinity are kept. All planes are height x width and of one size.
 //
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

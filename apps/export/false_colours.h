@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

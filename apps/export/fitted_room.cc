@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "apps/stages/check/session_check.h"
 #include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/register/registration_json.h"
-#include "apps/stages/session_check.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/json_vectors.h"

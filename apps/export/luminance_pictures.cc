@@ -12,7 +12,7 @@
 #include "apps/stages/linearize/photo_store.h"
 #include "apps/text/file_stem.h"
 #include "apps/version.h"
-#include "calib/luminance/radiance_picture.h"
+#include "calib/photo_files/radiance_picture.h"
 #include "forward/room/one_line.h"
 
 namespace luxfit {

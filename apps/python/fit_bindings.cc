@@ -22,7 +22,7 @@
 #include "apps/stages/warning_order.h"
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "forward/room/threads.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/model/fitted_light.h"

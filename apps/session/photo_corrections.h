@@ -1,5 +1,5 @@
 // Reads by how much an earlier run found the photos and cameras to be off, for callers that read the photos
-// again: exposure by photo, gain, vignetting and response by camera (inverse/observe/self_calibration.h).
+// again: exposure by photo, gain, vignetting and response by camera (inverse/observe/camera/self_calibration.h).
 //
 // The corrections (calib/luminance/luminance.h) come from OUT/stages/observe.json. Where the run chose "as
 // recorded", only the gains of its cameras are corrected. Exposures of photos that were not in that run are

@@ -20,7 +20,7 @@
 #include "apps/session/session_scene.h"
 #include "apps/text/formats/toml_reader.h"
 #include "apps/text/suggest.h"
-#include "forward/room/mesh_files.h"
+#include "forward/mesh/mesh_files.h"
 
 namespace luxfit {
 namespace fs = std::filesystem;

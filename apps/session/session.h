@@ -21,12 +21,12 @@
 #include "calib/lens/lens_family.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
+#include "forward/changes/frame_mistakes.h"
+#include "forward/changes/painted_rectangles.h"
+#include "forward/changes/pieces.h"
+#include "forward/changes/plane_moves.h"
 #include "forward/direct/sensor.h"
-#include "forward/room/frame_mistakes.h"
-#include "forward/room/outline.h"
-#include "forward/room/painted_rectangles.h"
-#include "forward/room/pieces.h"
-#include "forward/room/plane_moves.h"
+#include "forward/mesh/outline.h"
 
 namespace luxfit {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/session/photo_names.h"
+#include "apps/session/photos/photo_names.h"
 #include "apps/session/session.h"
 #include "calib/luminance/exposure.h"
-#include "calib/luminance/tone_mapped.h"
+#include "calib/photo_files/tone_mapped.h"
 
 namespace luxfit {
 

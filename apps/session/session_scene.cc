@@ -11,6 +11,7 @@
 #include "apps/session/session_files.h"
 #include "apps/session/tag_map.h"
 #include "apps/text/suggest.h"
+#include "forward/mesh/mesh_file.h"
 
 namespace luxfit {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/text/formats/json_vectors.h"
-#include "forward/room/named_planes.h"
+#include "forward/mesh/named_planes.h"
 #include "inverse/albedo/paint_segments.h"
 
 namespace luxfit {

@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/stages/check/session_check.h"
 #include "apps/stages/linearize/linearize.h"
 #include "apps/stages/linearize/linearized_json.h"
 #include "apps/stages/linearize/photo_store.h"
 #include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/observe/observations_json.h"
 #include "apps/stages/register/registration_json.h"
-#include "apps/stages/session_check.h"
 #include "apps/stages/stage_cache.h"
 #include "apps/text/formats/artifact.h"
 #include "inverse/check/luxmeter_check.h"

@@ -17,7 +17,7 @@
 
 #include "apps/stages/stage_inputs.h"
 #include "apps/stages/stages.h"
-#include "inverse/observe/mesh_as_if.h"
+#include "inverse/observe/as_if/mesh_as_if.h"
 #include "inverse/study/stability_score.h"
 
 namespace luxfit {

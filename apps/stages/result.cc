@@ -4,9 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/stages/check_report.h"
-#include "apps/stages/check_warnings.h"
-#include "apps/stages/explain_check.h"
+#include "apps/stages/check/check_report.h"
+#include "apps/stages/check/check_warnings.h"
+#include "apps/stages/check/explain_check.h"
 #include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/found_furniture.h"
 #include "apps/stages/paint_surfaces.h"

@@ -10,7 +10,7 @@
 
 #include "apps/stages/register/view_tags.h"
 #include "apps/text/formats/artifact.h"
-#include "forward/room/mesh_files.h"
+#include "forward/mesh/mesh_files.h"
 
 namespace luxfit {
 namespace {

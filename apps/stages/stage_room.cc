@@ -10,12 +10,12 @@
 #include "apps/text/seconds.h"
 #include "apps/text/suggest.h"
 #include "apps/text/terminal.h"
-#include "forward/room/mesh_check.h"
-#include "forward/room/named_planes.h"
+#include "forward/mesh/mesh_check.h"
+#include "forward/mesh/named_planes.h"
+#include "forward/mesh/planes.h"
 #include "forward/room/patches.h"
-#include "forward/room/planes.h"
 #include "forward/room/scene.h"
-#include "inverse/observe/mesh_as_if.h"
+#include "inverse/observe/as_if/mesh_as_if.h"
 
 namespace luxfit {
 namespace {

@@ -28,7 +28,7 @@
 #include "calib/luminance/luminance.h"
 #include "calib/register/registration.h"
 #include "forward/light/room.h"
-#include "forward/room/mesh_check.h"
+#include "forward/mesh/mesh_check.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/observe/evidence.h"
 
@@ -94,7 +94,7 @@ void WarnOfUnknownMaterials(const Session& session, const std::vector<std::strin
                             RunContext& context);
 
 // Returns the material that says nothing of paints, so that its planes get materials of their own: the only one of the mesh, where
-// [scene] says neither its reflectance nor materials = "given". Empty: none. See forward/room/named_planes.h.
+// [scene] says neither its reflectance nor materials = "given". Empty: none. See forward/mesh/named_planes.h.
 std::string MaterialWithoutPaints(const SessionScene& scene, const Scene& mesh);
 
 // Returns that room with its form factors; an empty room where the session has no [scene].

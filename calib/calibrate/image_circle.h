@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "calib/luminance/colour_profile.h"
-#include "calib/luminance/internal/raw_photo.h"
+#include "calib/photo_files/internal/raw_photo.h"
 
 namespace luxfit {
 

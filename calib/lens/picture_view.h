@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

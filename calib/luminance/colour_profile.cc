@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
-#include "calib/luminance/internal/exif.h"
-#include "calib/luminance/internal/heif_photo.h"
+#include "calib/photo_files/internal/exif.h"
+#include "calib/photo_files/internal/heif_photo.h"
 
 namespace luxfit {
 namespace {

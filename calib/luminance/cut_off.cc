@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <map>
 
-#include "calib/luminance/internal/raw_photo.h"
 #include "calib/luminance/luminance.h"
 #include "calib/luminance/median.h"
+#include "calib/photo_files/internal/raw_photo.h"
 
 namespace luxfit {
 namespace {

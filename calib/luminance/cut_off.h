@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <initializer_list>
 
-#include "calib/luminance/internal/exif.h"
+#include "calib/photo_files/internal/exif.h"
 
 namespace luxfit {
 namespace {

@@ -19,9 +19,9 @@
 #include <optional>
 #include <vector>
 
-#include "calib/luminance/image.h"
 #include "calib/luminance/response.h"
 #include "calib/luminance/vignetting.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

@@ -26,7 +26,7 @@
 // wrong, but a sticker lies on its wall: along the surface's normal n the given sigma holds, in the plane the
 // larger one,
 //   |d_t|^2 / survey_sigma^2  becomes  |(I - n n^T) d_t|^2 / survey_sigma^2 + (n . d_t)^2 / given_sigma^2
-// (calib/register/internal/survey_on_surfaces.h). So the frame is held by the scene, not by the survey.
+// (calib/register/internal/survey/survey_on_surfaces.h). So the frame is held by the scene, not by the survey.
 //
 // Focal lengths that surveyed tags contradict (4 sigma and a thousandth) are replaced by those that the tags
 // show: `focal_scale`, calib/register/internal/focal_check.h. The poses' covariance then holds their

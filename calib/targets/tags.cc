@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "calib/luminance/internal/display_image.h"
 #include "calib/luminance/median.h"
+#include "calib/photo_files/internal/display_image.h"
 #include "calib/targets/internal/tags/tag_family.h"
 
 namespace luxfit {

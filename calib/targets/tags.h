@@ -35,8 +35,8 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

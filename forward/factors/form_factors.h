@@ -40,7 +40,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/room/mesh_check.h"
+#include "forward/mesh/mesh_check.h"
 #include "forward/room/patches.h"
 #include "forward/room/visibility.h"
 

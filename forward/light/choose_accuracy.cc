@@ -9,7 +9,7 @@
 
 #include "forward/light/internal/adaptive_patches.h"
 #include "forward/light/internal/room_again.h"
-#include "forward/room/planes.h"
+#include "forward/mesh/planes.h"
 
 namespace luxfit {
 namespace {

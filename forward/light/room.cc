@@ -11,10 +11,10 @@
 #include "forward/light/internal/clustered_room.h"
 #include "forward/light/internal/room_again.h"
 #include "forward/luminaire/internal/expect_luminaire.h"
+#include "forward/mesh/mesh_check.h"
+#include "forward/mesh/named_planes.h"
 #include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/room/internal/expect_valid.h"
-#include "forward/room/mesh_check.h"
-#include "forward/room/named_planes.h"
 
 namespace luxfit {
 namespace {

@@ -20,9 +20,9 @@
 #include "forward/direct/sensor.h"
 #include "forward/factors/form_factors.h"
 #include "forward/luminaire/luminaire.h"
+#include "forward/mesh/planes.h"
 #include "forward/radiosity/transport.h"
 #include "forward/room/patches.h"
-#include "forward/room/planes.h"
 #include "forward/room/scene.h"
 #include "forward/room/visibility.h"
 

@@ -1,24 +1,11 @@
-// Describes the room's geometry: planar facets, each of one material. Reads it from OBJ, PLY and glTF/GLB
-// files.
+// Describes the room's geometry: planar facets, each of one material. forward/mesh reads it from files.
 //
 //   p(u, v) = origin + u edge_u + v edge_v,   parallelogram: u, v in [0, 1];   triangle: also u + v <= 1
 //
 // Metres, world frame (right-handed, z up). The front of a facet is the side that its normal points to:
-// normal = edge_u x edge_v / |edge_u x edge_v|. The front reflects; both sides block light. Rectangles of a
-// file stay whole; every other polygon becomes triangles.
+// normal = edge_u x edge_v / |edge_u x edge_v|. The front reflects; both sides block light.
 //
-// Files: lengths are multiplied by metres_per_unit. OBJ and PLY do not state their axes and are read as z up.
-// glTF is y up: its (x, y, z) becomes (x, -z, y). Materials are those that the file names (OBJ usemtl). A
-// surface without one has the material "DefaultMaterial"; material number N of a glTF file without a name is
-// "material_N". FacetsFromPolygon makes facets of polygons. Polygons without area are left out and counted.
-//
-// Reading throws std::runtime_error("FILE:LINE: expected ..., got ...; remedy") for a file that cannot be read
-// or is truncated, has an index out of range or a coordinate that is no number. It also throws for a mesh more
-// than 100 km from the origin, faces of more than 1024 corners, or no facet with an area. Messages give no
-// line for binary files and the JSON pointer for glTF. A glTF file is also refused for features that are not
-// read: extensions that move surfaces, sparse accessors, skins, morph targets, more than four million
-// triangles.
-// Source of the readers: see forward/room/internal/polygon_mesh.h.
+// FacetsFromPolygon makes facets of polygons, rectangles as one parallelogram each.
 #ifndef LUXFIT_FORWARD_ROOM_SCENE_H_
 #define LUXFIT_FORWARD_ROOM_SCENE_H_
 
@@ -26,7 +13,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace luxfit {
@@ -60,7 +46,7 @@ struct SurfaceTriangle {
 struct Scene {
   std::vector<std::string> materials;
   std::vector<Facet> facets;
-  // Empty: facets are surface all over. Else they are surface only where these triangles lie (forward/room/planes.h).
+  // Empty: facets are surface all over. Else they are surface only where these triangles lie (forward/mesh/planes.h).
   std::vector<SurfaceTriangle> surface;
   int dropped_facets = 0;  // left out because they have no area
 
@@ -72,13 +58,6 @@ struct Scene {
 
 // The material of surfaces to which a file gives none.
 constexpr char kDefaultMaterial[] = "DefaultMaterial";
-
-Scene ReadScene(const std::string& path, double metres_per_unit = 1.0);
-
-// Reads a mesh that is a single file from memory; messages call it `name`. kGltf: text or GLB.
-enum class MeshFormat { kObj, kPly, kGltf };
-Scene ParseScene(std::string_view bytes, MeshFormat format, const std::string& name,
-                 double metres_per_unit = 1.0);
 
 // Returns a planar polygon (counter-clockwise seen from its front, convex or not) as one parallelogram or
 // several triangles. Triangles without area are left out, so the list may be empty.

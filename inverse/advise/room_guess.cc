@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "forward/room/in_room.h"
-#include "inverse/model/internal/known_parameters.h"
+#include "inverse/model/internal/intervals/known_parameters.h"
 
 namespace luxfit {
 namespace {

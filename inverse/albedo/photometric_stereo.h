@@ -37,8 +37,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
+#include "calib/photo_files/image.h"
 #include "inverse/albedo/reflectance_curve.h"
 
 namespace luxfit {

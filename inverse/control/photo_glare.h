@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "inverse/observe/observe.h"
 
 namespace luxfit {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "inverse/observe/observe.h"
 
 namespace luxfit {

@@ -1,5 +1,5 @@
 #include "inverse/fit/fit_room.h"
-#include "inverse/fit/internal/early_stop.h"
+#include "inverse/fit/internal/judge/early_stop.h"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "inverse/model/internal/indirect_error.h"
-#include "inverse/model/internal/row_block.h"
+#include "inverse/model/internal/blocks/row_block.h"
+#include "inverse/model/internal/weights/indirect_error.h"
 
 namespace luxfit {
 namespace {

@@ -10,34 +10,31 @@
 
 #include "forward/luminaire/photometry.h"
 #include "inverse/albedo/internal/albedo_rgb.h"
-#include "inverse/choose/internal/choose_bodies.h"
-#include "inverse/choose/internal/choose_colour.h"
 #include "inverse/choose/internal/choose_model.h"
 #include "inverse/choose/internal/contradiction.h"
-#include "inverse/choose/internal/enough_rows.h"
+#include "inverse/choose/internal/detail/scene_detail.h"
 #include "inverse/choose/internal/luminaire_types.h"
-#include "inverse/choose/internal/needless_parameters.h"
 #include "inverse/choose/internal/profile_direct_share.h"
-#include "inverse/choose/internal/scene_detail.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/choose/internal/two_sides.h"
-#include "inverse/fit/internal/compare_starts_again.h"
 #include "inverse/fit/internal/detail_words.h"
-#include "inverse/fit/internal/early_stop.h"
 #include "inverse/fit/internal/fit_as_given.h"
+#include "inverse/fit/internal/fit_whole.h"
 #include "inverse/fit/internal/indirect_albedo.h"
+#include "inverse/fit/internal/judge/compare_starts_again.h"
+#include "inverse/fit/internal/judge/early_stop.h"
+#include "inverse/fit/internal/judge/misfit.h"
+#include "inverse/fit/internal/judge/odd_luminaires.h"
+#include "inverse/fit/internal/judge/predict_readings.h"
+#include "inverse/fit/internal/judge/type_fluxes.h"
+#include "inverse/fit/internal/judge/unmodelled.h"
 #include "inverse/fit/internal/light_colours.h"
 #include "inverse/fit/internal/match_scale.h"
-#include "inverse/fit/internal/misfit.h"
 #include "inverse/fit/internal/name_in_order.h"
-#include "inverse/fit/internal/odd_luminaires.h"
 #include "inverse/fit/internal/outlines.h"
-#include "inverse/fit/internal/predict_readings.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
 #include "inverse/fit/internal/surface_texture.h"
-#include "inverse/fit/internal/type_fluxes.h"
-#include "inverse/fit/internal/unmodelled.h"
 #include "inverse/fit/internal/words.h"
 #include "inverse/model/internal/measured_indirect.h"
 
@@ -93,7 +90,7 @@ class RoomFitter {
       LightState state = StartByParts();
       SettleScale(state);
       best_ = state;
-      fit = FitToAll(state);
+      fit = Refine(state);
     } catch (const FitStopped& stop) {
       result_.stopped = EarlyStop{stop.what(), step_};
       WarnOfStop(*result_.stopped, result_.findings);
@@ -113,7 +110,11 @@ class RoomFitter {
     }
     result_.data.checkpoint = nullptr;
     result_.data.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
-    FitLuminairesOptions options = OfPart();
+    FitLuminairesOptions options;
+    options.on_round = KeepBest();
+    options.subtracts_discretisation = false;
+    options.steps_by_direct_light = !result_.data.observations.empty();
+    options.has_texture = is_textured_;
     options.max_outer_iterations = 0;
     options.start_is_near = true;
     return FitLuminaires(room_, result_.data, best_, Priors(), options);
@@ -284,129 +285,13 @@ class RoomFitter {
     RecordColours(given_, room_, AddColours(room_, given_, light_.balance, fit, result_), result_.findings);
   }
 
-  // Turns a luminaire into a point where its size has shrunk to nothing.
-  LightState WithoutVanishedSizes(LightState state) {
-    for (size_t k = 0; k < state.luminaires.size(); ++k) {
-      Luminaire& luminaire = state.luminaires[k];
-      if (!state.free[k].size || !HasVanished(luminaire)) continue;
-      result_.findings.choices.push_back(
-          {"shape of " + luminaire.id,
-           "point",
-           {ToString(luminaire.shape), "point"},
-           "its size shrank to nothing in the fit of all luminaires together"});
-      luminaire.shape = LuminaireShape::kPoint;
-      luminaire.size_m.setZero();
-      state.free[k].size = false;
-    }
-    return state;
-  }
-
-  // Fits the whole problem: to a part of the elements until nothing moves, then to as many as the answer needs.
-  LuminaireFit FitToAll(const LightState& start) {
+  LuminaireFit Refine(const LightState& start) {
     const auto step = Begin("refine", "the whole problem, interreflection solved");
-    LightData part = result_.data;
-    part.observations = ThinElements(result_.data.observations, options_.max_elements_to_choose);
-    LuminaireFit near = FitFromModels(part, WithSeenSizes(open_, part.outlines, start, result_.findings));
-    if (near.status == FitStatus::kNoData) return near;
-    near = WithSeenRectangles(part, std::move(near));
-    near = WithoutUnexplained(part, std::move(near));
-    near = WithoutNeedless(part, std::move(near));
-    near = WithOneOfLikeTypes(part, std::move(near));
-    const ColourChoice colour =
-        ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), Priors());
-    RecordTransportColour(colour, result_.findings);
-    const BodyChoice bodies = ChooseBodies(room_, part, colour.fit, Priors());
-    RecordBodies(bodies, result_.findings);
-    FitLuminairesOptions options;
-    options.on_round = KeepBest();
-    options.start_is_near = true;
-    options.has_texture = is_textured_;
-    options.initial_relative_sigma = bodies.relative_sigma;
-    options.photo_design_effect = colour.fit.photo_design_effect;
-    options.frozen = colour.fit.frozen;
-    EnoughRows enough = FitToEnoughRows(room_, result_.data, bodies.state, Priors(),
-                                        options_.max_elements_to_choose, options);
-    result_.data.observations = std::move(enough.observations);
-    taken_ = std::move(enough.taken);
-    return std::move(enough.fit);
-  }
-
-  // Fits from the chosen models, each of which was fitted with the others and the indirect light held. Where that light
-  // was wrong, the start is as far as a rough one: rows that disagree with it would lose their weight for good.
-  LuminaireFit FitFromModels(const LightData& part, const LightState& chosen) {
-    FitLuminairesOptions options = OfPart();
-    options.start_is_near = true;
-    LuminaireFit fit = FitLuminaires(room_, part, chosen, Priors(), options);
-    if (fit.relative_sigma <= options.initial_relative_sigma) return fit;
-    options.start_is_near = false;
-    return FitLuminaires(room_, part, chosen, Priors(), options);
-  }
-
-  // Merges types that the fit does not tell apart.
-  LuminaireFit WithOneOfLikeTypes(const LightData& part, LuminaireFit fit) {
-    TypedState typed = WithMergedTypes(fit, open_);
-    RecordTypes(typed, result_.findings);
-    if (typed.merged.empty() && typed.turned_alike.empty()) return fit;
-    return FitLuminaires(room_, part, typed.state, Priors(), OfPart(&fit));
-  }
-
-  // Lets photos tell squares from discs where the light did not.
-  LuminaireFit WithSeenRectangles(const LightData& part, LuminaireFit fit) {
-    const std::optional<LightState> rectangles = WithRectangles(open_, part, fit);
-    if (!rectangles) return fit;
-    LuminaireFit squared = FitLuminaires(room_, part, *rectangles, Priors(), OfPart(&fit));
-    const LightState kept = WithExplainedRectangles(part, fit, squared, result_.findings);
-    const auto is_alike = [](const Luminaire& a, const Luminaire& b) { return a.shape == b.shape; };
-    if (std::equal(kept.luminaires.begin(), kept.luminaires.end(), rectangles->luminaires.begin(), is_alike))
-      return squared;
-    return FitLuminaires(room_, part, kept, Priors(), OfPart(&fit));
-  }
-
-  // Takes outlines that the fit does not explain out of the data, and fits again without them.
-  LuminaireFit WithoutUnexplained(LightData& part, LuminaireFit fit) {
-    result_.data.outlines = ExplainedOutlines(given_, part, fit, result_.findings);
-    if (result_.data.outlines.size() == part.outlines.size()) return fit;
-    part.outlines = result_.data.outlines;
-    return FitLuminaires(room_, part, fit.state, Priors(), OfPart(&fit));
-  }
-
-  // `near`: a fit to the same part, from which the fit starts.
-  FitLuminairesOptions OfPart(const LuminaireFit* near = nullptr) {
-    FitLuminairesOptions options;
-    options.on_round = KeepBest();
-    options.subtracts_discretisation = false;
-    options.steps_by_direct_light = !result_.data.observations.empty();
-    options.has_texture = is_textured_;
-    if (near == nullptr) return options;
-    options.start_is_near = true;
-    options.initial_relative_sigma = near->relative_sigma;
-    options.photo_design_effect = near->photo_design_effect;
-    options.frozen = near->frozen;
-    return options;
-  }
-
-  // Fits again without what the fit does not tell from its simplest value. A narrow lobe and a small opening are alike:
-  // where either is needless beside the other, the one without which more light is explained goes.
-  LuminaireFit WithoutNeedless(const LightData& part, LuminaireFit fit) {
-    const SimplifiedState simplified = WithoutNeedlessParameters(fit, open_, held_);
-    const auto fitted = [&](const SimplifiedState& s) {
-      return FitLuminaires(room_, part, WithSidesAlike(s.state, open_), Priors(), OfPart(&fit));
-    };
-    if (simplified.needless.empty()) {
-      fit.state = WithoutVanishedSizes(fit.state);
-      return fit;
-    }
-    LuminaireFit simple = fitted(simplified);
-    if (const auto other = WithOtherPoints(fit, open_, held_, simplified)) {
-      LuminaireFit with_points = fitted(*other);
-      if (with_points.relative_sigma < simple.relative_sigma) {
-        RecordNeedless(given_, other->needless, result_.findings);
-        return WithoutNeedless(part, std::move(with_points));
-      }
-    }
-    RecordNeedless(given_, simplified.needless, result_.findings);
-    simple.state = WithoutVanishedSizes(simple.state);
-    return simple;
+    const WholeProblem problem = {
+        open_, held_, is_textured_, options_.max_elements_to_choose, [this] { return Priors(); }, KeepBest()};
+    WholeFit whole = FitWhole(room_, given_, start, problem, result_.data, result_.findings);
+    taken_ = std::move(whole.taken);
+    return std::move(whole.fit);
   }
 
   // Returns which refinements of the luminaire's simple model are open.

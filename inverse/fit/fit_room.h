@@ -83,7 +83,7 @@ struct DeviatingFlux {
   double z = 0;      // of its logarithm, by the type's spread, what makers allow and its own sigma
 };
 
-// Holds luminaires that are alike but for place and flux (inverse/fit/internal/type_fluxes.h).
+// Holds luminaires that are alike but for place and flux (inverse/fit/internal/judge/type_fluxes.h).
 struct LuminaireType {
   std::vector<int> luminaires;  // two and more
   double flux = 0;              // median; in lm where the fit is absolute
@@ -105,7 +105,7 @@ struct RoomFit {
   std::vector<LuminaireType> types;
   std::vector<AmbiguousPlace> ambiguous;
   Eigen::Matrix3Xd albedo_rgb;  // by material; NaN where not estimated
-  // By luminaire, relative to their mean (inverse/choose/internal/colour_detail.h). Empty where all have
+  // By luminaire, relative to their mean (inverse/choose/internal/detail/colour_detail.h). Empty where all have
   // one colour.
   Eigen::Matrix3Xd tint_rgb;
   Eigen::Matrix3Xd tint_rgb_sigma;  // relative

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "inverse/fit/fit_room.h"
-#include "inverse/fit/internal/contradicted_given.h"
 #include "inverse/fit/internal/expect_whole.h"
 #include "inverse/fit/internal/fit_as_given.h"
+#include "inverse/fit/internal/judge/contradicted_given.h"
 
 namespace luxfit {
 namespace {

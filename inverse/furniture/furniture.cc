@@ -7,10 +7,10 @@
 #include <cmath>
 #include <optional>
 
-#include "inverse/furniture/internal/face.h"
+#include "inverse/furniture/internal/faces/face.h"
+#include "inverse/furniture/internal/faces/refine_face.h"
+#include "inverse/furniture/internal/faces/solid_box.h"
 #include "inverse/furniture/internal/mesh_agreement.h"
-#include "inverse/furniture/internal/refine_face.h"
-#include "inverse/furniture/internal/solid_box.h"
 #include "inverse/furniture/internal/view_rays.h"
 
 namespace luxfit {

@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "forward/room/outline.h"
+#include "forward/mesh/outline.h"
 #include "forward/room/scene.h"
 #include "inverse/furniture/signature_view.h"
 

@@ -4,7 +4,7 @@
 //   its new place = argmax over shifts d along the floor of (cells that views agree on - cells where they see something
 //                   else), near boxes that views show in the mesh without the piece
 //
-// A piece is facets off the room's bounding box, joined (forward/room/pieces.h). It keeps its faces, its turn and its
+// A piece is facets off the room's bounding box, joined (forward/changes/pieces.h). It keeps its faces, its turn and its
 // material where it moved.
 //
 // Metres, world frame. Pieces that mirror, flat ones on walls, and what fewer than three views see, stay where they are.
@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/room/pieces.h"
+#include "forward/changes/pieces.h"
 #include "forward/room/scene.h"
 #include "inverse/furniture/furniture.h"
 #include "inverse/furniture/signature_view.h"

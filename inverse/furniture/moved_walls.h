@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "calib/targets/tags.h"
-#include "forward/room/plane_moves.h"
+#include "forward/changes/plane_moves.h"
 #include "forward/room/scene.h"
 #include "inverse/furniture/signature_view.h"
 

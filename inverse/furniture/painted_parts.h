@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/room/painted_rectangles.h"
+#include "forward/changes/painted_rectangles.h"
 #include "forward/room/scene.h"
 #include "inverse/furniture/signature_view.h"
 

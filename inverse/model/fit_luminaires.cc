@@ -7,14 +7,14 @@
 #include <tuple>
 #include <utility>
 
-#include "inverse/model/internal/fit_covariance.h"
 #include "inverse/model/internal/frozen_problem.h"
-#include "inverse/model/internal/indirect_error.h"
+#include "inverse/model/internal/intervals/fit_covariance.h"
+#include "inverse/model/internal/intervals/null_direction.h"
 #include "inverse/model/internal/light_model.h"
-#include "inverse/model/internal/null_direction.h"
 #include "inverse/model/internal/part_smoothness.h"
-#include "inverse/model/internal/row_weights.h"
-#include "inverse/model/internal/shared_errors.h"
+#include "inverse/model/internal/weights/indirect_error.h"
+#include "inverse/model/internal/weights/row_weights.h"
+#include "inverse/model/internal/weights/shared_errors.h"
 
 namespace luxfit {
 namespace {

@@ -8,7 +8,7 @@
 // - the model error f, a relative error common to all observations, estimated from the residuals' median
 //   absolute deviation;
 // - the texture t of elements, which all states share and which the fit eliminates, with a variance for each
-//   material (inverse/model/internal/element_texture.h).
+//   material (inverse/model/internal/weights/element_texture.h).
 // Errors of camera poses are eliminated likewise, from the rows of outlines.
 // Rows that a shadow edge or a point's horizon (internal/point_horizon.h) crosses are left out: they are not smooth.
 //
@@ -21,13 +21,13 @@
 // Covariance: residuals of neighbouring elements share their model error, so they are not independent. The
 // estimate is cluster-robust ("sandwich"), with one cluster for each facet and state, or for each facet, whichever
 // gives the larger variance. Each cluster is judged by a fit without it. Few clusters enlarge sigma as Student's
-// t does: 1.96 sigma is the 95 % interval (inverse/model/internal/fit_covariance.h). A bootstrap over the same
-// clusters checks it: the larger variance counts (inverse/model/internal/cluster_bootstrap.h).
+// t does: 1.96 sigma is the 95 % interval (inverse/model/internal/intervals/fit_covariance.h). A bootstrap over the same
+// clusters checks it: the larger variance counts (inverse/model/internal/intervals/cluster_bootstrap.h).
 // - It contains noise, errors that differ between facets or states (model, poses, mesh, reflectance of a facet),
 //   and the readings', outlines' and priors' sigmas. It also contains a third of the error by the size of
 //   elements and patches.
 // - Where a reflectance is free that only indirect light tells, it contains what the surfaces lack of being even
-//   and diffuse (inverse/model/internal/indirect_error.h).
+//   and diffuse (inverse/model/internal/weights/indirect_error.h).
 // - It does not contain a model error that is the same everywhere.
 //
 // A direction of parameters that the data leave undetermined (singular value below 1e-5 of the largest, after
@@ -80,7 +80,7 @@ struct FitLuminairesOptions {
   bool covariance = true;
   // Whether a fit with a covariance subtracts what the size of elements and patches leaves out.
   bool subtracts_discretisation = true;
-  // Whether elements may depart from their material (inverse/model/internal/element_texture.h). Far from the
+  // Whether elements may depart from their material (inverse/model/internal/weights/element_texture.h). Far from the
   // truth, what all states miss alike is the luminaires' fault.
   bool has_texture = true;
   // Design effect of the photos' rows; 0: estimated by a fit with a covariance.
@@ -113,10 +113,10 @@ struct LuminaireFit {
   std::vector<ParameterId> at_bound;           // parameters that stopped at a bound
   Eigen::VectorXd predicted;                   // every row: observations, then readings
   Eigen::VectorXd weight;                      // robust weight of every row, 0: left out
-  // Hold the target of the last equations, and their root weights (inverse/model/internal/row_weights.h).
+  // Hold the target of the last equations, and their root weights (inverse/model/internal/weights/row_weights.h).
   Eigen::VectorXd target, root_weight;
   // Departure of the row's element from its material's reflectance, relative, and the sigma it was allowed; 0
-  // where there is none (inverse/model/internal/element_texture.h).
+  // where there is none (inverse/model/internal/weights/element_texture.h).
   Eigen::VectorXd texture, texture_sigma;
   Eigen::VectorXd material_texture_sigma;  // by material, 0: plain
   // Reflectance of patches over their material's, in the exchange of light; empty: 1.

@@ -10,7 +10,7 @@
 #include "forward/light/illuminance.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/model/internal/channel_transports.h"
-#include "inverse/model/internal/known_parameters.h"
+#include "inverse/model/internal/intervals/known_parameters.h"
 #include "inverse/model/internal/light_model.h"
 
 namespace luxfit {

@@ -7,8 +7,8 @@
 
 #include "calib/luminance/bright_blobs.h"
 #include "calib/luminance/surround.h"
+#include "inverse/observe/as_if/internal/explained_observations.h"
 #include "inverse/observe/internal/expect_known.h"
-#include "inverse/observe/internal/explained_observations.h"
 
 namespace luxfit {
 namespace {

@@ -1,7 +1,7 @@
 // Turns photos of registered views into the evidence that a fit starts from.
 //
 //   photos, poses -> luminance of every element, without ambient light, in one camera's unit
-//                 -> without the veil of a lens (inverse/observe/veiling_glare.h)
+//                 -> without the veil of a lens (inverse/observe/camera/veiling_glare.h)
 //                 -> photos of another state, or encoded, left out -> states explained -> exposures, vignetting, response corrected
 //                 -> places and outlines where luminaires show
 //
@@ -26,14 +26,14 @@
 #include "calib/register/registration.h"
 #include "calib/targets/tags.h"
 #include "forward/light/room.h"
+#include "inverse/observe/as_if/photos_as_if.h"
+#include "inverse/observe/as_if/states_as_if.h"
+#include "inverse/observe/camera/photo_radiometry.h"
+#include "inverse/observe/camera/tone_mapping.h"
+#include "inverse/observe/camera/veiling_glare.h"
 #include "inverse/observe/observe.h"
-#include "inverse/observe/photo_radiometry.h"
-#include "inverse/observe/photos_as_if.h"
 #include "inverse/observe/room_photos.h"
 #include "inverse/observe/seen_luminaires.h"
-#include "inverse/observe/states_as_if.h"
-#include "inverse/observe/tone_mapping.h"
-#include "inverse/observe/veiling_glare.h"
 
 namespace luxfit {
 

@@ -23,10 +23,10 @@
 #include "calib/targets/tags.h"
 #include "forward/light/room.h"
 #include "forward/room/scene.h"
+#include "inverse/observe/as_if/states_as_if.h"
 #include "inverse/observe/evidence.h"
 #include "inverse/observe/room_furniture.h"
 #include "inverse/observe/room_photos.h"
-#include "inverse/observe/states_as_if.h"
 
 namespace luxfit {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "forward/room/pieces.h"
+#include "forward/changes/pieces.h"
 
 namespace luxfit {
 namespace {

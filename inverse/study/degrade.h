@@ -40,7 +40,7 @@ int CountStates(const std::vector<Observation>& observations);
 
 std::vector<SurveyedTag> WithMovedTags(std::vector<SurveyedTag> survey, double sigma_m, std::mt19937_64& rng);
 
-// Returns the scene without `dropped` pieces of furniture (forward/room/pieces.h), drawn at random, and without materials that
+// Returns the scene without `dropped` pieces of furniture (forward/changes/pieces.h), drawn at random, and without materials that
 // then have no facet.
 Scene WithoutPieces(const Scene& scene, int dropped, std::mt19937_64& rng);
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "forward/factors/form_factors.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/internal/embree_queries.h"
 #include "forward/room/scene.h"
 #include "tests/paths.h"

@@ -12,6 +12,7 @@
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
 #include "forward/luminaire/luminaire_parts.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "tests/paths.h"
 

@@ -14,6 +14,7 @@
 
 #include "forward/factors/form_factors.h"
 #include "forward/light/room.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/radiosity/internal/sparse_transport.h"
 #include "forward/radiosity/solvers.h"
 #include "forward/room/scene.h"

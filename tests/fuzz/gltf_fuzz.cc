@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "tests/fuzz/use_scene.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "forward/room/mesh_check.h"
+#include "forward/mesh/mesh_check.h"
 #include "forward/room/patches.h"
 #include "forward/room/scene.h"
 #include "forward/room/visibility.h"

@@ -12,7 +12,7 @@ codes() { tr '\0' '\n' | grep -oE '"[a-z]+(_[a-z]+)*"$' | tr -d '"'; }
   grep -oh 'Warn("[a-z_]*"' -r apps inverse --include='*.cc' | codes
   grep -Pzoh '(-1|\bid),\s*"[a-z_]+"(?=,)' -r calib --include='*.cc' | codes
   grep -Pzoh 'notes\.push_back\(\s*\{"[a-z_]+"' -r calib --include='*.cc' | codes
-  sed -n '/^std::string ToString(MeshDefect/,/^}/p' forward/room/mesh_check.cc | grep -oE '"[a-z_]+"' | tr -d '"'
+  sed -n '/^std::string ToString(MeshDefect/,/^}/p' forward/mesh/mesh_check.cc | grep -oE '"[a-z_]+"' | tr -d '"'
 } | sort -u >"$work/made"
 sed -n 's/^### \([a-z_]*\)$/\1/p' docs/warnings.md | sort -u >"$work/documented"
 [ "$(wc -l <"$work/made")" -gt 50 ] || { echo "only $(wc -l <"$work/made") codes found: has their form changed?" >&2; exit 1; }

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
+#include "inverse/observe/as_if/states_as_if.h"
 #include "inverse/observe/room_photos.h"
-#include "inverse/observe/states_as_if.h"
 #include "tests/support/office_truth.h"
 
 namespace luxfit::support {

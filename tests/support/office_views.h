@@ -8,7 +8,7 @@
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
 #include "forward/light/room.h"
-#include "forward/room/outline.h"
+#include "forward/mesh/outline.h"
 #include "inverse/furniture/signature_view.h"
 #include "inverse/observe/observe_photos.h"
 #include "tests/support/office_photos.h"

@@ -14,6 +14,7 @@
 #include "forward/light/covered_surfaces.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "tests/support/office_truth.h"
 

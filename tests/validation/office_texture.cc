@@ -10,6 +10,7 @@
 
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/internal/sampling.h"
 
 namespace luxfit {

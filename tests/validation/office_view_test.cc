@@ -15,8 +15,9 @@
 #include <vector>
 
 #include "calib/lens/camera_file.h"
-#include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
+#include "calib/photo_files/image.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "forward/views/surface_view.h"
 #include "tests/paths.h"

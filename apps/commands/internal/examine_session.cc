@@ -14,7 +14,7 @@
 #include "apps/stages/calibrate/board_text.h"
 #include "apps/stages/calibrate/calibration_images.h"
 #include "apps/stages/calibrate/shown_board.h"
-#include "apps/stages/session_check.h"
+#include "apps/stages/check/session_check.h"
 #include "apps/stages/session_light.h"
 #include "apps/stages/simulate/given_luminaire.h"
 #include "apps/stages/stages.h"
@@ -22,8 +22,8 @@
 #include "apps/text/suggest.h"
 #include "calib/lens/camera_file.h"
 #include "calib/luminance/exposure.h"
-#include "calib/luminance/image.h"
-#include "calib/luminance/tone_mapped.h"
+#include "calib/photo_files/image.h"
+#include "calib/photo_files/tone_mapped.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "apps/commands/internal/photo_files.h"
-#include "apps/session/photo_groups.h"
-#include "apps/session/photo_look.h"
-#include "calib/luminance/image.h"
+#include "apps/session/photos/photo_groups.h"
+#include "apps/session/photos/photo_look.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {

@@ -1,7 +1,7 @@
 // Sets the photos of a drafted session: views, states, cameras and tags.
 //
-// Names tell views and states where they can (apps/session/photo_names.h). Otherwise what the photos show does
-// (apps/session/photo_groups.h).
+// Names tell views and states where they can (apps/session/photos/photo_names.h). Otherwise what the photos show does
+// (apps/session/photos/photo_groups.h).
 #ifndef LUXFIT_APPS_COMMANDS_INTERNAL_PHOTO_DRAFT_H_
 #define LUXFIT_APPS_COMMANDS_INTERNAL_PHOTO_DRAFT_H_
 

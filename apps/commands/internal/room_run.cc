@@ -15,7 +15,7 @@
 #include "apps/report/report.h"
 #include "apps/session/earlier_result.h"
 #include "apps/stages/albedo/stage_albedo.h"
-#include "apps/stages/applied_explanations.h"
+#include "apps/stages/check/applied_explanations.h"
 #include "apps/stages/fit_stop.h"
 #include "apps/stages/prepared_session.h"
 #include "apps/stages/session_light.h"

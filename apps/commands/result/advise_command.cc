@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "apps/charts/plan_svg.h"
-#include "apps/commands/internal/advice_given.h"
-#include "apps/commands/internal/advice_guess.h"
-#include "apps/commands/internal/advice_words.h"
+#include "apps/commands/internal/advise/advice_given.h"
+#include "apps/commands/internal/advise/advice_guess.h"
+#include "apps/commands/internal/advise/advice_words.h"
 #include "apps/session/earlier_result.h"
 #include "apps/text/formats/artifact.h"
 #include "apps/text/formats/json_vectors.h"

@@ -20,8 +20,9 @@ struct AdviseCommandOptions {
   std::string of;       // flux | position | readings | id of a luminaire; empty: flux and position
   std::string only;     // photos | readings; empty: both
   int top = 0;          // 0: 5 of a run, 12 of a session
-  std::string photo_table, reading_table;  // tables of candidates (apps/commands/internal/advice_given.h)
-  std::string plan;                        // path of the picture; empty: advise.svg in `out`
+  std::string photo_table,
+      reading_table;  // tables of candidates (apps/commands/internal/advise/advice_given.h)
+  std::string plan;   // path of the picture; empty: advise.svg in `out`
   std::string command_line;
   bool json = false;
 };

@@ -8,7 +8,7 @@
 
 #include "apps/stages/albedo/stereo_photos.h"
 #include "apps/text/formats/json_vectors.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 namespace {

@@ -12,7 +12,7 @@
 #include "apps/stages/calibrate/calibration_sets.h"
 #include "apps/text/file_stem.h"
 #include "calib/calibrate/rig_strain.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 

@@ -17,7 +17,7 @@
 #include "apps/session/session.h"
 #include "calib/calibrate/calibration_input.h"
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

@@ -10,7 +10,7 @@
 #include "apps/stages/calibrate/board_text.h"
 #include "apps/text/input_error.h"
 #include "apps/text/suggest.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/board_search.h"
 
 namespace luxfit {

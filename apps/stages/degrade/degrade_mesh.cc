@@ -1,5 +1,5 @@
 #include "apps/stages/degrade/degradation_rows.h"
-#include "forward/room/pieces.h"
+#include "forward/changes/pieces.h"
 #include "inverse/study/degrade.h"
 
 namespace luxfit {

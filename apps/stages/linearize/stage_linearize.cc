@@ -8,8 +8,8 @@
 #include "apps/stages/linearize/photo_store.h"
 #include "apps/stages/stages.h"
 #include "calib/luminance/bracket.h"
-#include "calib/luminance/lens_shading.h"
-#include "calib/luminance/tone_mapped.h"
+#include "calib/photo_files/lens_shading.h"
+#include "calib/photo_files/tone_mapped.h"
 
 namespace luxfit {
 namespace {

@@ -1,7 +1,7 @@
 // Says where the session describes its photos wrongly, before anything is corrected or fitted.
 //
-//   photos_as_if   a photo shows the light of another state, or is encoded (inverse/observe/photos_as_if.h)
-//   states_as_if   [states] says something else than the photos add up to (inverse/observe/states_as_if.h)
+//   photos_as_if   a photo shows the light of another state, or is encoded (inverse/observe/as_if/photos_as_if.h)
+//   states_as_if   [states] says something else than the photos add up to (inverse/observe/as_if/states_as_if.h)
 //
 // Both are warnings, `photos_as_if` and `states_as_if` in result.json. Where the table of states is explained, the result is
 // undetermined: nothing in it was changed.

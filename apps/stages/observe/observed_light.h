@@ -1,4 +1,4 @@
-// Says in words and JSON how photos were corrected by each other (inverse/observe/photo_radiometry.h).
+// Says in words and JSON how photos were corrected by each other (inverse/observe/camera/photo_radiometry.h).
 #ifndef LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
 #define LUXFIT_APPS_STAGES_OBSERVE_OBSERVED_LIGHT_H_
 
@@ -7,7 +7,7 @@
 
 #include "apps/stages/observe/photo_names.h"
 #include "apps/stages/stages.h"
-#include "inverse/observe/photo_radiometry.h"
+#include "inverse/observe/camera/photo_radiometry.h"
 
 namespace luxfit {
 

@@ -7,7 +7,7 @@
 #include "apps/stages/observe/explained_photos.h"
 #include "apps/stages/observe/observed_light.h"
 #include "apps/text/suggest.h"
-#include "calib/luminance/tone_mapped.h"
+#include "calib/photo_files/tone_mapped.h"
 
 namespace luxfit {
 namespace {

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/tags.h"
 
 namespace luxfit {

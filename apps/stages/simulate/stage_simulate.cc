@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/stages/check_report.h"
-#include "apps/stages/session_check.h"
+#include "apps/stages/check/check_report.h"
+#include "apps/stages/check/session_check.h"
 #include "apps/stages/simulate/accuracy_choices.h"
 #include "apps/stages/simulate/given_session.h"
 #include "apps/stages/stages.h"

@@ -11,7 +11,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

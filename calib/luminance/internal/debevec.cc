@@ -9,9 +9,6 @@
 namespace luxfit {
 namespace {
 
-// Least increase of ln f from one knot to the next, at which a curve is held where it would fall.
-constexpr double kLeastStep = 1e-5;
-
 // Rounds of reweighting: the weights need the slope of the curve that they produce.
 constexpr int kDebevecRounds = 3;
 
@@ -103,7 +100,7 @@ Eigen::VectorXd SolveMonotone(const NormalEquations& normal) {
     for (Eigen::Index k = 0; k < kResponseLevels; ++k) {
       const size_t i = static_cast<size_t>(k);
       if (k > 0 && held[i]) {
-        offset[k] = offset[k - 1] + kLeastStep;
+        offset[k] = offset[k - 1] + kLeastLogStep;
       } else {
         ++unknowns;
       }
@@ -129,7 +126,7 @@ Eigen::VectorXd SolveMonotone(const NormalEquations& normal) {
     for (Eigen::Index k = 0; k < kResponseLevels; ++k)
       curve[k] = solution[unknown_of[static_cast<size_t>(k)]] + offset[k];
     for (Eigen::Index k = 1; k < kResponseLevels; ++k) {
-      if (held[static_cast<size_t>(k)] || curve[k] - curve[k - 1] >= kLeastStep) continue;
+      if (held[static_cast<size_t>(k)] || curve[k] - curve[k - 1] >= kLeastLogStep) continue;
       held[static_cast<size_t>(k)] = changed = true;
     }
   }

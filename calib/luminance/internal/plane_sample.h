@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

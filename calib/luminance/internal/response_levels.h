@@ -11,6 +11,7 @@
 namespace luxfit {
 
 constexpr Eigen::Index kResponseLevels = 256;
+constexpr double kLeastLogStep = 1e-5;  // of ln f from one knot to the next
 
 // Holds the position of a count between two knots.
 struct LevelPosition {

@@ -10,8 +10,6 @@ namespace {
 
 constexpr int kMaxRobertsonIterations = 200;
 constexpr double kTolerance = 1e-4;  // relative change of f, root mean square
-// Least increase of ln f from one knot to the next.
-constexpr double kLeastStep = 1e-5;
 
 // Returns the paper's weight of a count: a Gaussian about half scale, shifted to 0 at both ends.
 double Certainty(double counts, double full_scale_counts) {
@@ -116,7 +114,7 @@ CameraResponse SolveRobertson(const std::vector<BracketSamples>& brackets, const
   std::array<Eigen::VectorXd, 3> curves;
   for (size_t c = 0; c < 3; ++c) {
     const Eigen::VectorXd curve = SolveChannel(EntriesOf(brackets, c, options));
-    curves[c] = Monotone(curve.array().log(), kLeastStep);
+    curves[c] = Monotone(curve.array().log(), kLeastLogStep);
   }
   return ResponseOf(std::move(curves), options.full_scale_counts);
 }

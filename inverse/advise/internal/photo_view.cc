@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "inverse/model/internal/outline_block.h"
+#include "inverse/model/internal/blocks/outline_block.h"
 #include "inverse/observe/observe.h"
 
 namespace luxfit {

@@ -3,7 +3,7 @@
 // An element shows where its centre lies in the picture with nothing between, its front faces the camera and its
 // image has as many pixels as an observation needs (inverse/observe/observe.h). An outline shows where the whole of a
 // shining luminaire does. A photo of a luminaire's outline has kOutlinePoints points on it, each with the sigma of
-// inverse/model/internal/outline_block.h, and a growth that all of them share.
+// inverse/model/internal/blocks/outline_block.h, and a growth that all of them share.
 //
 // Poses are taken as exact.
 #ifndef LUXFIT_INVERSE_ADVISE_INTERNAL_PHOTO_VIEW_H_

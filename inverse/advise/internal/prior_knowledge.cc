@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "inverse/model/internal/known_parameters.h"
+#include "inverse/model/internal/intervals/known_parameters.h"
 
 namespace luxfit {
 namespace {

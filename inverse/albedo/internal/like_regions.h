@@ -27,7 +27,7 @@ struct LikeRegionsOptions {
   double shared_sigma = 0;  // f
   double most_sigmas =
       3;  // hundreds of pairs are compared: fewer sigmas would tell some of them apart by chance
-  double least_m2 = 0.3;  // as planes that get a material of their own (forward/room/planes.h)
+  double least_m2 = 0.3;  // as planes that get a material of their own (forward/mesh/planes.h)
 };
 
 struct LikeRegions {

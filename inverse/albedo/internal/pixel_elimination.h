@@ -10,7 +10,7 @@
 // and a few damped steps for the others; what these leave, g_i still takes out to first order. This is
 // variable projection.
 //
-// No b has a prior, and its effects change with x. RowWhitening (inverse/model/internal/row_whitening.h)
+// No b has a prior, and its effects change with x. RowWhitening (inverse/model/internal/weights/row_whitening.h)
 // eliminates errors of known size from rows that are all kept. Here pixels are summed one by one, and only H,
 // g and b are stored.
 //

@@ -5,8 +5,8 @@
 #include <map>
 #include <numeric>
 
-#include "inverse/model/internal/outline_block.h"
-#include "inverse/model/internal/row_whitening.h"
+#include "inverse/model/internal/blocks/outline_block.h"
+#include "inverse/model/internal/weights/row_whitening.h"
 #include "inverse/select/internal/spatial_blocks.h"
 
 namespace luxfit {

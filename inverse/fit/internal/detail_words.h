@@ -2,8 +2,8 @@
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_DETAIL_WORDS_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_DETAIL_WORDS_H_
 
-#include "inverse/choose/internal/enough_rows.h"
-#include "inverse/choose/internal/scene_detail.h"
+#include "inverse/choose/internal/detail/enough_rows.h"
+#include "inverse/choose/internal/detail/scene_detail.h"
 #include "inverse/fit/fit_room.h"
 
 namespace luxfit {

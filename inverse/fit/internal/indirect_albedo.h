@@ -2,7 +2,7 @@
 // that it reflects among that of all other surfaces.
 //
 // Such a reflectance stands for all that the model lacks of indirect light (gloss, texture, geometry). Its sigma
-// holds that (inverse/model/internal/indirect_error.h), and the warning names it. Reflectances that are not
+// holds that (inverse/model/internal/weights/indirect_error.h), and the warning names it. Reflectances that are not
 // determined have other warnings.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_INDIRECT_ALBEDO_H_
 #define LUXFIT_INVERSE_FIT_INTERNAL_INDIRECT_ALBEDO_H_

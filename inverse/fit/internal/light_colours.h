@@ -1,7 +1,7 @@
 // Balances the channels of photos, and tells the colours of luminaires' light.
 //
 //   rgb'_c = rgb_c / w_c,     v'_c = v_c w_c                w: balance; v: weights of luminance, sum_c v_c w_c = 1
-//   L_kc = w_c l_c t_kc       l: light of neutral surfaces (inverse/choose/internal/colour_detail.h), t: tint of luminaire k
+//   L_kc = w_c l_c t_kc       l: light of neutral surfaces (inverse/choose/internal/detail/colour_detail.h), t: tint of luminaire k
 //
 // A sensor counts more green than red and blue in any light. Materials' colours, with which light is exchanged, are those in
 // balanced channels; luminance stays what it was. w_c is the middle half's mean of rgb_c / Y over surfaces that are stated to be neutral, else
@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 
-#include "inverse/choose/internal/colour_detail.h"
+#include "inverse/choose/internal/detail/colour_detail.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/fit/room_observations.h"
 

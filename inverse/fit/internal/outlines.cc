@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
-#include "inverse/model/internal/outline_block.h"
-#include "inverse/model/internal/row_block.h"
+#include "inverse/model/internal/blocks/outline_block.h"
+#include "inverse/model/internal/blocks/row_block.h"
 #include "inverse/observe/internal/angle.h"
 
 namespace luxfit {

@@ -3,7 +3,7 @@
 //   Y'_es = Y_es / (1 + t_e)
 //
 // A luminaire's model is judged in the states where it is on alone. There, an element's own reflectance and
-// its light are one; all states together tell them apart (inverse/model/internal/element_texture.h). t_e
+// its light are one; all states together tell them apart (inverse/model/internal/weights/element_texture.h). t_e
 // comes from a fit to all states with the simple models of the start. Only materials count whose t_e vary by
 // kTextured and more: less may as well be an error of these models.
 #ifndef LUXFIT_INVERSE_FIT_INTERNAL_SURFACE_TEXTURE_H_

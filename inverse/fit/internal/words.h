@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "inverse/choose/internal/choose_bodies.h"
-#include "inverse/choose/internal/choose_colour.h"
-#include "inverse/choose/internal/colour_detail.h"
 #include "inverse/choose/internal/contradiction.h"
+#include "inverse/choose/internal/detail/choose_bodies.h"
+#include "inverse/choose/internal/detail/choose_colour.h"
+#include "inverse/choose/internal/detail/colour_detail.h"
+#include "inverse/choose/internal/detail/needless_parameters.h"
 #include "inverse/choose/internal/luminaire_types.h"
-#include "inverse/choose/internal/needless_parameters.h"
 #include "inverse/choose/internal/several_starts.h"
 #include "inverse/fit/fit_room.h"
-#include "inverse/fit/internal/odd_luminaires.h"
+#include "inverse/fit/internal/judge/odd_luminaires.h"
 #include "inverse/model/internal/search/first_guess.h"
 
 namespace luxfit {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "forward/room/plane_moves.h"
+#include "forward/changes/plane_moves.h"
 
 namespace luxfit {
 namespace {

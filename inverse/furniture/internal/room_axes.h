@@ -12,7 +12,7 @@
 #include <complex>
 #include <vector>
 
-#include "forward/room/outline.h"
+#include "forward/mesh/outline.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {

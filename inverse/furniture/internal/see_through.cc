@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "forward/room/pieces.h"
+#include "forward/changes/pieces.h"
 #include "inverse/furniture/internal/cell_judge.h"
 #include "inverse/furniture/internal/piece_cells.h"
 

@@ -7,7 +7,7 @@
 #include "inverse/model/internal/frozen_problem.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
-#include "inverse/model/internal/row_weights.h"
+#include "inverse/model/internal/weights/row_weights.h"
 
 namespace luxfit {
 namespace {

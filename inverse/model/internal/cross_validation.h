@@ -23,7 +23,7 @@ struct LeftOutPrediction {
   Eigen::VectorXd value;          // each row, by the data of the other folds
   std::vector<bool> is_smooth;    // rows that no shadow edge crosses
   double relative_sigma = 1;      // model error of the fit
-  Eigen::VectorXd texture_sigma;  // by material (inverse/model/internal/element_texture.h)
+  Eigen::VectorXd texture_sigma;  // by material (inverse/model/internal/weights/element_texture.h)
 };
 
 // `fold_of_row`: the fold of every row of the light model, from 0.

@@ -18,7 +18,7 @@
 #include "inverse/model/internal/condensed_problem.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
-#include "inverse/model/internal/row_weights.h"
+#include "inverse/model/internal/weights/row_weights.h"
 
 namespace luxfit {
 

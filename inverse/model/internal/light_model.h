@@ -2,7 +2,7 @@
 //
 //   value_i = gain_i(theta) E_i(theta) + offset_i(theta),   E_i = h_i sum_k d_sk Phi_k E_ik(theta)
 //
-// Row i of a block of rows (inverse/model/internal/row_block.h) receives the illuminance E_i in state s.
+// Row i of a block of rows (inverse/model/internal/blocks/row_block.h) receives the illuminance E_i in state s.
 // d: dimming, Phi: flux, E_ik: illuminance per lumen (forward/light/illuminance.h). The block states gain
 // and offset. The gain of a photo's element is c rho / pi; that of a reading belongs to its meter and
 // sensor. h = (1 - a + rho_body b) k, all frozen with the visibility. 1 - a + rho_body b is what the
@@ -32,9 +32,9 @@
 #include "forward/light/covered_surfaces.h"
 #include "forward/light/illuminance.h"
 #include "forward/light/room.h"
+#include "inverse/model/internal/blocks/row_block.h"
 #include "inverse/model/internal/channel_transports.h"
 #include "inverse/model/internal/dimming_groups.h"
-#include "inverse/model/internal/row_block.h"
 #include "inverse/model/light_state.h"
 
 namespace luxfit {

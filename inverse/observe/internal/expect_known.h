@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
+#include "inverse/observe/as_if/states_as_if.h"
 #include "inverse/observe/room_photos.h"
-#include "inverse/observe/states_as_if.h"
 
 namespace luxfit {
 

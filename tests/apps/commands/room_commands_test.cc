@@ -12,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "tests/support/apps/office_copy.h"
 #include "tests/support/apps/program.h"

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/export/radiance_scene.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 
 namespace luxfit {

@@ -1,4 +1,4 @@
-#include "apps/session/internal/photo_groups/least_cost.h"
+#include "apps/session/photos/internal/least_cost.h"
 
 #include <gtest/gtest.h>
 

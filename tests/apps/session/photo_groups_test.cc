@@ -1,5 +1,5 @@
 // Photos of the office as phones name them: views, states and brackets by what the photos show.
-#include "apps/session/photo_groups.h"
+#include "apps/session/photos/photo_groups.h"
 
 #include <gmock/gmock.h>
 

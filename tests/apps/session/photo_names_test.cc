@@ -1,4 +1,4 @@
-#include "apps/session/photo_names.h"
+#include "apps/session/photos/photo_names.h"
 
 #include <gmock/gmock.h>
 

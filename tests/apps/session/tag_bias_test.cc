@@ -1,4 +1,4 @@
-#include "apps/session/internal/photo_groups/tag_bias.h"
+#include "apps/session/photos/internal/tag_bias.h"
 
 #include <gtest/gtest.h>
 

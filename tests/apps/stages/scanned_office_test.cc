@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "inverse/model/light_state.h"
 #include "tests/support/apps/office_copy.h"

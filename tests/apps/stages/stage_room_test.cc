@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "apps/session/session_scene.h"
-#include "apps/stages/session_check.h"
+#include "apps/stages/check/session_check.h"
 #include "apps/stages/stages.h"
+#include "forward/mesh/planes.h"
 #include "forward/room/patches.h"
-#include "forward/room/planes.h"
 #include "tests/paths.h"
 #include "tests/support/forward/scan_of.h"
 #include "tests/support/scenes.h"

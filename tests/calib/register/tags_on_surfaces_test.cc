@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/register/internal/tag_surfaces.h"
+#include "calib/register/internal/survey/tag_surfaces.h"
 #include "calib/register/registration.h"
 #include "tests/support/calib/feature_room.h"
 #include "tests/support/calib/position_sigmas.h"

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <string>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/board.h"
 #include "calib/targets/tags.h"
 

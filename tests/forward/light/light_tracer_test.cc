@@ -1,4 +1,5 @@
 #include "forward/light/light_tracer.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 
 #include "inverse/advise/candidates.h"
 #include "inverse/advise/internal/light_derivatives.h"
-#include "inverse/model/internal/known_parameters.h"
+#include "inverse/model/internal/intervals/known_parameters.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {

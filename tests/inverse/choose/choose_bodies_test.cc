@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/choose_bodies.h"
+#include "inverse/choose/internal/detail/choose_bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/enough_rows.h"
+#include "inverse/choose/internal/detail/enough_rows.h"
 
 #include <gtest/gtest.h>
 

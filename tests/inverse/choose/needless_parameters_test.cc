@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/needless_parameters.h"
+#include "inverse/choose/internal/detail/needless_parameters.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/choose/internal/scene_detail.h"
+#include "inverse/choose/internal/detail/scene_detail.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "inverse/choose/internal/colour_detail.h"
+#include "inverse/choose/internal/detail/colour_detail.h"
 #include "inverse/model/internal/light_model.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/inverse/cube_photos.h"

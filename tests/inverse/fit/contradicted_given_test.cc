@@ -1,4 +1,4 @@
-#include "inverse/fit/internal/contradicted_given.h"
+#include "inverse/fit/internal/judge/contradicted_given.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,6 +6,7 @@
 
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "inverse/fit/fit_room.h"
 #include "inverse/observe/observe_photos.h"

@@ -1,4 +1,4 @@
-#include "inverse/fit/internal/misfit.h"
+#include "inverse/fit/internal/judge/misfit.h"
 
 #include <gtest/gtest.h>
 

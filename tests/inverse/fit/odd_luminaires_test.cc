@@ -1,4 +1,4 @@
-#include "inverse/fit/internal/odd_luminaires.h"
+#include "inverse/fit/internal/judge/odd_luminaires.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/fit/internal/type_fluxes.h"
+#include "inverse/fit/internal/judge/type_fluxes.h"
 
 #include <gtest/gtest.h>
 

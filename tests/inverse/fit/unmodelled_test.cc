@@ -1,4 +1,4 @@
-#include "inverse/fit/internal/unmodelled.h"
+#include "inverse/fit/internal/judge/unmodelled.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/furniture/internal/largest_rectangle.h"
+#include "inverse/furniture/internal/faces/largest_rectangle.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "forward/mesh/mesh_file.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/office_views.h"
 #include "tests/support/scenes.h"

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "apps/session/tag_map.h"
-#include "forward/room/outline.h"
+#include "forward/mesh/mesh_file.h"
+#include "forward/mesh/outline.h"
 #include "inverse/furniture/internal/hull_planes.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/office_views.h"

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "forward/mesh/mesh_file.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/office_views.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "forward/room/pieces.h"
+#include "forward/changes/pieces.h"
 #include "inverse/furniture/internal/mesh_agreement.h"
 #include "tests/support/scenes.h"
 

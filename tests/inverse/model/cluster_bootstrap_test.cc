@@ -1,4 +1,4 @@
-#include "inverse/model/internal/cluster_bootstrap.h"
+#include "inverse/model/internal/intervals/cluster_bootstrap.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,4 +1,4 @@
-#include "inverse/model/internal/element_texture.h"
+#include "inverse/model/internal/weights/element_texture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/model/internal/fit_covariance.h"
+#include "inverse/model/internal/intervals/fit_covariance.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <random>
 
-#include "inverse/model/internal/cluster_bootstrap.h"
+#include "inverse/model/internal/intervals/cluster_bootstrap.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

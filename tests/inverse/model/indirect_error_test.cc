@@ -1,4 +1,4 @@
-#include "inverse/model/internal/indirect_error.h"
+#include "inverse/model/internal/weights/indirect_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/model/internal/null_direction.h"
+#include "inverse/model/internal/intervals/null_direction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

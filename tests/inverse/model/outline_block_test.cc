@@ -1,4 +1,4 @@
-#include "inverse/model/internal/outline_block.h"
+#include "inverse/model/internal/blocks/outline_block.h"
 
 #include <gtest/gtest.h>
 

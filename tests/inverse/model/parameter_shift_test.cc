@@ -1,4 +1,4 @@
-#include "inverse/model/internal/parameter_shift.h"
+#include "inverse/model/internal/intervals/parameter_shift.h"
 
 #include <gtest/gtest.h>
 

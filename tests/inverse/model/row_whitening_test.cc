@@ -1,4 +1,4 @@
-#include "inverse/model/internal/row_whitening.h"
+#include "inverse/model/internal/weights/row_whitening.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/observe/calibrated_observations.h"
+#include "inverse/observe/camera/calibrated_observations.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Lays the mesh of fixtures/office otherwise, while the photos, which an independent renderer made, show the room as it is.
 // Views have their true poses. Limits are 1.5 times what was measured.
-#include "inverse/observe/mesh_as_if.h"
+#include "inverse/observe/as_if/mesh_as_if.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "apps/session/tag_map.h"
-#include "forward/room/frame_mistakes.h"
-#include "forward/room/pieces.h"
-#include "forward/room/plane_moves.h"
+#include "forward/changes/frame_mistakes.h"
+#include "forward/changes/pieces.h"
+#include "forward/changes/plane_moves.h"
+#include "forward/mesh/mesh_file.h"
 #include "tests/support/office_truth.h"
 #include "tests/support/office_views.h"
 

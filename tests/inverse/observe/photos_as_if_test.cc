@@ -1,5 +1,5 @@
 // A matt ceiling of 400 elements under three luminaires of one height: closed forms, with 1 % of scatter between views.
-#include "inverse/observe/photos_as_if.h"
+#include "inverse/observe/as_if/photos_as_if.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/observe/self_calibration.h"
+#include "inverse/observe/camera/self_calibration.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "inverse/observe/internal/radiometry/photo_equations.h"
+#include "inverse/observe/camera/internal/radiometry/photo_equations.h"
 #include "tests/support/test_rng.h"
 
 namespace luxfit {

@@ -1,5 +1,5 @@
 // Three states of two luminaires over a wall, by closed forms: P, Q and both; a third, R, on the switch of Q where a test says so. Photos of four views, 0.3 % of noise.
-#include "inverse/observe/states_as_if.h"
+#include "inverse/observe/as_if/states_as_if.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,6 +13,7 @@
 #include "apps/session/tag_map.h"
 #include "calib/lens/camera_file.h"
 #include "forward/light/room.h"
+#include "forward/mesh/mesh_file.h"
 #include "forward/room/scene.h"
 #include "inverse/observe/observe_photos.h"
 #include "tests/support/local_tones.h"

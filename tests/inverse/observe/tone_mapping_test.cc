@@ -1,4 +1,4 @@
-#include "inverse/observe/tone_mapping.h"
+#include "inverse/observe/camera/tone_mapping.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "inverse/observe/veiling_glare.h"
+#include "inverse/observe/camera/veiling_glare.h"
 
 #include <gtest/gtest.h>
 

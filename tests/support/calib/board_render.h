@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "calib/lens/camera.h"
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/board.h"
 #include "tests/support/calib/blur.h"
 

@@ -12,7 +12,7 @@
 #include <functional>
 #include <random>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit::support {
 

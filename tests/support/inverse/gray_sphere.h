@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/luminance/image.h"
 #include "calib/luminance/luminance.h"
+#include "calib/photo_files/image.h"
 #include "inverse/albedo/photometric_stereo.h"
 
 namespace luxfit::support {

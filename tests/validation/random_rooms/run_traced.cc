@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "apps/stages/check_warnings.h"
-#include "apps/stages/explain_check.h"
+#include "apps/stages/check/check_warnings.h"
+#include "apps/stages/check/explain_check.h"
 #include "apps/stages/observe/explained_photos.h"
 #include "inverse/fit/explaining_light.h"
-#include "inverse/observe/internal/explained_observations.h"
+#include "inverse/observe/as_if/internal/explained_observations.h"
 #include "inverse/observe/state_conflicts.h"
 
 namespace luxfit {

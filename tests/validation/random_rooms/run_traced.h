@@ -1,6 +1,6 @@
 // Fits what photos and readings of a traced room tell, by the steps of `luxfit run` that begin at observations.
 //
-//   observations -> explained and corrected (inverse/observe/internal/explained_observations.h)
+//   observations -> explained and corrected (inverse/observe/as_if/internal/explained_observations.h)
 //                -> FitRoom -> states that photos contradict -> readings checked and explained
 //
 // The camera has no vignetting and a straight response, both known. No pictures exist: furniture is not looked for.
@@ -22,7 +22,7 @@ std::string PhotoName(int view, int state);
 std::string PlaceName(size_t reading);
 
 // Returns the fit with the warnings of all steps, in their order. `applies`: an explanation of the states or the readings that
-// stands alone is taken as right, as `luxfit run --apply` does (apps/stages/applied_explanations.h).
+// stands alone is taken as right, as `luxfit run --apply` does (apps/stages/check/applied_explanations.h).
 RoomFit RunTraced(const Room& model, RoomObservations given, bool applies);
 
 }  // namespace luxfit

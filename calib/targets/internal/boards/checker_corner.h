@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/internal/boards/saddle.h"
 
 namespace luxfit {

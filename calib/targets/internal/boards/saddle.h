@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "calib/luminance/internal/display_image.h"
+#include "calib/photo_files/internal/display_image.h"
 
 namespace luxfit {
 namespace {

@@ -10,7 +10,7 @@
 #include <opencv2/aruco.hpp>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 
 namespace luxfit {
 

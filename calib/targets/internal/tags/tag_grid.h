@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/internal/tags/tag_cells.h"
 
 namespace luxfit {

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "calib/luminance/image.h"
+#include "calib/photo_files/image.h"
 #include "calib/targets/internal/tags/tag_family.h"
 
 namespace luxfit {
