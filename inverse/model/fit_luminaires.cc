@@ -91,6 +91,7 @@ class OuterLoop {
   // Takes outer iterations until nothing moves. Returns whether that was reached.
   bool Settle(bool start_is_near) {
     bool settled = false;
+    Eigen::VectorXd last_step;
     ReflectDerivatives(!options_.steps_by_direct_light);
     for (int outer = 0; outer < options_.max_outer_iterations && !settled; ++outer) {
       if (data_.checkpoint) data_.checkpoint(data_.is_part);
@@ -108,12 +109,18 @@ class OuterLoop {
         solved_ = SolveFrozen(problem, InnerOptions(is_near), x);
       }
       fit_.state = WithParameters(before, fit_.parameters, x);
-      if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
+      const Eigen::VectorXd step = x - PackParameters(before, fit_.parameters);
       settled = is_near &&
                 (LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m ||
-                 StepInSigmas(x - PackParameters(before, fit_.parameters)) < kLastStepSigmas) &&
+                 StepInSigmas(step) < kLastStepSigmas) &&
                 (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
+      if (is_near && !settled && TurnsBack(step, last_step)) {
+        fit_.state = WithParameters(before, fit_.parameters, x - 0.5 * step);
+        solved_.reset();
+      }
+      last_step = is_near ? step : Eigen::VectorXd();
+      if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
     }
     ReflectDerivatives(true);
     return settled;
@@ -220,6 +227,16 @@ class OuterLoop {
     const Eigen::VectorXd moved = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
     const double squares = moved.squaredNorm() + step.dot(PriorInformation() * step);
     return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, step.size())));
+  }
+
+  // Returns whether a step leads back to where the last one began, by what both do to the rows. Weights follow each step,
+  // so that steps may go to and fro between two states for ever: half of one lands between them.
+  bool TurnsBack(const Eigen::VectorXd& step, const Eigen::VectorXd& last) const {
+    constexpr double kOpposite = -0.5;  // cosine
+    if (last.size() != step.size()) return false;
+    const Eigen::VectorXd now = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
+    const Eigen::VectorXd before = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * last));
+    return now.dot(before) < kOpposite * now.norm() * before.norm();
   }
 
   // Returns the largest move of any point of any luminaire, in m.

@@ -10,7 +10,7 @@
 namespace luxfit {
 namespace {
 
-constexpr size_t kFewestForSpread = 4;
+constexpr size_t kFewestForSpread = 3;
 constexpr double kMakersSpread = 0.1 / 3, kMakersFreedom = 4;
 constexpr double kEfficiencyOfMad = 0.37;
 constexpr double kOnceIn = 0.01;

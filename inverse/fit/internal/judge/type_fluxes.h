@@ -8,7 +8,7 @@
 // three sigma, with nu_0 = 4. z_k has Student's distribution, its degrees of freedom by Welch and Satterthwaite. A
 // flux deviates where as large a |z| comes once in a hundred rooms of as many luminaires (Bonferroni).
 //
-// Fewer than four luminaires do not tell their spread: then none deviates.
+// Two luminaires do not tell which of them deviates: then none does.
 // Sources: Iglewicz and Hoaglin (1993), "How to detect and handle outliers" (modified z); Rousseeuw and Croux (1993),
 // "Alternatives to the median absolute deviation" (its efficiency of 37 %); Gelman et al. (2013), "Bayesian data
 // analysis", sec. 2.6 (variances pooled with a prior); Satterthwaite (1946); IEC 62722-2-1 (tolerance of flux).
