@@ -187,7 +187,7 @@ TEST(DoctorTest, CalibratesACameraWithoutIntrinsicsAsRunDoes) {
 }
 
 // A misspelt board, or the wrong folder: what is wrong with all images is said once.
-TEST(CalibrateTest, ImagesWithoutABoardAreOneWarning) {
+TEST(CalibrateCommand, ImagesWithoutABoardAreOneWarning) {
   const TempFolder folder;
   const std::string out =
       support::RunProgram("calibrate " + kOffice + "/photos/v00_*.png --board chessboard:9x6:0.025 -o " +

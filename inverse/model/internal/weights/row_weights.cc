@@ -11,6 +11,7 @@
 namespace luxfit {
 namespace {
 
+constexpr double kMedianOfAbsZ = 0.6745;  // of a Gaussian
 
 void AddTexture(const TextureEstimator& elements, const Eigen::VectorXd& value,
                 const Eigen::VectorXd& root_weight, const ElementTexture& texture, RowWhitening& whitening) {
@@ -138,7 +139,7 @@ double RowWeigher::ModelErrorRatio(const Eigen::VectorXd& z, const Eigen::Vector
     if (root_weight[i] > 0 && carries_model_error_[static_cast<size_t>(i)])
       absolute.push_back(std::abs(z[i]));
   }
-  return absolute.empty() ? 1 : kSigmaPerMad * Median(std::move(absolute));
+  return absolute.empty() ? 1 : Median(std::move(absolute)) / kMedianOfAbsZ;
 }
 
 RowWeights RowWeigher::Weigh(const LightState& state, const Eigen::VectorXd& value,
