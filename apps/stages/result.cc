@@ -182,11 +182,18 @@ json LuminairesJson(const Session& session, const RoomFit& fit, const std::vecto
   return luminaires;
 }
 
+json DirectJson(const PredictedReading& prediction, const RoomFit& fit) {
+  json by_luminaire = json::object();
+  for (Eigen::Index k = 0; k < prediction.direct_lx.size(); ++k) {
+    if (prediction.direct_lx[k] > 0)
+      by_luminaire[fit.fit.state.luminaires[static_cast<size_t>(k)].id] = prediction.direct_lx[k];
+  }
+  return by_luminaire;
+}
+
 void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& fit,
                  const std::vector<ReadingExplanation>& explanations, RunContext& context, json& result) {
   result["luxmeter"] = json::array();
-  std::vector<CheckedReading> checked;
-  std::vector<NamedReading> named;
   const std::vector<PredictedReading> predictions = PredictedReadings(fit);
   for (size_t i = 0; i < predictions.size(); ++i) {
     const SessionReading& given = readings[i].given;
@@ -200,7 +207,8 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
     const bool predicted = prediction.is_known && !readings[i].is_outside;
     entry["predicted_lx"] = predicted ? json(reading.predicted_lx) : json();
     for (const std::string name : {"measured", "predicted"}) entry[name + "_lux"] = entry[name + "_lx"];
-    entry["direct_lx"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx) : json();
+    entry["direct_lx"] = predicted && fit.TellsDirectLight() ? json(prediction.direct_lx.sum()) : json();
+    if (predicted && fit.TellsDirectLight()) entry["direct_by_luminaire_lx"] = DirectJson(prediction, fit);
     entry["sigma_lx"] = predicted ? json(prediction.parameter_sigma_lx) : json();
     entry["prediction_sigma_lx"] = predicted ? json(prediction.sigma_lx) : json();
     if (predicted) {
@@ -211,12 +219,11 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
     if (given.is_measured) entry["measured_sigma_lx"] = reading.measured_sigma_lx;
     if (given.is_measured && predicted) entry["z"] = ZScore(reading);
     result["luxmeter"].push_back(entry);
-    if (given.role == ReadingRole::kCheck && given.is_measured && predicted) {
-      checked.push_back(reading);
-      named.push_back({given.id, given.state, reading});
-    }
   }
   WarnOfExplanations(explanations, context);
+  const std::vector<NamedReading> named = CheckedReadings(result["luxmeter"]);
+  std::vector<CheckedReading> checked;
+  for (const NamedReading& reading : named) checked.push_back(reading.reading);
   WarnOfCheck(named, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));
   result["check"] = CheckJson(result["luxmeter"]);

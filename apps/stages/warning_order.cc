@@ -7,13 +7,31 @@
 namespace luxfit {
 namespace {
 
-constexpr std::array<std::string_view, 24> kCauses = {
-    "colmap_failed",      "colmap_missing",       "counts_cut_off",      "exposure_metadata",
-    "focal_length_off",   "furniture_found",      "furniture_moved",     "given_contradicted",
-    "local_tone_mapping", "luminaire_named_once", "luminaire_outside",   "luminance_weights_assumed",
-    "mesh_as_if",         "paint_found",          "photo_of_other_view", "photos_as_if",
-    "readings_as_if",     "response_not_linear",  "states_as_if",        "survey_less_accurate",
-    "tag_disagrees",      "tag_unknown",          "vignetting_found",    "wall_moved"};
+constexpr std::array<std::string_view, 25> kCauses = {"colmap_failed",
+                                                      "colmap_missing",
+                                                      "counts_cut_off",
+                                                      "exposure_metadata",
+                                                      "focal_length_off",
+                                                      "furniture_found",
+                                                      "furniture_moved",
+                                                      "given_contradicted",
+                                                      "local_tone_mapping",
+                                                      "luminaire_named_once",
+                                                      "luminaire_outside",
+                                                      "luminance_weights_assumed",
+                                                      "mesh_as_if",
+                                                      "paint_found",
+                                                      "photo_of_other_view",
+                                                      "photos_as_if",
+                                                      "reading_shaded",
+                                                      "readings_as_if",
+                                                      "response_not_linear",
+                                                      "states_as_if",
+                                                      "survey_less_accurate",
+                                                      "tag_disagrees",
+                                                      "tag_unknown",
+                                                      "vignetting_found",
+                                                      "wall_moved"};
 
 }  // namespace
 

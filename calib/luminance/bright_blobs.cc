@@ -123,4 +123,16 @@ std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const Brigh
   return blobs;
 }
 
+bool IsWithin(const BrightBlob& blob, const Eigen::Vector2d& pixel, double tolerance_px) {
+  constexpr size_t kFewestCorners = 3;
+  if (blob.contour_px.size() < kFewestCorners) return false;
+  const auto in_cv = [](const Eigen::Vector2d& p) {
+    return cv::Point2f(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  };
+  std::vector<cv::Point2f> contour;
+  contour.reserve(blob.contour_px.size());
+  for (const Eigen::Vector2d& p : blob.contour_px) contour.push_back(in_cv(p));
+  return cv::pointPolygonTest(contour, in_cv(pixel), true) >= -tolerance_px;
+}
+
 }  // namespace luxfit

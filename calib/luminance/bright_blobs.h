@@ -46,6 +46,9 @@ struct BrightBlobOptions {
 // Returns the blobs, largest first. Throws std::invalid_argument for an image whose planes differ in size.
 std::vector<BrightBlob> FindBrightBlobs(const LuminanceImage& image, const BrightBlobOptions& options = {});
 
+// Returns whether a pixel lies inside the blob's contour, or no farther from it; false for a blob without one.
+bool IsWithin(const BrightBlob& blob, const Eigen::Vector2d& pixel, double tolerance_px);
+
 }  // namespace luxfit
 
 #endif  // LUXFIT_CALIB_LUMINANCE_BRIGHT_BLOBS_H_

@@ -13,6 +13,7 @@
 
 #include "calib/luminance/weighted_median.h"
 #include "inverse/check/internal/factor_words.h"
+#include "inverse/check/internal/shade.h"
 
 namespace luxfit {
 namespace {
@@ -104,6 +105,11 @@ void Explain(Disagreement& d) {
   const std::optional<KnownFactor> factor = FindKnownFactor(1 + d.relative);
   if (factor && !is_place) {
     d.remedy = "it is off " + factor->words + ": read it again";
+    d.shaded_from.clear();
+  } else if (!d.shaded_from.empty()) {
+    d.meaning += ", as in the shade of " + d.shaded_from;
+    d.remedy = "something that the mesh does not have stands between " + d.shaded_from + " and " + d.id +
+               ", or whoever read the meter did: add it to the mesh, or read it again";
   } else if (is_place) {
     d.remedy =
         "its place or the way the meter faced is not what the table says, or something stands near "
@@ -185,6 +191,8 @@ LuxmeterFindings FindDisagreements(const std::vector<NamedReading>& readings) {
   findings.z_limit = -NormalQuantile(0.025 / static_cast<double>(readings.size()));
   FindCommonFactor(readings, findings);
   const std::vector<Judged> judged = Judge(readings, findings);
+  const std::vector<std::string> shading =
+      ShadingLuminaires(readings, findings.has_common_factor ? findings.common_factor : 1, findings.z_limit);
   std::map<std::string, Tally> places, states;
   for (const Judged& j : judged) {
     for (Tally* tally : {&places[readings[j.reading].id], &states[readings[j.reading].state]}) {
@@ -197,12 +205,14 @@ LuxmeterFindings FindDisagreements(const std::vector<NamedReading>& readings) {
     if (!j.disagrees) continue;
     const NamedReading& named = readings[j.reading];
     const Tally &place = places[named.id], &state = states[named.state];
-    Disagreement d{Disagreement::Of::kReading, named.id, named.state, j.z, j.relative, "", ""};
+    Disagreement d{Disagreement::Of::kReading, named.id, named.state, j.z, j.relative, "", "", ""};
     constexpr int kFewestOfState = 3;
     if (states.size() > 1 && state.readings >= kFewestOfState && 2 * state.disagreeing > state.readings) {
       d.of = Disagreement::Of::kState, d.id.clear();
     } else if (place.readings > 1 && place.disagreeing == place.readings) {
       d.of = Disagreement::Of::kPlace, d.state.clear();
+    } else {
+      d.shaded_from = shading[j.reading];
     }
     const auto [at, is_new] = found.try_emplace({d.id, d.state}, d);
     if (!is_new && std::abs(d.z) > std::abs(at->second.z)) at->second = d;

@@ -17,7 +17,7 @@
 // A reading disagrees where |z| exceeds a two-sided limit. One of n readings exceeds this limit by chance in
 // 5 % of cases (Bonferroni: 0.05 / n each). A common factor beyond chance is removed from z first. Where all
 // readings of one place disagree, the place is named; where most readings of one state disagree, the state is
-// named.
+// named. A reading that is too low as the shade of one luminaire would make it (internal/shade.h) is no evidence against the fit.
 //
 // Sources: docs/session-format.md, "summary" (the figure that published comparisons give); Bonferroni, see
 // Dunn (1961), "Multiple comparisons among means".
@@ -25,6 +25,7 @@
 #define LUXFIT_INVERSE_CHECK_LUXMETER_CHECK_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace luxfit {
@@ -57,14 +58,16 @@ double ZScore(const CheckedReading& reading);
 struct NamedReading {
   std::string id, state;
   CheckedReading reading;
+  std::vector<std::pair<std::string, double>> direct_lx = {};  // of the prediction, by luminaire
 };
 
 struct Disagreement {
   enum class Of { kReading, kPlace, kState };
   Of of = Of::kReading;
-  std::string id, state;  // kPlace: state empty; kState: id empty
-  double z = 0;           // the z farthest from 0 among the readings named
-  double relative = 0;    // measured / predicted - 1 of that reading; infinity where no light is predicted
+  std::string id, state;    // kPlace: state empty; kState: id empty
+  double z = 0;             // the z farthest from 0 among the readings named
+  double relative = 0;      // measured / predicted - 1 of that reading; infinity where no light is predicted
+  std::string shaded_from;  // kReading: the luminaire in whose shade it would be so; empty: none
   std::string meaning, remedy;  // a sentence each, without a full stop
 };
 

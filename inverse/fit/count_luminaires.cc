@@ -89,6 +89,7 @@ RoomObservations InOneState(RoomObservations given, int state) {
     if (std::find(place.states.begin(), place.states.end(), state) == place.states.end()) continue;
     place.states = {0};
     place.dark_states.clear();
+    place.covered_states.clear();
     seen.push_back(std::move(place));
   }
   given.seen = std::move(seen);

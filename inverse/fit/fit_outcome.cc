@@ -124,7 +124,7 @@ std::vector<PredictedReading> PredictedReadings(const RoomFit& fit) {
     PredictedReading reading;
     reading.is_known = fit.absolute && fit.IsUsable() && IsLit(fit, fit.data.readings[i].state);
     reading.illuminance_lx = fit.fit.predicted[first + row];
-    reading.direct_lx = fit.fit.reading_direct_lx[row];
+    reading.direct_lx = fit.fit.reading_direct_lx.row(row);
     reading.parameter_sigma_lx = fit.fit.reading_sigma_lx.size() > row ? fit.fit.reading_sigma_lx[row] : 0;
     // A value that may be nothing says nothing.
     reading.is_known = reading.is_known && !(reading.parameter_sigma_lx >= reading.illuminance_lx);

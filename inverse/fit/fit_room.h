@@ -158,7 +158,7 @@ std::vector<EstimatedLuminaire> EstimatedLuminaires(const RoomFit& fit);
 struct PredictedReading {
   bool is_known = false;  // false: there is no scale, or a luminaire that is on was not found
   double illuminance_lx = 0;
-  double direct_lx = 0;
+  Eigen::VectorXd direct_lx;  // by luminaire, as dimmed in its state
   double parameter_sigma_lx = 0;
   double sigma_lx = 0;
 };

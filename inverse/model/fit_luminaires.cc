@@ -293,7 +293,6 @@ class OuterLoop {
     fit_.texture_sigma = weights_.texture.sigma;
     fit_.material_texture_sigma = weights_.texture.sigma_of_material;
     const auto readings = static_cast<Eigen::Index>(data_.readings.size());
-    fit_.reading_direct_lx = at_state_.direct.segment(FirstReadingRow(data_), readings);
     const Eigen::VectorXd x = PackParameters(fit_.state, fit_.parameters);
     for (size_t i = 0; i < fit_.parameters.size(); ++i) {
       const Parameter& p = fit_.parameters[i];

@@ -121,7 +121,8 @@ struct LuminaireFit {
   Eigen::VectorXd material_texture_sigma;  // by material, 0: plain
   // Reflectance of patches over their material's, in the exchange of light; empty: 1.
   Eigen::VectorXd patch_factor;
-  Eigen::VectorXd reading_direct_lx;
+  // Readings x luminaires, as dimmed in their states; empty: not predicted (inverse/fit/internal/judge/predict_readings.h).
+  Eigen::MatrixXd reading_direct_lx;
   Eigen::VectorXd reading_sigma_lx;  // sigma of the predicted readings
   double relative_sigma = 0;         // f
   // The part of f that rows of one facet and state share: f times the root of their intra-class correlation.

@@ -32,6 +32,7 @@ class SeenSearch {
     AddPlacesAtCommonHeights(sights_, places);
     for (SeenPlace& place : places) {
       place.dark_states = sights_.DarkStates(place);
+      place.covered_states = sights_.CoveredStates(place);
       place.position = sights_.InFrontOfSurfaces(place);
     }
     std::stable_sort(places.begin(), places.end(),
@@ -126,8 +127,11 @@ bool MayBePlaceOf(const SeenPlace& place, const std::vector<Eigen::VectorXd>& di
   const auto factor = [&](int state) { return dimming[static_cast<size_t>(state)][luminaire]; };
   double lowest = std::numeric_limits<double>::infinity();  // at which it is bright
   for (const int state : place.states) lowest = std::min(lowest, factor(state));
-  return lowest > 0 && std::none_of(place.dark_states.begin(), place.dark_states.end(),
-                                    [&](int state) { return factor(state) >= lowest; });
+  const bool is_another = std::any_of(place.covered_states.begin(), place.covered_states.end(),
+                                      [&](int state) { return factor(state) == 0; });
+  return lowest > 0 && !is_another &&
+         std::none_of(place.dark_states.begin(), place.dark_states.end(),
+                      [&](int state) { return factor(state) >= lowest; });
 }
 
 std::vector<SeenPlace> FindSeenLuminaires(const Room& room, const std::vector<Camera>& cameras,

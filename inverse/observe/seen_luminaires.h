@@ -48,9 +48,11 @@ struct SeenPlace {
   double sigma_m = 0;            // standard deviation along the worst direction
   std::vector<int> states;       // states in which it is bright
   std::vector<int> dark_states;  // states in which most photos that should show it do not
-  int photos = 0;                // photos of those states that show it
-  int views = 0;                 // views from which it was triangulated, in one state
-  int missing = 0;               // photos of those states that should show it and do not
+  std::vector<int>
+      covered_states;  // other states in which most photos that should show it have something bright on it
+  int photos = 0;      // photos of those states that show it
+  int views = 0;       // views from which it was triangulated, in one state
+  int missing = 0;     // photos of those states that should show it and do not
   double area_m2 = 0;
   bool is_at_common_height = false;  // placed on the height that others of its area share: `views` may be one
 };
@@ -58,8 +60,9 @@ struct SeenPlace {
 // Returns whether enough views saw the place that chance is excluded: three, or two at a known height.
 inline bool IsSure(const SeenPlace& place) { return place.views >= (place.is_at_common_height ? 2 : 3); }
 
-// Returns whether the place may be that of the luminaire: bright in states where it is on and in no other, and not dark in
-// one in which it is dimmed no lower. `dimming`: one vector for each state, by luminaire.
+// Returns whether the place may be that of the luminaire: bright in states where it is on and in no other, not dark in
+// one in which it is dimmed no lower, and not covered in one in which it is off: the end of a long luminaire that another one
+// lights is part of the former. `dimming`: one vector for each state, by luminaire.
 bool MayBePlaceOf(const SeenPlace& place, const std::vector<Eigen::VectorXd>& dimming, int luminaire);
 
 struct SeenLuminairesOptions {

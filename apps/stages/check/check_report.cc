@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "apps/text/formats/json_vectors.h"
@@ -15,22 +16,6 @@ namespace luxfit {
 namespace {
 
 using nlohmann::json;
-
-std::vector<NamedReading> CheckedReadings(const json& luxmeter) {
-  std::vector<NamedReading> readings;
-  for (const json& entry : luxmeter) {
-    const bool both = entry["measured_lx"].is_number() && entry["predicted_lx"].is_number();
-    if (!both || entry["role"] != "check") continue;
-    NamedReading named{entry["id"].get<std::string>(), entry["state"].get<std::string>(), {}};
-    named.reading.measured_lx = entry["measured_lx"].get<double>();
-    named.reading.predicted_lx = entry["predicted_lx"].get<double>();
-    named.reading.measured_sigma_lx = entry.value("measured_sigma_lx", 0.0);
-    // Results that do not hold the model error give the prediction's own sigma alone.
-    named.reading.predicted_sigma_lx = entry.value("prediction_sigma_lx", entry.value("sigma_lx", 0.0));
-    readings.push_back(named);
-  }
-  return readings;
-}
 
 bool Matches(const NamedReading& reading, const std::string& pattern) {
   const size_t at = pattern.find('@');
@@ -82,6 +67,27 @@ std::string WithRemedy(const json& finding) {
 }
 
 }  // namespace
+
+std::vector<NamedReading> CheckedReadings(const json& luxmeter) {
+  std::vector<NamedReading> readings;
+  for (const json& entry : luxmeter) {
+    const bool both = entry["measured_lx"].is_number() && entry["predicted_lx"].is_number();
+    if (!both || entry["role"] != "check") continue;
+    NamedReading named{entry["id"].get<std::string>(), entry["state"].get<std::string>(), {}};
+    named.reading.measured_lx = entry["measured_lx"].get<double>();
+    named.reading.predicted_lx = entry["predicted_lx"].get<double>();
+    named.reading.measured_sigma_lx = entry.value("measured_sigma_lx", 0.0);
+    // Results that do not hold the model error give the prediction's own sigma alone.
+    named.reading.predicted_sigma_lx = entry.value("prediction_sigma_lx", entry.value("sigma_lx", 0.0));
+    const auto direct = entry.find("direct_by_luminaire_lx");
+    if (direct != entry.end()) {
+      for (const auto& [luminaire, lx] : direct->items())
+        named.direct_lx.emplace_back(luminaire, lx.get<double>());
+    }
+    readings.push_back(std::move(named));
+  }
+  return readings;
+}
 
 json SummaryJson(const LuxmeterSummary& summary) {
   return {{"mean_abs_error_lx", NumberOrNull(summary.mean_abs_error_lx)},

@@ -8,10 +8,14 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "inverse/check/luxmeter_check.h"
 
 namespace luxfit {
+
+// Returns those of `luxmeter` of result.json that check.
+std::vector<NamedReading> CheckedReadings(const nlohmann::json& luxmeter);
 
 // Returns `summary` of result.json and of stages/simulate.json.
 nlohmann::json SummaryJson(const LuxmeterSummary& summary);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace luxfit {
 namespace {
@@ -31,11 +32,18 @@ void WarnOfContradiction(const std::vector<NamedReading>& readings, Findings& fi
 void WarnOfDisagreements(const std::vector<Disagreement>& disagreements, Findings& findings) {
   for (size_t i = 0; i < std::min(kNamedReadings, disagreements.size()); ++i) {
     const Disagreement& d = disagreements[i];
-    findings.warnings.push_back({"reading_disagrees", fmt::format("{} (z = {:.1f})", d.meaning, d.z),
-                                 d.remedy, std::abs(d.relative) > kLargeError});
+    const std::string message = fmt::format("{} (z = {:.1f})", d.meaning, d.z);
+    if (d.shaded_from.empty()) {
+      findings.warnings.push_back(
+          {"reading_disagrees", message, d.remedy, std::abs(d.relative) > kLargeError});
+    } else {
+      findings.warnings.push_back({"reading_shaded", message, d.remedy});
+    }
   }
   if (disagreements.size() <= kNamedReadings) return;
-  const auto is_large = [](const Disagreement& d) { return std::abs(d.relative) > kLargeError; };
+  const auto is_large = [](const Disagreement& d) {
+    return d.shaded_from.empty() && std::abs(d.relative) > kLargeError;
+  };
   findings.warnings.push_back(
       {"reading_disagrees",
        fmt::format("{} more disagree with their predictions", disagreements.size() - kNamedReadings),

@@ -113,6 +113,7 @@ json ObservationsJson(const Evidence& observed) {
                     {"sigma_m", p.sigma_m},
                     {"states", p.states},
                     {"dark_states", p.dark_states},
+                    {"covered_states", p.covered_states},
                     {"photos", p.photos},
                     {"views", p.views},
                     {"missing", p.missing},
@@ -142,6 +143,7 @@ Evidence ObservationsFromJson(const json& in) {
     place.sigma_m = entry.at("sigma_m");
     place.states = entry.at("states").get<std::vector<int>>();
     place.dark_states = entry.at("dark_states").get<std::vector<int>>();
+    place.covered_states = entry.at("covered_states").get<std::vector<int>>();
     place.photos = entry.at("photos");
     place.views = entry.at("views");
     place.missing = entry.at("missing");

@@ -31,6 +31,7 @@ nlohmann::json SeenJson(const Session& session, const std::vector<SeenPlace>& pl
                     {"sigma_m", place.sigma_m},
                     {"states", NamesOf(session, place.states)},
                     {"dark_states", NamesOf(session, place.dark_states)},
+                    {"covered_states", NamesOf(session, place.covered_states)},
                     {"photos", place.photos},
                     {"views", place.views},
                     {"photos_without", place.missing},

@@ -96,16 +96,28 @@ bool PlaceSights::ShowsAny(const PhotoBlobs& photo, const SeenPlace& place) cons
 }
 
 bool PlaceSights::Lacks(const PhotoBlobs& photo, const SeenPlace& place) const {
+  return !ShowsAny(photo, place) && MayShow(photo, place);
+}
+
+bool PlaceSights::MayShow(const PhotoBlobs& photo, const SeenPlace& place) const {
   const RegisteredView& view = View(photo);
   const Camera& camera = CameraOf(view);
   const Eigen::Vector3d in_cam = view.cam_from_world * place.position;
   const Eigen::Vector2d pixel = Project(camera, in_cam);
-  if (!pixel.allFinite() || ShowsAny(photo, place)) return false;
+  if (!pixel.allFinite()) return false;
   const double tolerance_px = TolerancePx(camera, place, in_cam.norm());
   const Eigen::AlignedBox2d inside(
       Eigen::Vector2d::Constant(tolerance_px),
       Eigen::Vector2d(camera.width_px - 1 - tolerance_px, camera.height_px - 1 - tolerance_px));
   return inside.contains(pixel) && IsFreeFrom(photo.view, place);
+}
+
+bool PlaceSights::Covers(const PhotoBlobs& photo, const BrightBlob& blob, const SeenPlace& place) const {
+  const RegisteredView& view = View(photo);
+  const Camera& camera = CameraOf(view);
+  const Eigen::Vector3d in_cam = view.cam_from_world * place.position;
+  const Eigen::Vector2d pixel = Project(camera, in_cam);
+  return pixel.allFinite() && IsWithin(blob, pixel, TolerancePx(camera, place, in_cam.norm()));
 }
 
 void PlaceSights::CountPhotos(int state, SeenPlace& place) const {
@@ -129,6 +141,22 @@ std::vector<int> PlaceSights::DarkStates(const SeenPlace& place) const {
     if (here.missing > here.photos) dark.push_back(state);
   }
   return dark;
+}
+
+std::vector<int> PlaceSights::CoveredStates(const SeenPlace& place) const {
+  std::vector<int> covered;
+  for (const int state : States()) {
+    if (std::count(place.states.begin(), place.states.end(), state) > 0) continue;
+    int with = 0, without = 0;
+    for (const PhotoBlobs& photo : photos_) {
+      if (photo.state != state || !MayShow(photo, place)) continue;
+      const bool is_covered = std::any_of(photo.blobs.begin(), photo.blobs.end(),
+                                          [&](const BrightBlob& blob) { return Covers(photo, blob, place); });
+      ++(is_covered ? with : without);
+    }
+    if (with > without) covered.push_back(state);
+  }
+  return covered;
 }
 
 bool PlaceSights::IsFreeFrom(int view, const SeenPlace& place) const {

@@ -48,6 +48,10 @@ class PlaceSights {
   // Returns the states other than its own in which most photos that should show it do not.
   std::vector<int> DarkStates(const SeenPlace& place) const;
 
+  // Returns the states other than its own in which most photos that should show it have a blob there: a blob's contour, not
+  // the box about it.
+  std::vector<int> CoveredStates(const SeenPlace& place) const;
+
   // Returns whether no surface stands between the place and the view.
   bool IsFreeFrom(int view, const SeenPlace& place) const;
 
@@ -66,6 +70,10 @@ class PlaceSights {
   const Camera& CameraOf(const RegisteredView& view) const {
     return cameras_[static_cast<size_t>(view.camera)];
   }
+  // Returns whether the photo has the place's image in its picture, in free sight.
+  bool MayShow(const PhotoBlobs& photo, const SeenPlace& place) const;
+  // Returns whether the place's image lies in the blob's contour, up to its sigma.
+  bool Covers(const PhotoBlobs& photo, const BrightBlob& blob, const SeenPlace& place) const;
   bool ShowsAny(const PhotoBlobs& photo, const SeenPlace& place) const;
   double TolerancePx(const Camera& camera, const SeenPlace& place, double distance_m) const;
 

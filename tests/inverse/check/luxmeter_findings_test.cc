@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace luxfit {
 namespace {
@@ -52,6 +54,69 @@ TEST(LuxmeterFindings, OneReadingOffIsNamedAlone) {
   EXPECT_NEAR(d.z, -0.2 / std::hypot(0.02, 0.01), 1e-9);
   EXPECT_NE(d.meaning.find("L2 in state B"), std::string::npos) << d.meaning;
   EXPECT_NE(d.meaning.find("20.0 % below"), std::string::npos) << d.meaning;
+}
+
+// In B, 30 % of every prediction come straight from luminaire P, 20 % from luminaire Q.
+std::vector<NamedReading> LitStraight() {
+  std::vector<NamedReading> readings = Agreeing();
+  for (NamedReading& named : readings) {
+    if (named.state != "B") continue;
+    const double lx = named.reading.predicted_lx;
+    named.direct_lx = {{"P", 0.3 * lx}, {"Q", 0.2 * lx}};
+  }
+  return readings;
+}
+
+std::string ShadedFrom(double measured_over_predicted) {
+  std::vector<NamedReading> readings = LitStraight();
+  readings[5].reading.measured_lx *= measured_over_predicted;
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  EXPECT_EQ(findings.disagreements.size(), 1u);
+  return findings.disagreements.empty() ? "" : findings.disagreements[0].shaded_from;
+}
+
+TEST(LuxmeterFindings, AReadingInTheShadeOfOneLuminaireNamesIt) {
+  EXPECT_EQ(ShadedFrom(0.7), "P");
+  EXPECT_EQ(ShadedFrom(0.6), "P");  // what hides it hides reflected light too
+  EXPECT_EQ(ShadedFrom(0.8), "Q");
+  EXPECT_EQ(ShadedFrom(0.4), "") << "P is half of what is missing";
+  EXPECT_EQ(ShadedFrom(1.3), "");
+}
+
+TEST(LuxmeterFindings, ShadeIsSaidWithWhatStandsBetween) {
+  std::vector<NamedReading> readings = LitStraight();
+  readings[5].reading.measured_lx *= 0.7;
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  const Disagreement& d = findings.disagreements[0];
+  EXPECT_NE(d.meaning.find("L2 in state B"), std::string::npos) << d.meaning;
+  EXPECT_NE(d.meaning.find("in the shade of P"), std::string::npos) << d.meaning;
+  EXPECT_NE(d.remedy.find("between P and L2"), std::string::npos) << d.remedy;
+}
+
+TEST(LuxmeterFindings, ALuminaireThatShadesManyPlacesIsElsewhere) {
+  std::vector<NamedReading> readings = LitStraight();
+  for (const size_t i : {5, 6}) readings[i].reading.measured_lx *= 0.7;  // 2 of 4 places
+  for (const Disagreement& d : FindDisagreements(readings).disagreements) EXPECT_EQ(d.shaded_from, "");
+}
+
+TEST(LuxmeterFindings, LightThatArrivesInAnotherStateIsNotShaded) {
+  std::vector<NamedReading> readings = LitStraight();
+  readings[5].reading.measured_lx *= 0.7;
+  readings[5].direct_lx.pop_back();  // P alone
+  readings[9].direct_lx = {{"P", 0.3 * readings[9].reading.predicted_lx}};  // L2 in all, as predicted
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_EQ(findings.disagreements[0].shaded_from, "");
+}
+
+TEST(LuxmeterFindings, ADecimalPointIsNoShade) {
+  std::vector<NamedReading> readings = LitStraight();
+  readings[5].reading.measured_lx *= 0.1;
+  readings[5].direct_lx = {{"P", 0.9 * readings[5].reading.predicted_lx}};
+  const LuxmeterFindings findings = FindDisagreements(readings);
+  ASSERT_EQ(findings.disagreements.size(), 1u);
+  EXPECT_EQ(findings.disagreements[0].shaded_from, "");
 }
 
 TEST(LuxmeterFindings, AReadingOffByAKnownFactorNamesTheCause) {

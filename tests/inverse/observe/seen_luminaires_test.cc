@@ -225,6 +225,25 @@ TEST_F(SeenLuminaires, StatesOfOnePlaceAreCollected) {
   }
 }
 
+// In state 0 something small shines at one end of a pendant that is on in state 1.
+TEST_F(SeenLuminaires, APlaceOnALongLuminaireIsPartOfIt) {
+  const LuminousRectangle end{{2.5, 2.0, 2.2}, {0.06, 0.06}, 100}, pendant{{3.0, 2.0, 2.2}, {1.0, 0.1}, 100};
+  std::vector<PhotoBlobs> photos = SeenByAll({{end}, {}, {}}, 0);
+  for (const PhotoBlobs& photo : SeenByAll({{pendant}, {}, {}}, 1)) photos.push_back(photo);
+  const auto places = Find(photos);
+  const auto at_end = std::find_if(places.begin(), places.end(), [&](const SeenPlace& place) {
+    return (place.position - Eigen::Vector3d(2.5, 2.0, 2.2)).norm() < 0.1;
+  });
+  ASSERT_NE(at_end, places.end());
+  EXPECT_EQ(at_end->states, std::vector<int>{0});
+  EXPECT_EQ(at_end->covered_states, std::vector<int>{1});
+  const auto may_be = [&](double in_0, double in_1) {
+    return MayBePlaceOf(*at_end, {Eigen::VectorXd::Constant(1, in_0), Eigen::VectorXd::Constant(1, in_1)}, 0);
+  };
+  EXPECT_FALSE(may_be(1, 0));
+  EXPECT_TRUE(may_be(1, 1));
+}
+
 // A wall near a lamp is washed out where that lamp is on alone. With all on, exposures are shorter, and it is not.
 TEST_F(SeenLuminaires, APlaceThatIsDarkWhereALuminaireIsOnIsNotIts) {
   const LampScene scene{{}, {}, {{{2.8, 1.5, 0.741}, {0.2, 0.2}, 3.5}}};

@@ -3,15 +3,14 @@
   python3 make_session.py ROOM FOLDER SESSION_FOLDER
 """
 import json
-import os
 import pathlib
 import sys
 
-os.environ["OPENCV_IO_ENABLE_OPENEXR"] = "1"
-import cv2  # noqa: E402
-import numpy as np  # noqa: E402
+import cv2
+import numpy as np
 
-from rooms import ROOMS  # noqa: E402
+from denoise import Guides, read
+from rooms import ROOMS
 
 KILO = 1e-3
 COUNTS_PER_CDM2_S = 0.1  # share of full scale, per cd/m2 and second
@@ -54,8 +53,11 @@ def write_mesh(room, path):
 
 def luminances(room, folder):
     """Returns by view and luminaire the picture, cd/m2."""
-    return {view.name: {l.name: cv2.imread(str(folder / f"{view.name}_{l.name}.exr"), cv2.IMREAD_UNCHANGED)[..., :3].mean(axis=2) / KILO
-                        for l in room.luminaires} for view in room.views if (folder / f"{view.name}_{room.luminaires[0].name}.exr").exists()}
+    pictures = {}
+    for view in room.views:
+        guides = Guides(folder, view.name)
+        pictures[view.name] = {l.name: guides.smooth(read(folder / f"{view.name}_{l.name}.exr").mean(axis=2) / KILO) for l in room.luminaires}
+    return pictures
 
 
 def photograph(luminance, rng):

@@ -3,7 +3,8 @@
   blender -b -noaudio -P render.py -- ROOM FOLDER SAMPLES [VIEW...]
 
 Writes FOLDER/VIEW_LUMINAIRE.exr, luminance in 1000 cd/m2, and FOLDER/sensors.json, illuminance in lx by sensor and luminaire (unless views
-are named). Lambertian paint, mirrored shares that do not depend on the angle, 16 bounces, no denoising.
+are named). Lambertian paint, mirrored shares that do not depend on the angle, 16 bounces, no denoising. VIEW_index.exr, VIEW_normal.exr,
+VIEW_colour.exr and VIEW_shining.exr say which thing a pixel shows, how that faces, what it reflects and whether it shines (denoise.py).
 """
 import json
 import math
@@ -23,6 +24,7 @@ from rooms import ROOMS  # noqa: E402
 KILO = 1e-3  # pictures are in 1000 cd/m2: Cycles' own thresholds are made for values near 1
 SENSOR_M, SENSOR_REFLECTANCE = 0.03, 0.8
 TAG_WHITE, TAG_BLACK = 0.85, 0.04
+GUIDE_SAMPLES = 16
 
 
 def nodes_of(material):
@@ -176,7 +178,7 @@ def add_luminaire(luminaire, housing):
 def add_tag(tag):
     dictionary = cv2.aruco.Dictionary_get(cv2.aruco.DICT_APRILTAG_36h11)
     cells = np.full((10, 10), 255, np.uint8)
-    cells[1:9, 1:9] = cv2.aruco.drawMarker(dictionary, tag.number, 8)
+    cells[1:9, 1:9] = np.rot90(cv2.aruco.drawMarker(dictionary, tag.number, 8), 2)  # OpenCV has AprilTag's upside down
     materials = []
     for name, value in (("tag white", TAG_WHITE), ("tag black", TAG_BLACK)):
         materials.append(bpy.data.materials.get(name) or paint(type("P", (), {"name": name, "reflectance": value, "pattern": 0, "gloss": 0})))
@@ -230,10 +232,14 @@ def settings(samples):
     scene.render.resolution_percentage = 100
     scene.world = bpy.data.worlds.new("none")
     scene.world.color = (0, 0, 0)
+    layer = bpy.context.view_layer
+    layer.use_pass_object_index = layer.use_pass_normal = layer.use_pass_diffuse_color = layer.use_pass_emit = True
+    for number, thing in enumerate(bpy.data.objects):
+        thing.pass_index = number + 1
 
 
-def write_groups(room, folder, prefix):
-    """Lets a rendering write each luminaire's light to a file of its own."""
+def write_layers(folder, layers_of_files):
+    """Lets a rendering write layers to files, `layers_of_files` by their names."""
     scene = bpy.context.scene
     scene.use_nodes = True
     tree = scene.node_tree
@@ -242,9 +248,9 @@ def write_groups(room, folder, prefix):
     files.base_path = str(folder)
     files.format.file_format, files.format.color_depth = "OPEN_EXR", "32"
     files.file_slots.clear()
-    for luminaire in room.luminaires:
-        files.file_slots.new(f"{prefix}_{luminaire.name}_")
-        tree.links.new(layers.outputs[f"Combined_{luminaire.name}"], files.inputs[-1])
+    for name, layer in layers_of_files.items():
+        files.file_slots.new(name + "_")
+        tree.links.new(layers.outputs[layer], files.inputs[-1])
 
 
 def camera(position, target, up=(0, 0, 1)):
@@ -261,17 +267,29 @@ def camera(position, target, up=(0, 0, 1)):
     return thing
 
 
-def render(room, folder, prefix, width, height):
+def render_layers(folder, layers_of_files, width, height):
+    """Renders, and returns the path of each file."""
     scene = bpy.context.scene
     scene.render.resolution_x, scene.render.resolution_y = width, height
     scene.frame_set(1)
-    write_groups(room, folder, prefix)
+    write_layers(folder, layers_of_files)
     bpy.ops.render.render()
-    result = {}
-    for luminaire in room.luminaires:
-        written = folder / f"{prefix}_{luminaire.name}_0001.exr"
-        result[luminaire.name] = written.rename(folder / f"{prefix}_{luminaire.name}.exr")
-    return result
+    return {name: (folder / f"{name}_0001.exr").rename(folder / f"{name}.exr") for name in layers_of_files}
+
+
+def render(room, folder, prefix, width, height):
+    """Returns by luminaire the file of its light."""
+    files = render_layers(folder, {f"{prefix}_{l.name}": f"Combined_{l.name}" for l in room.luminaires}, width, height)
+    return {l.name: files[f"{prefix}_{l.name}"] for l in room.luminaires}
+
+
+def render_guides(room, view, folder):
+    """Renders what a view shows without its light."""
+    cycles = bpy.context.scene.cycles
+    samples, cycles.samples = cycles.samples, GUIDE_SAMPLES
+    guides = {"index": "IndexOB", "normal": "Normal", "colour": "DiffCol", "shining": "Emit"}
+    render_layers(folder, {f"{view.name}_{name}": layer for name, layer in guides.items()}, room.width, room.height_px)
+    cycles.samples = samples
 
 
 def render_view(room, view, folder):
@@ -280,6 +298,7 @@ def render_view(room, view, folder):
     thing.data.lens = room.focal_px * 36.0 / room.width
     thing.data.clip_start = 0.01
     render(room, folder, view.name, room.width, room.height_px)
+    render_guides(room, view, folder)
 
 
 def measure(room, sensor, folder):

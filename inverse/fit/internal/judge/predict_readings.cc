@@ -23,13 +23,15 @@ LuminaireFit WithPredictedReadings(const Room& room, const LightData& data, Lumi
   for (const Eigen::VectorXd& dimming : data.dimming) state_lx.push_back(light.Under(dimming));
   const ReadingBlock block(data);
   const Eigen::Index first = FirstReadingRow(data);
+  fit.reading_direct_lx.resize(static_cast<Eigen::Index>(data.readings.size()), light.direct_lx.cols());
   for (size_t i = 0; i < data.readings.size(); ++i) {
     const auto state = static_cast<size_t>(data.readings[i].state);
     const auto reading = static_cast<Eigen::Index>(i);
     const Eigen::Index place = place_of_reading[i];
     const double gain = block.ResponseOf(fit.state, static_cast<int>(i)).gain;
     fit.predicted[first + reading] = gain * state_lx[state][place];
-    fit.reading_direct_lx[reading] = gain * light.direct_lx.row(place).dot(data.dimming[state]);
+    fit.reading_direct_lx.row(reading) =
+        gain * light.direct_lx.row(place).cwiseProduct(data.dimming[state].transpose());
   }
   return fit;
 }

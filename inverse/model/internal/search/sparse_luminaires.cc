@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "inverse/model/internal/search/alike_places.h"
@@ -71,7 +72,8 @@ struct SparseRun {
   std::unique_ptr<GroupEquations> equations;  // reweighed
   std::unique_ptr<GroupSearch> search;
   SparseLuminaires found;
-  double mean_square_of_all = 0;  // with no row's weight lowered
+  double mean_square_of_all = 0;             // with no row's weight lowered
+  std::vector<SparseSource> of_other_lobes;  // of the lobes that explain less
 };
 
 // Adds each source of another search as a rival of the nearest source, before all others: one at a place that photos
@@ -140,6 +142,8 @@ class GroupFinder {
       return std::move(alone.found);
     }
     SparseRun searched = BestLobes(start, grid_(), refinements_);
+    if (std::optional<SparseRun> as_seen = AsSeen(start, seen, searched))
+      return WithRivals(std::move(*as_seen), searched.found.sources);
     const std::vector<SparseSource> with_sure = WithSurePlaces(start, seen, alone);
     // A washed wall is bright too, and seen as surely.
     if (with_sure.size() > start.size()) {
@@ -151,6 +155,24 @@ class GroupFinder {
   }
 
  private:
+  // Where as many places are sure as luminaires are sought, and several: luminaires there that shine down, if each has light
+  // and they explain nearly as much as a search anywhere. What the mesh lacks may favour a turned lobe at one of the places,
+  // which leaves nothing for another.
+  std::optional<SparseRun> AsSeen(std::vector<SparseSource> start, const std::vector<SeenPlace>& seen,
+                                  const SparseRun& searched) const {
+    const size_t given = start.size();
+    for (const SeenPlace& place : seen)
+      if (IsSure(place)) start.push_back(SourceAt(place));
+    constexpr size_t kSeveral = 2;
+    if (start.size() < given + kSeveral || static_cast<int>(start.size()) != count_) return {};
+    SparseRun run = RunWith(LobeSet::kSimple, start, {}, 0);
+    const auto is_lit = [](const SparseSource& source) { return source.is_held || source.strength > 0; };
+    if (!std::all_of(run.found.sources.begin(), run.found.sources.end(), is_lit) ||
+        run.mean_square_of_all > kRival * searched.mean_square_of_all)
+      return {};
+    return run;
+  }
+
   // Photos show as many like luminaires as there are.
   SparseLuminaires AtAlike(std::vector<SparseSource> start, const std::vector<SparseSource>& alike,
                            const std::vector<SeenPlace>& seen) const {
@@ -197,7 +219,9 @@ class GroupFinder {
     const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
                            (kRival * aimed.mean_square_of_all < simple.mean_square_of_all ||
                             !ExplainsHalf(simple, aimed, start));
-    return is_turned ? std::move(aimed) : std::move(simple);
+    SparseRun &best = is_turned ? aimed : simple, &other = is_turned ? simple : aimed;
+    best.of_other_lobes = std::move(other.found.sources);
+    return std::move(best);
   }
 
   // Returns whether lobes explain at least half of what others explain beyond the start. At the right place, simple lobes
@@ -236,7 +260,22 @@ class GroupFinder {
         run.found.sources[j].rivals.push_back(LuminaireOf(rival));
     }
     AddRivals(others, step_m_, run.found.sources);
+    for (const SparseSource& other : run.of_other_lobes) AddLastRival(other, run.found.sources);
     return std::move(run.found);
+  }
+
+  // Adds what the same search found with other lobes behind the rivals of its nearest source, if no photo shows that: what
+  // the mesh lacks may outweigh a beam.
+  void AddLastRival(const SparseSource& other, std::vector<SparseSource>& sources) const {
+    const auto distance_m = [&](const SparseSource& source) {
+      return (source.luminaire.position - other.luminaire.position).norm();
+    };
+    const auto nearest = std::min_element(
+        sources.begin(), sources.end(),
+        [&](const SparseSource& a, const SparseSource& b) { return distance_m(a) < distance_m(b); });
+    if (nearest == sources.end() || nearest->is_held || nearest->is_seen || distance_m(*nearest) < step_m_)
+      return;
+    nearest->rivals.push_back(other.luminaire);
   }
 
   const Room& room_;

@@ -42,7 +42,7 @@ struct SparseSource {
   bool is_held = false;
   bool is_seen = false;  // it stays where photos show it
   // Luminaires at other places, at least a grid step away. Those of the places seen alone come first, then
-  // those that leave less than half more squares, best first.
+  // those that leave less than half more squares, best first, then what the same search found with the other set of lobes.
   std::vector<Luminaire> rivals;
 };
 
@@ -68,7 +68,8 @@ class SparseSearch {
   // light.
   //
   // Where the sure places `seen` in photos that are alike are as many as luminaires are to be found, these are the
-  // answer (alike_places.h). Else places seen are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
+  // answer (alike_places.h). So are two sure places and more that are no more than these, where luminaires that shine down
+  // there leave less than half more squares than a search anywhere. Else places seen are tried first, unmoved. Where `count` sources there leave less than 5 % rms of
   // the light unexplained, nothing else is searched. Else the sources at sure places stay, and the search adds
   // what is missing: where the mesh is wrong about something, places in mid-air explain the light a little better
   // than the true ones. Sources of a search anywhere are their rivals; they are kept where they leave less than two
