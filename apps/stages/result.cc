@@ -223,6 +223,7 @@ void AddLuxmeter(const std::vector<LuminaireReading>& readings, const RoomFit& f
   WarnOfExplanations(explanations, context);
   const std::vector<NamedReading> named = CheckedReadings(result["luxmeter"]);
   std::vector<CheckedReading> checked;
+  checked.reserve(named.size());
   for (const NamedReading& reading : named) checked.push_back(reading.reading);
   WarnOfCheck(named, context);
   result["summary"] = SummaryJson(SummarizeLuxmeter(checked));

@@ -103,7 +103,7 @@ TEST(LuxmeterFindings, ALuminaireThatShadesManyPlacesIsElsewhere) {
 TEST(LuxmeterFindings, LightThatArrivesInAnotherStateIsNotShaded) {
   std::vector<NamedReading> readings = LitStraight();
   readings[5].reading.measured_lx *= 0.7;
-  readings[5].direct_lx.pop_back();  // P alone
+  readings[5].direct_lx.pop_back();                                         // P alone
   readings[9].direct_lx = {{"P", 0.3 * readings[9].reading.predicted_lx}};  // L2 in all, as predicted
   const LuxmeterFindings findings = FindDisagreements(readings);
   ASSERT_EQ(findings.disagreements.size(), 1u);

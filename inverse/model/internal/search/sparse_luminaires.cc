@@ -73,7 +73,7 @@ struct SparseRun {
   std::unique_ptr<GroupSearch> search;
   SparseLuminaires found;
   double mean_square_of_all = 0;             // with no row's weight lowered
-  std::vector<SparseSource> of_other_lobes;  // of the lobes that explain less
+  std::vector<SparseSource> of_other_lobes;  // of the lobes that explain less, if not by much
 };
 
 // Adds each source of another search as a rival of the nearest source, before all others: one at a place that photos
@@ -220,7 +220,8 @@ class GroupFinder {
                            (kRival * aimed.mean_square_of_all < simple.mean_square_of_all ||
                             !ExplainsHalf(simple, aimed, start));
     SparseRun &best = is_turned ? aimed : simple, &other = is_turned ? simple : aimed;
-    best.of_other_lobes = std::move(other.found.sources);
+    if (other.mean_square_of_all <= kRival * best.mean_square_of_all)
+      best.of_other_lobes = std::move(other.found.sources);
     return std::move(best);
   }
 
