@@ -67,7 +67,8 @@ class Shades {
     return luminaire;
   }
 
-  // What stands there hides more luminaires in part, so that a sum of them misses more than the light of the one.
+  // Names the luminaire that the place is in the shade of in another state. One thing may hide parts of several luminaires: a state
+  // with all of them then misses more light than one of them gives.
   std::string OfOtherStates(const NamedReading& named, const std::vector<std::string>& shading) const {
     if (MissingLx(named) <= ChanceLx(named)) return "";
     for (size_t i = 0; i < readings_.size(); ++i) {
