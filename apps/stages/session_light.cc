@@ -133,6 +133,7 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.observations = observed.observations;
   given.seen = observed.seen;
   given.outlines = observed.outlines;
+  given.views = observed.views;
   given.pose_covariance = observed.pose_covariance;
   const Eigen::Vector3d weights = LuminanceWeights(session);
   given.luminance_weights = weights / weights.sum();

@@ -68,8 +68,8 @@ int CountLuminaires(const Room& room, const RoomObservations& given, const Count
   for (const KnownLuminaire& luminaire : given.luminaires) known.push_back(luminaire.position_m);
   ChooseCountOptions choose;
   choose.max_count = options.max_count;
-  const CountChoice choice =
-      ChooseLuminaireCount(room, data, KnownReflectances(room, given), known, given.seen, choose);
+  const CountChoice choice = ChooseLuminaireCount(room, data, KnownReflectances(room, given), known,
+                                                  given.seen, given.views, choose);
   Record(choice, options.group, findings);
   if (!choice.stopped.empty()) WarnOfStop({choice.stopped, "count"}, findings);
   return std::max(1, choice.chosen);
@@ -93,6 +93,10 @@ RoomObservations InOneState(RoomObservations given, int state) {
     seen.push_back(std::move(place));
   }
   given.seen = std::move(seen);
+  for (Watcher& view : given.views) {
+    const bool has = std::find(view.states.begin(), view.states.end(), state) != view.states.end();
+    view.states = has ? std::vector<int>{0} : std::vector<int>();
+  }
   given.luminaires.clear();
   given.luminaires_are_named = false;
   given.dimming = {Eigen::VectorXd()};

@@ -17,6 +17,7 @@
 #include "forward/luminaire/photometry_file.h"
 #include "inverse/observe/observe.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/watchers.h"
 
 namespace luxfit {
 
@@ -66,6 +67,7 @@ struct RoomObservations {
   std::vector<Observation> observations;  // all views (inverse/observe/observe.h)
   std::vector<SeenPlace> seen;            // where luminaires show in photos
   std::vector<SeenOutline> outlines;      // how they show there
+  std::vector<Watcher> views;             // from where photos would show them
   // Covers the views that SeenOutline::view numbers, 6 rows and columns each: rotation vector in world axes (rad), camera
   // centre in world (m) (calib/register/registration.h). Empty: poses are exact.
   Eigen::MatrixXd pose_covariance;

@@ -221,6 +221,7 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
   seen_options.tags = options.tags;
   evidence.seen = FindSeenLuminaires(room, cameras, views, blobs, seen_options);
   evidence.outlines = FindSeenOutlines(cameras, views, blobs);
+  evidence.views = WatchersOf(cameras, views, blobs);
   evidence.pose_covariance = PoseErrorsOf(registration);
   return observed;
 }

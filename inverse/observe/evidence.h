@@ -34,6 +34,7 @@
 #include "inverse/observe/observe.h"
 #include "inverse/observe/room_photos.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/watchers.h"
 
 namespace luxfit {
 
@@ -42,6 +43,7 @@ struct Evidence {
   std::vector<Observation> observations;  // Observation::view indexes the registered views
   std::vector<SeenPlace> seen;
   std::vector<SeenOutline> outlines;
+  std::vector<Watcher> views;                  // the registered ones, with the states of their photos
   Eigen::MatrixXd pose_covariance;             // PoseErrorsOf
   std::vector<PhotoAsIf> photos_as_if;         // left out of the above
   std::vector<StateExplanation> states_as_if;  // what the table of states gets wrong

@@ -58,7 +58,7 @@ Office PrepareOffice(const std::string& folder) {
 FirstGuess GuessOf(const Office& office, const std::vector<SeenPlace>& seen, double grid_m) {
   FirstGuessOptions options;
   options.grid_m = grid_m;
-  return GuessLuminaires(office.prepared.room, office.data, {}, seen, options);
+  return GuessLuminaires(office.prepared.room, office.data, {}, seen, {}, options);
 }
 
 double OffMm(const Office& office, const FirstGuess& guess, size_t k) {

@@ -1,11 +1,12 @@
 // Rooms drawn at random, photographed and read by the light tracer: how often is the fit right, warned of, or wrong and sure?
 //
-//   study_random_rooms -o FOLDER [--quick] [--first SEED] [--count N] [--luminaires MOST] [--degrade NAME,...|all] [--apply]
+//   study_random_rooms -o FOLDER [--quick] [--first SEED] [--count N] [--luminaires MOST] [--degrade NAME,...|all] [--apply] [--estimate]
 //
 // Each seed is one room (tests/support/inverse/random_room.h), which shares no patch and no form factor with the model that is fitted.
 // --degrade: a room that is right as it is is fitted again with each level of each degradation named
 // (tests/validation/random_rooms/room_degradations.h). --luminaires: rooms that have more are left out.
 // --apply: explanations that stand alone are taken as right, as `luxfit run --apply` does.
+// --estimate: photos and readings of the last state alone, in which all are on, and nobody says how many there are.
 // Prints rooms.csv, a line a fit, and writes it to FOLDER, with luminaires.csv, a line a luminaire, warnings.csv, a line a warning, and
 // with --degrade degradations.csv, a line a level.
 // Success and wrong and sure are those of inverse/study/stability_score.h: every luminaire within 50 mm and 10 %; one is not, nor within its own interval, and no
@@ -43,7 +44,8 @@ namespace {
 struct Sweep {
   int first = 1, count = 20, most_luminaires = 100;
   std::vector<RoomDegradation> degradations;
-  bool applies = false;  // as `luxfit run --apply`
+  bool applies = false;    // as `luxfit run --apply`
+  bool estimates = false;  // the number of luminaires
 };
 
 std::vector<RoomDegradation> DegradationsNamed(const std::string& names) {
@@ -57,7 +59,10 @@ std::vector<RoomDegradation> DegradationsNamed(const std::string& names) {
 Sweep ReadSweep(int argc, char** argv, bool is_quick) {
   Sweep sweep;
   if (is_quick) sweep.count = 2, sweep.degradations = DegradationsNamed("photos_exchanged,reading");
-  for (int i = 1; i < argc; ++i) sweep.applies = sweep.applies || std::strcmp(argv[i], "--apply") == 0;
+  for (int i = 1; i < argc; ++i) {
+    sweep.applies = sweep.applies || std::strcmp(argv[i], "--apply") == 0;
+    sweep.estimates = sweep.estimates || std::strcmp(argv[i], "--estimate") == 0;
+  }
   for (int i = 1; i + 1 < argc; ++i) {
     if (std::strcmp(argv[i], "--first") == 0) sweep.first = std::atoi(argv[i + 1]);
     if (std::strcmp(argv[i], "--count") == 0) sweep.count = std::atoi(argv[i + 1]);
@@ -71,12 +76,22 @@ struct Outcome {
   FitScore score;
   bool is_undetermined = false;
   std::vector<Warning> warnings;  // those that the room does not give as it is
+  int found = 0;                  // luminaires
   double readings_percent = 0, seconds = 0;
   std::string luminaires;  // lines of luminaires.csv, without what is degraded and the seed
 };
 
+bool IsOfRightNumber(const support::TracedRoom& room, const RoomFit& fit) {
+  return fit.fit.state.luminaires.size() == room.luminaires.size();
+}
+
+// Under the names of the fit, where it has as many.
 std::vector<EstimatedLuminaire> TruthOf(const support::TracedRoom& room, const RoomFit& fit) {
   std::vector<EstimatedLuminaire> truth;
+  if (!IsOfRightNumber(room, fit)) {
+    for (const Luminaire& l : room.luminaires) truth.push_back({l.id, l.position, {}, l.flux_lm, 0});
+    return truth;
+  }
   const std::vector<size_t> matches = support::MatchesOf(room, fit);
   for (size_t k = 0; k < room.luminaires.size(); ++k) {
     const Luminaire& luminaire = room.luminaires[k];
@@ -97,6 +112,7 @@ double MeanReadingError(const RoomFit& fit, const RoomObservations& given) {
 }
 
 std::string LuminaireLines(const support::RandomRoom& drawn, const RoomFit& fit) {
+  if (!IsOfRightNumber(drawn.room, fit)) return "";
   const std::vector<size_t> matches = support::MatchesOf(drawn.room, fit);
   std::string lines;
   for (size_t k = 0; k < matches.size(); ++k) {
@@ -114,17 +130,39 @@ std::string LuminaireLines(const support::RandomRoom& drawn, const RoomFit& fit)
 // The codes of warnings that the room gives as it is.
 using KnownCodes = std::set<std::string>;
 
+// Names as many luminaires as photos and readings of one state tell.
+RoomObservations WithCountedLuminaires(const Room& model, RoomObservations given, Findings& findings) {
+  given.luminaires.clear();
+  given.luminaires_are_named = false;
+  given.dimming = {Eigen::VectorXd()};
+  const int count = CountLuminaires(model, given, {}, findings);
+  given.luminaires.resize(static_cast<size_t>(count));
+  for (int k = 0; k < count; ++k)
+    given.luminaires[static_cast<size_t>(k)].luminaire.id = fmt::format("lamp{}", k + 1);
+  given.dimming = {Eigen::VectorXd::Ones(count)};
+  return given;
+}
+
 // `drawn`: the room as it is said to be. `model`: of its mesh.
-Outcome FitGiven(const support::RandomRoom& drawn, const Room& model, const RoomObservations& given,
-                 bool applies, const KnownCodes& known) {
+Outcome FitGiven(const support::RandomRoom& drawn, const Room& model, RoomObservations given,
+                 const Sweep& sweep, const KnownCodes& known) {
   const auto start = std::chrono::steady_clock::now();
-  const RoomFit fit = RunTraced(model, given, applies);
+  Findings of_count;
+  if (sweep.estimates) given = WithCountedLuminaires(model, std::move(given), of_count);
+  RoomFit fit = RunTraced(model, given, sweep.applies);
+  fit.findings.warnings.insert(fit.findings.warnings.begin(), of_count.warnings.begin(),
+                               of_count.warnings.end());
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.is_undetermined = fit.findings.IsUndetermined();
   for (const Warning& warning : fit.findings.warnings)
     if (known.count(warning.code) == 0) outcome.warnings.push_back(warning);
+  outcome.found = static_cast<int>(fit.fit.state.luminaires.size());
   outcome.score = ScoreFit(EstimatedLuminaires(fit), TruthOf(drawn.room, fit), !outcome.warnings.empty());
+  if (!IsOfRightNumber(drawn.room, fit)) {
+    outcome.score.is_success = false;
+    outcome.score.is_confident_wrong = outcome.warnings.empty();
+  }
   outcome.readings_percent = MeanReadingError(fit, given);
   outcome.luminaires = LuminaireLines(drawn, fit);
   return outcome;
@@ -234,11 +272,12 @@ class RoomSweep {
  private:
   void RunSeed(int seed, const Sweep& sweep) {
     std::mt19937_64 rng(static_cast<std::uint64_t>(seed));
-    const support::RandomRoom drawn = support::DrawRoom(rng);
+    support::RandomRoom drawn = support::DrawRoom(rng);
+    if (sweep.estimates) drawn.room.dimming = {drawn.room.dimming.back()};
     if (static_cast<int>(drawn.room.luminaires.size()) > sweep.most_luminaires) return;
     const Room model = ModelOf(drawn.mesh);
     const RoomObservations given = Photograph(drawn, model, drawn.room.dimming, rng);
-    const Outcome as_is = FitGiven(drawn, model, given, sweep.applies, {});
+    const Outcome as_is = FitGiven(drawn, model, given, sweep, {});
     Add("none,", seed, drawn, as_is, {});
     if (!as_is.score.is_success) return;
     KnownCodes known;
@@ -256,7 +295,7 @@ class RoomSweep {
         const Room worse_model = ModelOf(room.mesh);
         if (degradation.of_room != nullptr) data = Photograph(room, worse_model, drawn.room.dimming, rng);
         const std::string key = fmt::format("{},{:g}", degradation.name, level);
-        const Outcome outcome = FitGiven(drawn, worse_model, data, sweep.applies, known);
+        const Outcome outcome = FitGiven(drawn, worse_model, data, sweep, known);
         Add(key, seed, drawn, outcome, *cause);
         tally_.Add(key, outcome, *cause);
       }
@@ -265,11 +304,12 @@ class RoomSweep {
   void Add(const std::string& key, int seed, const support::RandomRoom& drawn, const Outcome& outcome,
            const NamedCause& cause) {
     const FitScore& score = outcome.score;
-    const std::string line = fmt::format(
-        "{},{},{},{},{},{:.1f},{:.2f},{:.2f},{},{},{},{:.1f},{},\"{}\"\n", key, seed, Verdict(outcome),
-        Naming(outcome, cause), Accused(outcome, cause), 1000 * score.worst_position_m,
-        100 * score.worst_flux, outcome.readings_percent, score.intervals, score.intervals_held,
-        outcome.is_undetermined ? 1 : 0, outcome.seconds, CodesOf(outcome.warnings), drawn.words);
+    const std::string line =
+        fmt::format("{},{},{},{},{},{} of {},{:.1f},{:.2f},{:.2f},{},{},{},{:.1f},{},\"{}\"\n", key, seed,
+                    Verdict(outcome), Naming(outcome, cause), Accused(outcome, cause), outcome.found,
+                    drawn.room.luminaires.size(), 1000 * score.worst_position_m, 100 * score.worst_flux,
+                    outcome.readings_percent, score.intervals, score.intervals_held,
+                    outcome.is_undetermined ? 1 : 0, outcome.seconds, CodesOf(outcome.warnings), drawn.words);
     std::fputs(line.c_str(), stdout);
     std::fflush(stdout);
     rooms_ += line;
@@ -283,7 +323,8 @@ class RoomSweep {
 
   std::string folder_;
   std::string rooms_ =
-      "degradation,level,seed,outcome,named,accused,worst_mm,worst_flux_percent,readings_percent,intervals,"
+      "degradation,level,seed,outcome,named,accused,found,worst_mm,worst_flux_percent,readings_percent,"
+      "intervals,"
       "intervals_held,undetermined,seconds,warnings,room\n";
   std::string luminaires_ =
       "degradation,level,seed,luminaire,kind,off_mm,flux_percent,aim_deg,distribution,shape\n";

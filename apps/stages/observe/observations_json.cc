@@ -98,6 +98,20 @@ void ReadAsIf(const json& in, Evidence& observed) {
   }
 }
 
+json ViewJson(const Watcher& view) {
+  json border = json::array();
+  for (const Eigen::Vector3d& ray : view.border) border.push_back(VectorJson(ray));
+  return {{"eye_m", VectorJson(view.eye)}, {"border", border}, {"states", view.states}};
+}
+
+Watcher ViewFromJson(const json& in) {
+  Watcher view;
+  view.eye = VectorFromJson(in.at("eye_m"));
+  for (const json& ray : in.at("border")) view.border.emplace_back(VectorFromJson(ray));
+  view.states = in.at("states").get<std::vector<int>>();
+  return view;
+}
+
 }  // namespace
 
 json ObservationsJson(const Evidence& observed) {
@@ -121,9 +135,12 @@ json ObservationsJson(const Evidence& observed) {
                     {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
   json outlines = json::array();
   for (const SeenOutline& outline : observed.outlines) outlines.push_back(OutlineJson(outline));
+  json views = json::array();
+  for (const Watcher& view : observed.views) views.push_back(ViewJson(view));
   return {{"observations", json::binary(std::move(bytes))},
           {"seen", seen},
           {"outlines", outlines},
+          {"views", views},
           {"as_if", AsIfJson(observed)}};
 }
 
@@ -151,6 +168,7 @@ Evidence ObservationsFromJson(const json& in) {
     place.area_m2 = VectorFromJson(entry.at("area_m2"))[0];
     observed.seen.push_back(place);
   }
+  for (const json& entry : in.value("views", json::array())) observed.views.push_back(ViewFromJson(entry));
   for (const json& entry : in.at("outlines")) observed.outlines.push_back(OutlineFromJson(entry));
   ReadAsIf(in.at("as_if"), observed);
   return observed;

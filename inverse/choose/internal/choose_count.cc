@@ -9,11 +9,13 @@
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/choose/internal/left_out.h"
+#include "inverse/choose/internal/two_sides.h"
 #include "inverse/model/fit_luminaires.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/search/alike_places.h"
 #include "inverse/model/internal/search/first_guess.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
+#include "inverse/model/internal/search/watched_places.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
@@ -74,11 +76,17 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
       luminaire.size_m.setConstant(seen_m.value_or(size_m));
     }
     luminaire.flux_lm = flux_per_strength * source.strength;
-    state.luminaires.push_back(luminaire);
     FreeQuantities free;
     free.position = !source.is_held;
-    free.exponent = is_disc;
-    free.size = is_disc && !seen_m;
+    if (source.lobe.is_two_sided) {
+      luminaire = LitOnBothSides(std::move(luminaire));
+      luminaire.shape = LuminaireShape::kPoint;
+      free.sides = true;
+    } else {
+      free.exponent = is_disc;
+      free.size = is_disc && !seen_m;
+    }
+    state.luminaires.push_back(std::move(luminaire));
     state.free.push_back(free);
   }
   return state;
@@ -160,10 +168,11 @@ class Count {
  public:
   Count(const Room& room, const LightData& data, const LightState& given,
         const KnownPositions& known_positions, const std::vector<SeenPlace>& places,
-        const ChooseCountOptions& options)
+        const std::vector<Watcher>& views, const ChooseCountOptions& options)
       : room_(room),
         given_(given),
         places_(places),
+        views_(WatchingViews(places, views)),
         options_(options),
         problem_(CutEveryFifth(room, CutAll(room, data, options.max_elements))),
         seen_(WithoutJudgingFold(problem_)),
@@ -188,7 +197,7 @@ class Count {
     constexpr size_t kPatience = 2;  // numbers in a row without gain that end the search
     const FirstGuessOptions guess;
     const GroupedLight light = GroupLight(room_, WithCount(seen_, 1), guess.max_elements);
-    const SparseSearch search(room_, light, guess.grid_m, guess.refinements);
+    const SparseSearch search(room_, light, views_, guess.grid_m, guess.refinements);
     if (SurePlacesAreAll(search)) return;
     AddDoubtfulPlaces(search);
     for (size_t count = std::max(known_, found_.sources.size()); count <= most_; ++count) {
@@ -355,6 +364,7 @@ class Count {
   const Room& room_;
   const LightState& given_;
   const std::vector<SeenPlace>& places_;
+  std::vector<Watcher> views_;
   const ChooseCountOptions& options_;
   const SubProblem problem_;
   const LightData seen_;  // without the judging fold
@@ -369,12 +379,12 @@ class Count {
 
 CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
                                  const KnownPositions& known_positions, const std::vector<SeenPlace>& places,
-                                 const ChooseCountOptions& options) {
+                                 const std::vector<Watcher>& views, const ChooseCountOptions& options) {
   const int least = std::max(1, static_cast<int>(known_positions.size()));
   if (options.max_count < 0 || (options.max_count > 0 && options.max_count < least))
     throw std::invalid_argument(
         "ChooseLuminaireCount: expected max_count of at least 1 and of the known places");
-  Count count(room, data, state, known_positions, places, options);
+  Count count(room, data, state, known_positions, places, views, options);
   if (!count.CanJudge()) return {};
   std::string stopped;
   try {

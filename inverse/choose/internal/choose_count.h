@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "inverse/model/light_state.h"
+#include "inverse/observe/watchers.h"
 #include "inverse/observe/seen_luminaires.h"
 
 namespace luxfit {
@@ -51,10 +52,11 @@ struct CountChoice {
 // `data`: with measured indirect light, or readings alone; only one dimming per state counts. `state`: gives
 // known reflectances (albedo, albedo_free). LightData::checkpoint may end the count: the choice is then among the
 // numbers tried so far. `known_positions`: places of luminaires that certainly exist. `places`: where luminaires
-// show in photos.
+// show in photos. `views`: as GuessLuminaires has them.
 CountChoice ChooseLuminaireCount(const Room& room, const LightData& data, const LightState& state,
                                  const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
                                  const std::vector<SeenPlace>& places = {},
+                                 const std::vector<Watcher>& views = {},
                                  const ChooseCountOptions& options = {});
 
 }  // namespace luxfit

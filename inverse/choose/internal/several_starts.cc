@@ -23,8 +23,12 @@ Luminaire At(const Luminaire& luminaire, const Luminaire& rival) {
   return start;
 }
 
+// What the mesh lacks favours places in mid-air by less: half of the best score.
+constexpr double kWorthLeavingSeen = 0.5;
+
 StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>& starts,
-                         const std::vector<FittedModel>& fitted, const SeveralStartsOptions& options) {
+                         const std::vector<FittedModel>& fitted, bool is_first_seen,
+                         const SeveralStartsOptions& options) {
   StartComparison comparison;
   std::vector<const LeftOutPrediction*> left_out;
   for (size_t i = 0; i < fitted.size(); ++i) {
@@ -37,6 +41,7 @@ StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>
     candidates.push_back({std::move(scores), 0, true});
   SelectionOptions selection_options;
   selection_options.keeps_first = true;
+  if (is_first_seen) selection_options.worth_having = kWorthLeavingSeen;
   const Selection selection = SimplestWithinOneStandardError(candidates, selection_options);
   comparison.score = selection.score;
   const size_t chosen = selection.chosen;
@@ -81,7 +86,8 @@ SeveralStarts FitFromSeveralStarts(const Room& room, const LightData& data, cons
       fitted[i] = FitModel(room, i == 0 ? own : problem, starts[i], state.free[k],
                            {options.max_outer_iterations, options.max_inner_iterations});
     });
-    StartComparison comparison = Compared(problem, starts, fitted, options);
+    const bool is_first_seen = own.priors.size() > problem.priors.size();
+    StartComparison comparison = Compared(problem, starts, fitted, is_first_seen, options);
     comparison.luminaire = static_cast<int>(k);
     result.state.luminaires[k] = fitted[static_cast<size_t>(comparison.chosen)].luminaire;
     result.comparisons.push_back(std::move(comparison));

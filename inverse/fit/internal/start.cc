@@ -59,7 +59,7 @@ class Starter {
     std::vector<std::optional<Eigen::Vector3d>> known;
     for (const KnownLuminaire& luminaire : given_.luminaires) known.push_back(luminaire.position_m);
     const FirstGuess guess =
-        IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known, given_.seen);
+        IsAllHeld() ? NothingToGuess() : GuessLuminaires(room_, data, known, given_.seen, given_.views);
     RecordFirstGuess(given_, guess, given_.seen, findings_);
     MatchKnownFluxes(guess);
     for (const std::vector<int>& group : guess.groups) WarnOfInterchangeable(given_, group, findings_);

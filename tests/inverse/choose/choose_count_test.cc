@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "forward/light/light_tracer.h"
+#include "forward/luminaire/luminaire_parts.h"
 #include "inverse/model/internal/measured_indirect.h"
 #include "tests/support/closed_forms.h"
 #include "tests/support/scenes.h"
@@ -91,6 +93,23 @@ SeenPlace Seen(const Eigen::Vector3d& position) {
   return place;
 }
 
+// Each lights the ceiling, too: lobes to one side would need another one above each.
+TEST_F(CountedRoom, PendantsThatShineUpAndDownAreAsManyAsPhotosShow) {
+  std::vector<Luminaire> lamps;
+  std::vector<SeenPlace> places;
+  for (const double x : {0.8, 2.0, 3.2}) {
+    Luminaire pendant = Downlight({x, 1.5, 1.8}, 1500);
+    pendant.distribution = Distribution::kMeasured;
+    pendant.table = std::make_shared<IntensityTable>(TwoSidedTable(0.4));
+    lamps.push_back(pendant);
+    places.push_back(Seen(pendant.position + Eigen::Vector3d(-0.02, 0.02, 0.01)));
+  }
+  EXPECT_EQ(Count(lamps, places), 3);
+  places.pop_back();
+  lamps.pop_back();
+  EXPECT_EQ(Count(lamps, places), 2);
+}
+
 // Bright things that give no light are seen as surely.
 TEST_F(CountedRoom, LuminairesThatPhotosShowAreCountedAndOtherBrightThingsAreNot) {
   std::vector<Luminaire> lamps;
@@ -153,9 +172,9 @@ TEST_F(CountedRoom, TheLargestNumberAllowedIsSaid) {
   options.max_count = 1;
   const LightData data = WithMeasuredIndirect(
       room_, Photograph({Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500)}));
-  EXPECT_TRUE(ChooseLuminaireCount(room_, data, unknown_, {}, {}, options).reached_max);
+  EXPECT_TRUE(ChooseLuminaireCount(room_, data, unknown_, {}, {}, {}, options).reached_max);
   options.max_count = -1;
-  EXPECT_THROW(ChooseLuminaireCount(room_, data, unknown_, {}, {}, options), std::invalid_argument);
+  EXPECT_THROW(ChooseLuminaireCount(room_, data, unknown_, {}, {}, {}, options), std::invalid_argument);
 }
 
 TEST_F(CountedRoom, NothingSeenIsNothingCounted) {

@@ -103,6 +103,12 @@ TEST(SeveralStarts, TheBestIsKeptWhereOthersAreStuck) {
   EXPECT_TRUE(c.rivals.empty());
   EXPECT_LT(c.score[1] + c.standard_error[0], c.score[0]);
   EXPECT_LT((result.state.luminaires[0].position - lamp).norm(), 0.02);
+  // Where photos show the first start, one that leaves a third less is still better.
+  const ParameterPrior seen{ParameterKind::kLuminaire, 0, LuminaireQuantity::kPositionX, -0.3, 0.02};
+  EXPECT_EQ(FitFromSeveralStarts(room, data, state, {{RivalAt({0.7, 0.4, 1.1})}}, {}, {seen}, options)
+                .comparisons.at(0)
+                .chosen,
+            1);
 }
 
 TEST(SeveralStarts, WithoutRivalsNothingIsFitted) {

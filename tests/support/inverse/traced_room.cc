@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "forward/light/light_tracer.h"
 #include "forward/room/visibility.h"
@@ -361,6 +362,9 @@ RoomObservations ObserveTraced(const TracedRoom& room, const Room& model, std::m
   AddPhotos(room, rays, SightsOf(room, model, rays), options, rng, given);
   AddReadings(room, rays, options, rng, given);
   AddSeen(room, rays, options, rng, given);
+  std::vector<int> states(room.dimming.size());
+  std::iota(states.begin(), states.end(), 0);
+  for (const Eigen::Vector3d& eye : room.eyes) given.views.push_back({eye, {}, states});
   return given;
 }
 

@@ -6,6 +6,7 @@
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
+#include "inverse/model/internal/search/watched_places.h"
 
 namespace luxfit {
 namespace {
@@ -124,7 +125,8 @@ class AlbedoMean {
 }  // namespace
 
 FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownPositions& known_positions,
-                           const std::vector<SeenPlace>& seen, const FirstGuessOptions& options) {
+                           const std::vector<SeenPlace>& seen, const std::vector<Watcher>& views,
+                           const FirstGuessOptions& options) {
   FirstGuess guess;
   guess.luminaires.resize(data.dimming.empty() ? 0 : static_cast<size_t>(data.dimming[0].size()));
   const GroupedLight light = GroupLight(room, data, options.max_elements);
@@ -132,7 +134,7 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
   if (!light.separable) guess.message = "the observed states do not tell the luminaires apart";
   for (const LuminaireGroup& group : light.groups) guess.groups.push_back(group.luminaires);
   AlbedoMean albedo(static_cast<Eigen::Index>(room.scene.materials.size()));
-  const SparseSearch search(room, light, options.grid_m, options.refinements);
+  const SparseSearch search(room, light, WatchingViews(seen, views), options.grid_m, options.refinements);
   for (size_t g = 0; g < light.groups.size(); ++g) {
     const LuminaireGroup& group = light.groups[g];
     SeenPositions own{SeenOf(group, data, seen), {}};

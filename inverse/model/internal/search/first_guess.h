@@ -12,6 +12,9 @@
 //    (inverse/observe/seen_luminaires.h). They are tried first; where they suffice, nothing is searched. Where
 //    they do not, those that three views or more show stay, and a search anywhere gives their rivals.
 //
+// Where photos show any luminaire beyond doubt (IsSure), those of three views and more would show others, too: no search puts one
+// where it would shine towards these views (`views`).
+//
 // LightData::checkpoint ends the search: from then on only places seen in photos are tried.
 //
 // Fluxes are those for a camera scale of 1. Distances are in m. Luminaires of one group are interchangeable.
@@ -30,6 +33,7 @@
 #include "forward/light/room.h"
 #include "inverse/model/light_state.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/watchers.h"
 
 namespace luxfit {
 
@@ -70,7 +74,8 @@ struct FirstGuess {
 // empty. `seen`: places seen in photos, if any.
 FirstGuess GuessLuminaires(const Room& room, const LightData& data,
                            const std::vector<std::optional<Eigen::Vector3d>>& known_positions = {},
-                           const std::vector<SeenPlace>& seen = {}, const FirstGuessOptions& options = {});
+                           const std::vector<SeenPlace>& seen = {}, const std::vector<Watcher>& views = {},
+                           const FirstGuessOptions& options = {});
 
 }  // namespace luxfit
 

@@ -53,7 +53,7 @@ void GroupEquations::SetUp(const std::vector<int>& material, const Eigen::Vector
 }
 
 LitPlace GroupEquations::Weighted(const LitPlace& place) const {
-  return {place.lx_per_cd(rows_).cwiseProduct(root_weight_.cast<float>()), place.rays(rows_, Eigen::all)};
+  return {place.lx_per_cd(rows_).cwiseProduct(root_weight_.cast<float>()), place.rays(rows_, Eigen::all), {}};
 }
 
 void GroupEquations::Reweigh(const Eigen::MatrixXd& sources) {

@@ -21,17 +21,19 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
+// Whether a lobe shines straight down, to both sides or to all.
+bool IsDown(const Tried& tried) {
+  return tried.lobe.distribution == Distribution::kIsotropic || tried.lobe.aim.z() < -0.99;
+}
+
 // Leaves out lobes that are not aimed down and leave no less than two thirds of the squares of the best that is: at a place
 // that is known, most luminaires shine down, and what the mesh lacks may favour any other axis by a little.
 std::vector<Tried> MostlyDown(std::vector<Tried> tried) {
-  const auto is_down = [](const Tried& t) {
-    return t.lobe.distribution == Distribution::kIsotropic || t.lobe.aim.z() < -0.99;
-  };
   double down = std::numeric_limits<double>::infinity();
   for (const Tried& t : tried)
-    if (is_down(t)) down = std::min(down, t.cost);
+    if (IsDown(t)) down = std::min(down, t.cost);
   tried.erase(std::remove_if(tried.begin(), tried.end(),
-                             [&](const Tried& t) { return !is_down(t) && kRival * t.cost >= down; }),
+                             [&](const Tried& t) { return !IsDown(t) && kRival * t.cost >= down; }),
               tried.end());
   return tried;
 }
@@ -88,6 +90,25 @@ void GroupSearch::TurnAll() {
   }
 }
 
+void GroupSearch::ReshapeSeen() {
+  constexpr int kSweeps = 2;  // each lobe depends on the others
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    for (size_t j = 0; j < sources_.size(); ++j) {
+      const Tried& source = sources_[j];
+      if (!is_seen(j) || is_held(j) || !IsDown(source)) continue;
+      const Tried best = trials_.Best(IsInMidAir(source.position) ? LobesInMidAir() : LobesUnderCeiling(),
+                                      Others(j), Lit(room_, places_, {source.position}));
+      if (std::isfinite(best.cost)) sources_[j] = best;
+    }
+  }
+}
+
+bool GroupSearch::IsInMidAir(const Eigen::Vector3d& place) const {
+  // Half of what a Lambertian back emits falls within this distance of a surface.
+  constexpr double kBehindM = 0.1;
+  return !room_.rays.Occluded(place, place + kBehindM * Eigen::Vector3d::UnitZ());
+}
+
 std::vector<Tried> GroupSearch::RivalsOf(size_t source, const LitPlaces& grid) const {
   const Tried& own = sources_[source];
   const Eigen::MatrixXd rest = Others(source);
@@ -95,9 +116,8 @@ std::vector<Tried> GroupSearch::RivalsOf(size_t source, const LitPlaces& grid) c
   const auto is_near = [&](const Eigen::Vector3d& p) { return !is_apart(p); };
   // Compares on the same coarse grid: rivals are nearly as good as the source's own surroundings.
   const std::vector<Tried> near = Sorted(trials_.BestOfBins(lobes_, rest, grid, is_near));
-  if (near.empty()) return {};
-  const double coarse = near.front().cost;
   const double fine = equations_.SolveWith(equations_.Solve(rest), own.column).cost;
+  const double coarse = near.empty() ? fine : near.front().cost;
   std::vector<Tried> promising, rivals;
   for (const Tried& lobe : trials_.BestOfBins(lobes_, rest, grid, is_apart))
     if (lobe.cost <= kRival * coarse) promising.push_back(lobe);
@@ -151,7 +171,7 @@ Tried GroupSearch::Refined(const Tried& source, int halvings, const Eigen::Matri
   const std::vector<Eigen::Vector3d> near = Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
   const bool is_any = any_lobe && lobes_ == LobeSet::kSimple;
   const Tried best = trials_.Best(is_any ? SimpleLobes() : LobesAbout(source.lobe, halvings), rest,
-                                  Lit(room_, places_, near));
+                                  Lit(room_, places_, near, views_));
   return IsBetter(best, source) ? best : source;
 }
 

@@ -1,5 +1,6 @@
 // Explains the light of one group by sources, added one at a time and moved in turn, with one set of lobes.
 //
+// `views` watch the places that it searches; `counts` says by view whether it has a photo of the group's light.
 // It holds the sources so far, each with its column of weighted light (inverse/model/internal/search/group_equations.h). Keeps references.
 // Units: m; world frame. Source: Boyd, Schiebinger, Recht (2017), "The alternating descent conditional gradient method for
 // sparse inverse problems" (add, solve, move).
@@ -23,13 +24,15 @@ constexpr double kRival = 1.5;
 
 class GroupSearch {
  public:
-  GroupSearch(const Room& room, const std::vector<Sensor>& places, const Eigen::AlignedBox3d& box,
+  GroupSearch(const Room& room, const std::vector<Sensor>& places, const std::vector<Watcher>& views,
+              const std::vector<bool>& counts, const Eigen::AlignedBox3d& box,
               const GroupEquations& equations, LobeSet lobes, double step_m, int refinements)
       : room_(room),
         places_(places),
+        views_(views),
         box_(box),
         equations_(equations),
-        trials_(equations, places, step_m),
+        trials_(equations, places, step_m, counts),
         lobes_(lobes),
         step_m_(step_m),
         refinements_(refinements) {}
@@ -47,6 +50,10 @@ class GroupSearch {
   // Chooses the lobe of each source anew, at its place, now that the others explain their light.
   void TurnAll();
 
+  // Chooses anew the lobe of each source that photos show, at its place: those that shine down and, in mid-air, also those to both
+  // sides and to all. Turned ones would explain light of luminaires that are still missing; those that are turned stay so.
+  void ReshapeSeen();
+
   // Returns other places for one source that explain the light nearly as well, best first.
   std::vector<Tried> RivalsOf(size_t source, const LitPlaces& grid) const;
 
@@ -61,6 +68,8 @@ class GroupSearch {
 
  private:
   LobeSet AtKnownPlace() const { return lobes_ == LobeSet::kSimple ? LobeSet::kOfKnownPlaces : lobes_; }
+
+  bool IsInMidAir(const Eigen::Vector3d& place) const;
 
   // Returns the columns of all sources but one.
   Eigen::MatrixXd Others(size_t without) const;
@@ -83,6 +92,7 @@ class GroupSearch {
 
   const Room& room_;
   const std::vector<Sensor>& places_;
+  const std::vector<Watcher>& views_;
   const Eigen::AlignedBox3d& box_;
   const GroupEquations& equations_;
   LobeTrials trials_;

@@ -93,6 +93,10 @@ GroupedLight GroupLight(const Room& room, const LightData& data, int max_places)
   DimmingGroups found = GroupByDimming(ObservedDimming(data));
   light.groups = std::move(found.groups);
   const Eigen::MatrixXd& dimming = found.dimming;
+  for (Eigen::Index g = 0; g < dimming.cols(); ++g) {
+    light.is_on.emplace_back();
+    for (Eigen::Index s = 0; s < dimming.rows(); ++s) light.is_on.back().push_back(dimming(s, g) > 0);
+  }
   light.separable =
       dimming.cols() > 0 && Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(dimming).rank() == dimming.cols();
   const std::vector<Place> places = PlacesOf(room, data, max_places);

@@ -19,7 +19,8 @@ namespace luxfit {
 
 struct GroupedLight {
   std::vector<LuminaireGroup> groups;
-  bool separable = false;  // the groups' dimming table has full column rank
+  std::vector<std::vector<bool>> is_on;  // by group and state
+  bool separable = false;                // the groups' dimming table has full column rank
   std::vector<Sensor> places;
   std::vector<int> material;  // one for each place; -1: a reading
   Eigen::MatrixXd value;      // places x groups: Y or lx; NaN where unknown

@@ -101,11 +101,14 @@ std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double 
   return places;
 }
 
-LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions) {
+LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions,
+              const std::vector<Watcher>& views) {
   LitPlaces places{std::move(positions), {}};
   places.light.resize(places.positions.size());
-  tbb::parallel_for(size_t{0}, places.positions.size(),
-                    [&](size_t i) { places.light[i] = LightFrom(room, sensors, places.positions[i]); });
+  tbb::parallel_for(size_t{0}, places.positions.size(), [&](size_t i) {
+    places.light[i] = LightFrom(room, sensors, places.positions[i]);
+    places.light[i].watching = ViewsOf(room, views, places.positions[i]);
+  });
   return places;
 }
 

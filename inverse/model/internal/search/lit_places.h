@@ -14,19 +14,23 @@
 
 #include "forward/light/room.h"
 #include "inverse/model/internal/search/lobes.h"
+#include "inverse/model/internal/search/watched_places.h"
 
 namespace luxfit {
 
 struct LitPlace {
   Eigen::VectorXf lx_per_cd;                     // by sensor
   Eigen::Matrix<float, Eigen::Dynamic, 3> rays;  // unit vectors to the sensors
+  std::vector<WatchingView> watching;
 };
 
 struct LitPlaces {
   std::vector<Eigen::Vector3d> positions;
   std::vector<LitPlace> light;  // one for each position
 };
-LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions);
+// `views`: those that may watch the places.
+LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions,
+              const std::vector<Watcher>& views = {});
 
 // Returns D, sensors x lobes. A lobe to both sides of which the sensors see but one gives nothing. Throws std::invalid_argument for a lobe that is neither isotropic nor a cosine power.
 Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobes);

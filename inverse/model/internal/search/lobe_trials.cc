@@ -60,7 +60,8 @@ std::vector<Tried> LobeTrials::BestOf(const LobesAt& lobes_at, size_t bins, cons
         GroupEquations::Gains(base, LobeColumns(equations_.Weighted(places.light[i]), tried.lobes));
     for (size_t l = 0; l < tried.lobes.size(); ++l) {
       Promising& best = gains[tried.bin[l]][i];
-      if (gain[static_cast<Eigen::Index>(l)] > best.gain)
+      if (gain[static_cast<Eigen::Index>(l)] > best.gain &&
+          !IsRefuted(tried.lobes[l], places.light[i].watching, counts_))
         best = {gain[static_cast<Eigen::Index>(l)], i, tried.lobes[l]};
     }
   });

@@ -5,6 +5,8 @@
 // - aimed ones, towards the brightest places whose light is unexplained, or of the aims over the sphere whose
 //   half-peak cone contains such a place. All other aims are contradicted: the brightest place lies in a beam.
 //
+// Lobes that photos would show and do not (inverse/model/internal/search/watched_places.h) are left out at places whose views are known.
+//
 // Lobes are sorted into bins: one for each simple lobe, or one for each width and bright place. Gains rank all, and
 // the most promising of each bin are solved exactly. So no bin hides another, whose better lobe the coarse grid
 // misses.
@@ -38,9 +40,10 @@ using AllowedPlaces = std::function<bool(const Eigen::Vector3d&)>;
 
 class LobeTrials {
  public:
-  // Keeps references. `apart_m`: least distance of two bright places.
-  LobeTrials(const GroupEquations& equations, const std::vector<Sensor>& sensors, double apart_m)
-      : equations_(equations), sensors_(sensors), apart_m_(apart_m) {}
+  // Keeps references. `apart_m`: least distance of two bright places. `counts`: by view, whether it has a photo of the group's light.
+  LobeTrials(const GroupEquations& equations, const std::vector<Sensor>& sensors, double apart_m,
+             const std::vector<bool>& counts)
+      : equations_(equations), sensors_(sensors), apart_m_(apart_m), counts_(counts) {}
 
   // Returns the best of the allowed places for every bin that has any, in the order of bins. `others`: the columns of
   // all other sources.
@@ -65,6 +68,7 @@ class LobeTrials {
   const GroupEquations& equations_;
   const std::vector<Sensor>& sensors_;
   double apart_m_;
+  const std::vector<bool>& counts_;
 };
 
 }  // namespace luxfit

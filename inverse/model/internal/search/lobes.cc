@@ -54,6 +54,26 @@ const std::vector<Lobe>& LobesOfKnownPlaces() {
   return lobes;
 }
 
+const std::vector<Lobe>& LobesUnderCeiling() {
+  static const std::vector<Lobe> lobes = [] {
+    std::vector<Lobe> down;
+    for (const Lobe& lobe : SimpleLobes())
+      if (lobe.distribution == Distribution::kCosinePower && lobe.aim.z() < 0) down.push_back(lobe);
+    return down;
+  }();
+  return lobes;
+}
+
+const std::vector<Lobe>& LobesInMidAir() {
+  static const std::vector<Lobe> lobes = [] {
+    std::vector<Lobe> all = LobesUnderCeiling();
+    all.push_back(SimpleLobes().front());
+    all.push_back(LobesOfKnownPlaces().back());
+    return all;
+  }();
+  return lobes;
+}
+
 const std::vector<Eigen::Vector3d>& AimsOverSphere() {
   static const std::vector<Eigen::Vector3d> aims = DividedIcosahedron();
   return aims;

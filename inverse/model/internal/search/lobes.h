@@ -31,6 +31,9 @@ struct Lobe {
 const std::vector<Lobe>& SimpleLobes();
 // Returns the simple lobes and the one that shines up and down: at a place in mid-air it may imitate two luminaires.
 const std::vector<Lobe>& LobesOfKnownPlaces();
+// Return those of them that shine straight down and, in mid-air, those to all sides and to both.
+const std::vector<Lobe>& LobesUnderCeiling();
+const std::vector<Lobe>& LobesInMidAir();
 
 // Unit vectors.
 const std::vector<Eigen::Vector3d>& AimsOverSphere();

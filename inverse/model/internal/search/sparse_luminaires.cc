@@ -96,29 +96,48 @@ void AddRivals(const std::vector<SparseSource>& others, double apart_m, std::vec
 
 }  // namespace
 
-SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements)
-    : room_(room), light_(light), refinements_(refinements), box_(SearchBox(room, light.places)) {
+SparseSearch::SparseSearch(const Room& room, const GroupedLight& light, std::vector<Watcher> views,
+                           double grid_m, int refinements)
+    : room_(room),
+      light_(light),
+      views_(std::move(views)),
+      refinements_(refinements),
+      box_(SearchBox(room, light.places)) {
   step_m_ = box_.isEmpty() ? grid_m : std::min(grid_m, box_.sizes().maxCoeff() / 8);
 }
 
 SparseSearch::~SparseSearch() = default;
 
 const LitPlaces& SparseSearch::Grid() const {
-  if (!grid_) grid_ = std::make_unique<LitPlaces>(Lit(room_, light_.places, GridThrough(box_, step_m_)));
+  if (!grid_)
+    grid_ = std::make_unique<LitPlaces>(Lit(room_, light_.places, GridThrough(box_, step_m_), views_));
   return *grid_;
 }
 
 namespace {
 
+// Returns by view whether it has a photo of a state in which the group is on.
+std::vector<bool> WithPhotoOf(const std::vector<Watcher>& views, const std::vector<bool>& is_on) {
+  std::vector<bool> counts;
+  counts.reserve(views.size());
+  for (const Watcher& view : views)
+    counts.push_back(std::any_of(view.states.begin(), view.states.end(),
+                                 [&](int s) { return is_on[static_cast<size_t>(s)]; }));
+  return counts;
+}
+
 // Explains the light of one group.
 class GroupFinder {
  public:
   // `grid`: traces the room's grid when it is first needed.
-  GroupFinder(const Room& room, const std::vector<Sensor>& sensors, const Eigen::AlignedBox3d& box,
-              const GroupEquations& equations, int count, double step_m, int refinements,
-              std::function<const LitPlaces&()> grid, std::function<bool()> searches_on)
+  GroupFinder(const Room& room, const std::vector<Sensor>& sensors, const std::vector<Watcher>& views,
+              const std::vector<bool>& is_on, const Eigen::AlignedBox3d& box, const GroupEquations& equations,
+              int count, double step_m, int refinements, std::function<const LitPlaces&()> grid,
+              std::function<bool()> searches_on)
       : room_(room),
         sensors_(sensors),
+        views_(views),
+        counts_(WithPhotoOf(views, is_on)),
         box_(box),
         equations_(equations),
         count_(count),
@@ -189,10 +208,14 @@ class GroupFinder {
   std::unique_ptr<GroupSearch> Searched(const GroupEquations& in, LobeSet lobes,
                                         const std::vector<SparseSource>& start, const LitPlaces& grid,
                                         int refinements) const {
-    auto search = std::make_unique<GroupSearch>(room_, sensors_, box_, in, lobes, step_m_, refinements);
+    auto search = std::make_unique<GroupSearch>(room_, sensors_, views_, counts_, box_, in, lobes, step_m_,
+                                                refinements);
     for (const SparseSource& source : start) search->Start(source);
-    while (static_cast<int>(search->sources().size()) < count_ && search->AddOne(grid, at_seen_))
+    search->ReshapeSeen();
+    while (static_cast<int>(search->sources().size()) < count_ && search->AddOne(grid, at_seen_)) {
+      search->ReshapeSeen();
       search->MoveAll();
+    }
     if (refinements == 0) search->TurnAll();
     return search;
   }
@@ -229,7 +252,7 @@ class GroupFinder {
   // may explain next to nothing of a turned beam, though reflected light makes up most of what all leave.
   bool ExplainsHalf(const SparseRun& lobes, const SparseRun& others,
                     const std::vector<SparseSource>& start) const {
-    GroupSearch at_start(room_, sensors_, box_, equations_, LobeSet::kSimple, step_m_, 0);
+    GroupSearch at_start(room_, sensors_, views_, counts_, box_, equations_, LobeSet::kSimple, step_m_, 0);
     for (const SparseSource& source : start) at_start.Start(source);
     const double left = at_start.MeanSquareIn(equations_);
     return left - lobes.mean_square_of_all >= 0.5 * (left - others.mean_square_of_all);
@@ -281,6 +304,8 @@ class GroupFinder {
 
   const Room& room_;
   const std::vector<Sensor>& sensors_;
+  const std::vector<Watcher>& views_;
+  std::vector<bool> counts_;  // by view
   const Eigen::AlignedBox3d& box_;
   const GroupEquations& equations_;
   int count_;
@@ -300,8 +325,8 @@ SparseLuminaires SparseSearch::Find(int group, int count, const std::vector<Spar
   constexpr size_t kFewestPlaces = 20;  // fewer places with light do not locate a luminaire
   if (equations.rows().size() < kFewestPlaces || box_.isEmpty()) return {};
   return GroupFinder(
-             room_, light_.places, box_, equations, count, step_m_, refinements_,
-             [this]() -> const LitPlaces& { return Grid(); }, searches_on)
+             room_, light_.places, views_, light_.is_on[static_cast<size_t>(group)], box_, equations, count,
+             step_m_, refinements_, [this]() -> const LitPlaces& { return Grid(); }, searches_on)
       .Run(start, seen);
 }
 

@@ -57,8 +57,9 @@ struct SparseLuminaires {
 class SparseSearch {
  public:
   // Traces the grid's light once for all groups, when it is first needed. Keeps references. Not to be shared
-  // by threads.
-  SparseSearch(const Room& room, const GroupedLight& light, double grid_m, int refinements);
+  // by threads. `views`: no source is found where these would show it (watched_places.h).
+  SparseSearch(const Room& room, const GroupedLight& light, std::vector<Watcher> views, double grid_m,
+               int refinements);
   ~SparseSearch();
   SparseSearch(const SparseSearch&) = delete;
   SparseSearch& operator=(const SparseSearch&) = delete;
@@ -84,6 +85,7 @@ class SparseSearch {
 
   const Room& room_;
   const GroupedLight& light_;
+  std::vector<Watcher> views_;
   int refinements_;
   Eigen::AlignedBox3d box_;
   double step_m_;
