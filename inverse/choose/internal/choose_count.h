@@ -26,8 +26,8 @@
 #include <vector>
 
 #include "inverse/model/light_state.h"
-#include "inverse/observe/watchers.h"
 #include "inverse/observe/seen_luminaires.h"
+#include "inverse/observe/watchers.h"
 
 namespace luxfit {
 
