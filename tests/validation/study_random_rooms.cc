@@ -221,6 +221,7 @@ std::string Accused(const Outcome& outcome, const NamedCause& cause) {
 
 std::string CodesOf(const std::vector<Warning>& warnings) {
   std::vector<std::string> codes;
+  codes.reserve(warnings.size());
   for (const Warning& warning : warnings) codes.push_back(warning.code);
   return fmt::format("{}", fmt::join(codes, " "));
 }

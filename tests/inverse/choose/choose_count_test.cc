@@ -115,7 +115,7 @@ TEST_F(CountedRoom, LuminairesThatPhotosShowAreCountedAndOtherBrightThingsAreNot
   std::vector<Luminaire> lamps;
   std::vector<SeenPlace> places;
   for (int i = 0; i < 6; ++i) {
-    Luminaire lamp = Downlight({0.8 + 1.2 * (i % 3), 0.9 + 1.2 * (i / 3), 2.4}, 800);
+    Luminaire lamp = Downlight({0.8 + 1.2 * (i % 3), i < 3 ? 0.9 : 2.1, 2.4}, 800);
     lamp.shape = LuminaireShape::kRectangle;
     lamp.size_m = {0.3, 0.3};
     lamps.push_back(lamp);
@@ -134,6 +134,7 @@ TEST_F(CountedRoom, ADoubtfulPlaceCountsWhereItHelps) {
   const std::vector<Luminaire> lamps = {Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500),
                                         Downlight({2.9, 0.6, 2.4}, 1000)};
   std::vector<SeenPlace> places;
+  places.reserve(lamps.size());
   for (const Luminaire& lamp : lamps) places.push_back(Seen(lamp.position));
   places[0].views = 2;
   EXPECT_EQ(Count(lamps, places), 3);
@@ -147,6 +148,7 @@ TEST_F(CountedRoom, AlikeOnesStayWhereTheyExplainTheLightBadly) {
   const std::vector<Luminaire> lamps = {Downlight({0.9, 1.2, 2.4}, 800), Downlight({2.1, 1.2, 2.4}, 800),
                                         Downlight({3.3, 1.2, 2.4}, 800), Downlight({3.6, 2.6, 0.9}, 3000)};
   std::vector<SeenPlace> places;
+  places.reserve(3);
   for (int i = 0; i < 3; ++i) places.push_back(Seen(lamps[static_cast<size_t>(i)].position));
   EXPECT_EQ(Count(lamps, places), 4);
 }
@@ -155,6 +157,7 @@ TEST_F(CountedRoom, AlikeOnesStayWhereTheyExplainTheLightBadly) {
 TEST_F(CountedRoom, AlikeOnesThatGiveNoLightAreLeftOut) {
   const std::vector<Luminaire> lamps = {Downlight({1.1, 1.2, 2.4}, 2000), Downlight({3.1, 2.1, 2.35}, 1500)};
   std::vector<SeenPlace> places;
+  places.reserve(lamps.size());
   for (const Luminaire& lamp : lamps) places.push_back(Seen(lamp.position));
   places[1].area_m2 = 0.04;  // unlike the first
   for (const double x : {0.8, 2.0, 3.2}) places.push_back(Seen({x, 0.02, 1.3}));
