@@ -23,7 +23,7 @@ Luminaire At(const Luminaire& luminaire, const Luminaire& rival) {
   return start;
 }
 
-// What the mesh lacks favours places in mid-air by less: half of the best score.
+// Bounds by how much of the best score what the mesh lacks may favour a place in mid-air.
 constexpr double kWorthLeavingSeen = 0.5;
 
 StartComparison Compared(const SubProblem& problem, const std::vector<Luminaire>& starts,

@@ -21,7 +21,7 @@ std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double st
   return places;
 }
 
-// Whether a lobe shines straight down, to both sides or to all.
+// Returns whether a lobe shines straight down, to both sides or to all.
 bool IsDown(const Tried& tried) {
   return tried.lobe.distribution == Distribution::kIsotropic || tried.lobe.aim.z() < -0.99;
 }
