@@ -34,6 +34,7 @@ TEST(AlikePlacesTest, LikeOnesShareTheirStrengthAndOthersKeepTheirs) {
   const std::vector<SeenPlace> places = {Seen(1, 2.8, 0.36), Seen(2, 2.8, 0.36), Seen(3, 2.8, 0.36),
                                          Seen(4, 2.8, 1.5)};
   std::vector<SparseSource> sources;
+  sources.reserve(places.size() + 1);
   for (const SeenPlace& place : places) sources.push_back(SourceAt(place));
   sources.emplace_back();  // of a search
   const double strengths[] = {6, 0, 0, 5, 7};
