@@ -27,6 +27,14 @@ LightState KnownReflectances(const Room& room, const RoomObservations& given) {
   return state;
 }
 
+std::string ReasonOf(const CountChoice& choice, const std::string& scores) {
+  if (choice.are_shown)
+    return "photos show them, alike in height and area, and they explain the light to 5 %";
+  const std::string of = " on patches left out (mean squared normalised error: " + scores + ")";
+  if (choice.are_enough) return "photos show them beyond doubt, and no other number leaves a tenth less" + of;
+  return "smallest within one standard error of the best" + of;
+}
+
 void Record(const CountChoice& choice, const std::string& group, Findings& findings) {
   std::vector<std::string> among;
   std::string scores;
@@ -34,12 +42,8 @@ void Record(const CountChoice& choice, const std::string& group, Findings& findi
     among.push_back(std::to_string(choice.among[i]));
     scores += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", choice.among[i], choice.score[i]);
   }
-  findings.choices.push_back(
-      {"number of luminaires" + (group.empty() ? "" : " of " + group), std::to_string(choice.chosen), among,
-       choice.are_shown ? "photos show them, alike in height and area, and they explain the light to 5 %"
-                        : "smallest within one standard error of the best on patches left out (mean squared "
-                          "normalised error: " +
-                              scores + ")"});
+  findings.choices.push_back({"number of luminaires" + (group.empty() ? "" : " of " + group),
+                              std::to_string(choice.chosen), among, ReasonOf(choice, scores)});
   if (choice.chosen == 0) {
     findings.AddUndetermined(
         {"luminaires_not_counted",

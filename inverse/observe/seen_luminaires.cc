@@ -33,6 +33,7 @@ class SeenSearch {
     for (SeenPlace& place : places) {
       place.dark_states = sights_.DarkStates(place);
       place.covered_states = sights_.CoveredStates(place);
+      sights_.MeasureExtent(place);
       place.position = sights_.InFrontOfSurfaces(place);
     }
     std::stable_sort(places.begin(), places.end(),

@@ -132,6 +132,8 @@ json ObservationsJson(const Evidence& observed) {
                     {"views", p.views},
                     {"missing", p.missing},
                     {"is_at_common_height", p.is_at_common_height},
+                    {"size_m", VectorJson(p.size_m)},
+                    {"heading", VectorJson(p.heading)},
                     {"area_m2", VectorJson(Eigen::VectorXd::Constant(1, p.area_m2))}});
   json outlines = json::array();
   for (const SeenOutline& outline : observed.outlines) outlines.push_back(OutlineJson(outline));
@@ -165,6 +167,8 @@ Evidence ObservationsFromJson(const json& in) {
     place.views = entry.at("views");
     place.missing = entry.at("missing");
     place.is_at_common_height = entry.at("is_at_common_height");
+    place.size_m = VectorFromJson(entry.at("size_m"));
+    place.heading = VectorFromJson(entry.at("heading"));
     place.area_m2 = VectorFromJson(entry.at("area_m2"))[0];
     observed.seen.push_back(place);
   }

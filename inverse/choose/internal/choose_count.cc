@@ -33,10 +33,18 @@ LightData WithCount(LightData data, int count) {
   return data;
 }
 
-// Returns the diameter of a disc as large as what photos show at the place; none where they do not tell.
-std::optional<double> SeenDiameter_m(const SeenPlace* place) {
-  if (!place || !(place->area_m2 > 0)) return {};
-  return 2 * std::sqrt(place->area_m2 / M_PI);
+// Gives a luminaire the shape that photos show at its place: a disc as large, or a rectangle where it is long. Returns false where they
+// do not tell.
+bool TakeSeenShape(const SeenPlace* place, Luminaire& luminaire) {
+  constexpr double kLong = 1.5;  // sides
+  if (!place || !(place->area_m2 > 0)) return false;
+  luminaire.shape = LuminaireShape::kDisc;
+  luminaire.size_m.setConstant(2 * std::sqrt(place->area_m2 / M_PI));
+  if (!(place->size_m[0] > kLong * place->size_m[1])) return true;
+  luminaire.shape = LuminaireShape::kRectangle;
+  luminaire.size_m = place->size_m;
+  luminaire.heading = place->heading;
+  return true;
 }
 
 // Returns what photos tell of the places of the sources.
@@ -53,8 +61,8 @@ std::vector<ParameterPrior> PriorsOf(const SparseLuminaires& found, const std::v
   return priors;
 }
 
-// Returns a state with the luminaires as cosine-power discs about their places. Those that photos show are as large as
-// they are shown, and stay near their places (PriorsOf): many that are free at once get lost.
+// Returns a state with the luminaires as discs about their places. Those that photos show have the shape and size that
+// they show, and stay near their places (PriorsOf): many that are free at once get lost.
 LightState StartOf(const SparseLuminaires& found, const LightState& given, double flux_per_strength,
                    double size_m, const std::vector<SeenPlace>& places) {
   LightState state = given;
@@ -68,23 +76,20 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
   state.free.clear();
   for (const SparseSource& source : found.sources) {
     Luminaire luminaire = source.luminaire;
-    // A disc has an aim; it cannot be isotropic.
-    const bool is_disc = OpsOf(luminaire.distribution).has_aim;
-    const std::optional<double> seen_m = SeenDiameter_m(PlaceOf(source, places));
-    if (is_disc) {
-      luminaire.shape = LuminaireShape::kDisc;
-      luminaire.size_m.setConstant(seen_m.value_or(size_m));
-    }
     luminaire.flux_lm = flux_per_strength * source.strength;
     FreeQuantities free;
     free.position = !source.is_held;
-    if (source.lobe.is_two_sided) {
-      luminaire = LitOnBothSides(std::move(luminaire));
-      luminaire.shape = LuminaireShape::kPoint;
-      free.sides = true;
-    } else {
-      free.exponent = is_disc;
-      free.size = is_disc && !seen_m;
+    // A shape has an aim; it cannot be isotropic.
+    if (OpsOf(luminaire.distribution).has_aim) {
+      const bool is_shown = TakeSeenShape(PlaceOf(source, places), luminaire);
+      if (!is_shown) {
+        luminaire.shape = LuminaireShape::kDisc;
+        luminaire.size_m.setConstant(size_m);
+      }
+      free.size = !is_shown;
+      free.sides = source.lobe.share_back > 0;
+      free.exponent = !free.sides;
+      if (free.sides) luminaire = LitOnBothSides(std::move(luminaire), source.lobe.share_back);
     }
     state.luminaires.push_back(std::move(luminaire));
     state.free.push_back(free);
@@ -209,6 +214,9 @@ class Count {
       if (count > known_ && trials_.size() == 1) {
         TryFewer(data);
         count = found_.sources.size();
+        first_is_shown_ =
+            std::all_of(found_.sources.begin(), found_.sources.end(),
+                        [&](const SparseSource& source) { return source.is_held || IsAtSurePlace(source); });
       }
       if (trials_.size() - 1 - Select().best >= kPatience) return;
     }
@@ -219,16 +227,24 @@ class Count {
     if (trials_.empty()) return choice;
     Selection selection = Select();
     for (const Trial& trial : trials_) choice.among.push_back(trial.count);
-    choice.chosen = trials_[selection.chosen].count;
+    choice.are_enough = ShownAreEnough(selection);
+    choice.chosen = trials_[choice.are_enough ? 0 : selection.chosen].count;
     choice.score = std::move(selection.score);
     choice.standard_error = std::move(selection.standard_error);
     choice.are_shown = AreShown();
     choice.most = static_cast<int>(most_);
-    choice.reached_max = trials_[selection.best].count == choice.most;
+    choice.reached_max = !choice.are_enough && trials_[selection.best].count == choice.most;
     return choice;
   }
 
  private:
+  // Returns whether photos show all luminaires of the first number beyond doubt, and no other number leaves a tenth less of the squares:
+  // any that is added makes up for a little of what the mesh and the shapes lack.
+  bool ShownAreEnough(const Selection& selection) const {
+    constexpr double kWorthAdding = 1.1;
+    return first_is_shown_ && selection.score[0] < kWorthAdding * selection.score[selection.best];
+  }
+
   // Returns whether photos show all luminaires tried, three or more that are alike, and these explain the light to 5 %:
   // then their light, which is alike, too, decides nothing.
   bool AreShown() const {
@@ -274,7 +290,10 @@ class Count {
   void AddDoubtfulPlaces(const SparseSearch& search) {
     const size_t places = std::min(most_, found_.sources.size() + doubtful_.size());
     found_ = search.Find(0, static_cast<int>(places), found_.sources, doubtful_, [] { return false; });
-    for (SparseSource& source : found_.sources) source.is_seen = !source.is_held;
+    for (SparseSource& source : found_.sources) {
+      source.is_seen = !source.is_held;
+      if (const SeenPlace* place = PlaceOf(source, places_)) source = SeenAt(std::move(source), *place);
+    }
     LeaveOutDark();
   }
 
@@ -372,7 +391,8 @@ class Count {
   std::vector<SeenPlace> doubtful_;  // not sure
   size_t most_ = 1;
   SparseLuminaires found_;
-  std::vector<Trial> trials_;  // by number
+  bool first_is_shown_ = false;  // photos show the luminaires of the first number beyond doubt
+  std::vector<Trial> trials_;    // by number
 };
 
 }  // namespace

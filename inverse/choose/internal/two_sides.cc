@@ -54,10 +54,10 @@ bool SeesBothSides(const Room& room, const SubProblem& problem, const Luminaire&
   return lowest < -kBarely && highest > kBarely;
 }
 
-Luminaire LitOnBothSides(Luminaire luminaire) {
+Luminaire LitOnBothSides(Luminaire luminaire, double share_up) {
   if (luminaire.aim.z() > 0) luminaire.aim = -luminaire.aim;
   luminaire.distribution = Distribution::kMeasured;
-  luminaire.table = std::make_shared<IntensityTable>(TwoSidedTable(0.5));
+  luminaire.table = std::make_shared<IntensityTable>(TwoSidedTable(share_up));
   return luminaire;
 }
 

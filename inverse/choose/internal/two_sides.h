@@ -27,8 +27,8 @@ namespace luxfit {
 // distance of such a surface, on an element or two that the luminaire itself hides from the cameras.
 bool SeesBothSides(const Room& room, const SubProblem& problem, const Luminaire& luminaire);
 
-// Returns the luminaire with both sides lit alike, its aim downwards.
-Luminaire LitOnBothSides(Luminaire luminaire);
+// Returns the luminaire with both sides lit, its aim downwards.
+Luminaire LitOnBothSides(Luminaire luminaire, double share_up = 0.5);
 
 // Returns the state with those luminaires that light both sides at their best; nothing where there is none.
 // `data`: with measured indirect light. `is_open`: by luminaire, whether nothing is known of its distribution.

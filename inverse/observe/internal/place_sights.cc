@@ -1,9 +1,13 @@
 #include "inverse/observe/internal/place_sights.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "calib/luminance/median.h"
 
 namespace luxfit {
 namespace {
@@ -19,6 +23,23 @@ double WidthOf(const BrightBlob& blob) {
   for (const Eigen::Vector2d& a : blob.contour_px)
     for (const Eigen::Vector2d& b : blob.contour_px) length2 = std::max(length2, (a - b).squaredNorm());
   return std::sqrt(std::max(blob.area_px2, length2 / 2));
+}
+
+// Returns the second central moments of a polygon over its area: Green's theorem, by triangles with the origin.
+Eigen::Matrix2d PolygonMoments(const std::vector<Eigen::Vector2d>& corners) {
+  double area = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const double triangle = 0.5 * (a.x() * b.y() - a.y() * b.x());
+    const Eigen::Vector2d sum = a + b;
+    area += triangle;
+    first += triangle / 3 * sum;
+    second += triangle / 12 * (a * a.transpose() + b * b.transpose() + sum * sum.transpose());
+  }
+  const Eigen::Vector2d mean = first / area;
+  return second / area - mean * mean.transpose();
 }
 
 }  // namespace
@@ -75,6 +96,43 @@ double PlaceSights::FacingDownM2(const PhotoBlobs& photo, const BrightBlob& blob
   const double cosine = std::abs(up.dot(in_cam.normalized()));
   constexpr double kEdgeOn = 0.05;
   return cosine > kEdgeOn ? blob.area_px2 / (px2_per_m2 * cosine) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Eigen::Matrix2d PlaceSights::MomentsM2(const PhotoBlobs& photo, const BrightBlob& blob,
+                                       const Eigen::Vector3d& place) const {
+  const Eigen::Matrix2d unknown = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  constexpr double kLeastSlope = 0.05;
+  constexpr size_t kFewestPoints = 6;
+  if (blob.contour_px.size() < kFewestPoints) return unknown;
+  std::vector<Eigen::Vector2d> corners;
+  for (const Eigen::Vector2d& pixel : blob.contour_px) {
+    const Sight sight = SightThrough(photo, pixel, 1);
+    const double t = (place.z() - sight.origin.z()) / sight.direction.z();
+    if (!(t > 0) || std::abs(sight.direction.z()) < kLeastSlope * sight.direction.norm()) return unknown;
+    corners.emplace_back((sight.origin + t * sight.direction - place).head<2>());
+  }
+  return PolygonMoments(corners);
+}
+
+void PlaceSights::MeasureExtent(SeenPlace& place) const {
+  std::vector<double> xx, xy, yy;
+  for (const PhotoBlobs& photo : photos_) {
+    if (std::count(place.states.begin(), place.states.end(), photo.state) == 0) continue;
+    for (const BrightBlob& blob : photo.blobs) {
+      if (blob.touches_edge || !Shows(photo, blob, place)) continue;
+      const Eigen::Matrix2d moments = MomentsM2(photo, blob, place.position);
+      if (!moments.allFinite()) continue;
+      xx.push_back(moments(0, 0)), xy.push_back(moments(0, 1)), yy.push_back(moments(1, 1));
+    }
+  }
+  if (xx.empty()) return;
+  Eigen::Matrix2d moments;
+  moments << Quantile(std::move(xx), 0.5), 0, 0, Quantile(std::move(yy), 0.5);
+  moments(0, 1) = moments(1, 0) = Quantile(std::move(xy), 0.5);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(moments);
+  // Of a side a, the moment is a^2 / 12.
+  place.size_m = (12 * axes.eigenvalues().reverse().cwiseMax(0)).cwiseSqrt();
+  place.heading << axes.eigenvectors().col(1), 0;
 }
 
 double PlaceSights::TolerancePx(const Camera& camera, const SeenPlace& place, double distance_m) const {

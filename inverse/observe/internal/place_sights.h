@@ -36,6 +36,14 @@ class PlaceSights {
   // Returns a blob's area at the place, on a horizontal plane; NaN where the view sees that edge-on.
   double FacingDownM2(const PhotoBlobs& photo, const BrightBlob& blob, const Eigen::Vector3d& place) const;
 
+  // Returns the second central moments, m2, of a blob on the horizontal plane through the place, by Green's theorem over its contour; NaN
+  // where the view sees that edge-on.
+  Eigen::Matrix2d MomentsM2(const PhotoBlobs& photo, const BrightBlob& blob,
+                            const Eigen::Vector3d& place) const;
+
+  // Sets the extent of a place by all photos of its states that show it whole.
+  void MeasureExtent(SeenPlace& place) const;
+
   // Returns whether the place's image lies in the blob, up to its sigma.
   bool Shows(const PhotoBlobs& photo, const BrightBlob& blob, const SeenPlace& place) const;
 

@@ -110,6 +110,21 @@ TEST_F(CountedRoom, PendantsThatShineUpAndDownAreAsManyAsPhotosShow) {
   EXPECT_EQ(Count(lamps, places), 2);
 }
 
+// To the ceiling 0.4 m above, a point at its middle would be another luminaire.
+TEST_F(CountedRoom, ALongPendantIsOne) {
+  Luminaire pendant = Downlight({1.9, 1.4, 2.1}, 3000);
+  pendant.shape = LuminaireShape::kRectangle;
+  pendant.size_m = {1.6, 0.2};
+  pendant.distribution = Distribution::kMeasured;
+  pendant.table = std::make_shared<IntensityTable>(TwoSidedTable(0.4));
+  SeenPlace place = Seen(pendant.position + Eigen::Vector3d(0.02, -0.02, 0.01));
+  place.area_m2 = 0.32;
+  place.size_m = {1.65, 0.22};
+  EXPECT_EQ(Count({pendant}, {place}), 1);
+  const Luminaire downlight = Downlight({3.1, 2.4, 2.4}, 800);
+  EXPECT_EQ(Count({pendant, downlight}, {place}), 2);  // which photos do not show
+}
+
 // Bright things that give no light are seen as surely.
 TEST_F(CountedRoom, LuminairesThatPhotosShowAreCountedAndOtherBrightThingsAreNot) {
   std::vector<Luminaire> lamps;

@@ -89,7 +89,7 @@ TEST(Shop, EveryLuminaireIsFound) {
   const Room model = MakeRoom(room.truth, options);
   std::mt19937_64 rng(3);
   support::TracedRoomOptions traced;
-  traced.paths_per_point = 128;
+  traced.paths_per_point = 64;
   const RoomObservations given = support::ObserveTraced(room, model, rng, traced);
   support::ExpectFound(room, model, given);
 }

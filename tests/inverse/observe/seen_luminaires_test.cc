@@ -99,6 +99,21 @@ TEST_F(SeenLuminaires, APanelHasItsPlaceAndArea) {
   EXPECT_EQ(places[0].states, std::vector<int>{0});
 }
 
+// A photo's quadrilateral is put on the plane of the place, which is known to 20 mm in height.
+TEST_F(SeenLuminaires, ALongOneHasItsSidesAndHeading) {
+  for (const bool is_along_x : {true, false}) {
+    LuminousRectangle strip{{2.7, 2.3, 2.2}, {0.6, 0.1}, 100};
+    if (!is_along_x) strip.half_size_m = {0.1, 0.6};
+    const auto places = Find(SeenByAll({{strip}, {}, {}}));
+    ASSERT_EQ(places.size(), 1u);
+    std::printf("%.3f m x %.3f m\n", places[0].size_m[0], places[0].size_m[1]);
+    EXPECT_NEAR(places[0].size_m[0], 1.2, 0.05);
+    EXPECT_NEAR(places[0].size_m[1], 0.2, 0.03);
+    EXPECT_GT(std::abs(places[0].heading[is_along_x ? 0 : 1]), std::cos(0.03));
+    EXPECT_NEAR(places[0].heading.norm(), 1, 1e-12);
+  }
+}
+
 TEST_F(SeenLuminaires, AShortExposureDoesAsWell) {
   const LuminousRectangle panel{{2.7, 2.3, 2.79}, {0.3, 0.3}, 100};
   std::vector<PhotoBlobs> photos;

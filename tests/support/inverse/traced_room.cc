@@ -199,6 +199,13 @@ void AddSeen(const TracedRoom& room, const RayScene& rays, const TracedRoomOptio
       place.position[axis] = luminaire.position[axis] + place.sigma_m * normal(rng);
     place.photos = place.views * static_cast<int>(place.states.size());
     place.area_m2 = AreaOf(luminaire);
+    if (luminaire.shape == LuminaireShape::kRectangle) {
+      place.size_m = luminaire.size_m, place.heading = luminaire.heading;
+      if (place.size_m[0] < place.size_m[1]) {
+        std::swap(place.size_m[0], place.size_m[1]);
+        place.heading = luminaire.aim.cross(luminaire.heading);
+      }
+    }
     given.seen.push_back(place);
   }
 }

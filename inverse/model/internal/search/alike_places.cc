@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace luxfit {
 
@@ -14,7 +15,12 @@ bool AreAlike(const SeenPlace& a, const SeenPlace& b) {
 SparseSource SourceAt(const SeenPlace& place) {
   SparseSource source;
   source.luminaire.position = place.position;
+  return SeenAt(std::move(source), place);
+}
+
+SparseSource SeenAt(SparseSource source, const SeenPlace& place) {
   source.is_seen = true;
+  source.half_length = place.size_m[0] / 2 * place.heading;
   return source;
 }
 

@@ -20,6 +20,9 @@ bool AreAlike(const SeenPlace& a, const SeenPlace& b);
 // Returns a source at the place, which stays there. It shines down (Lambert).
 SparseSource SourceAt(const SeenPlace& place);
 
+// Returns the source as the luminaire that photos show at the place, which is its own.
+SparseSource SeenAt(SparseSource source, const SeenPlace& place);
+
 // Returns sources at the sure places (IsSure) that are alike, where these are exactly `count`; else none.
 std::vector<SparseSource> SourcesAtAlike(const std::vector<SeenPlace>& places, size_t count);
 

@@ -53,7 +53,11 @@ void GroupEquations::SetUp(const std::vector<int>& material, const Eigen::Vector
 }
 
 LitPlace GroupEquations::Weighted(const LitPlace& place) const {
-  return {place.lx_per_cd(rows_).cwiseProduct(root_weight_.cast<float>()), place.rays(rows_, Eigen::all), {}};
+  LitPlace weighted;
+  weighted.lx_per_cd = place.lx_per_cd(rows_).cwiseProduct(root_weight_.cast<float>());
+  weighted.rays = place.rays(rows_, Eigen::all);
+  for (const LitPlace& other : place.along) weighted.along.push_back(Weighted(other));
+  return weighted;
 }
 
 void GroupEquations::Reweigh(const Eigen::MatrixXd& sources) {

@@ -41,9 +41,10 @@ std::vector<Tried> MostlyDown(std::vector<Tried> tried) {
 }  // namespace
 
 void GroupSearch::Start(const SparseSource& source) {
-  const LitPlaces here = Lit(room_, places_, {source.luminaire.position});
   Tried tried;
   tried.position = source.luminaire.position;
+  tried.half_length = source.half_length;
+  const LitPlaces here = LitFrom(tried);
   tried.lobe = source.is_held ? SimpleLobes().front() : source.lobe;
   if (source.is_held) {
     const std::vector<Tried> lobes =
@@ -58,12 +59,12 @@ void GroupSearch::Start(const SparseSource& source) {
 bool GroupSearch::AddOne(const LitPlaces& grid, const LitPlaces& seen) {
   const Eigen::MatrixXd rest = Others(sources_.size());
   const double before = equations_.Solve(rest).solution.cost;
-  std::vector<Tried> lobes = RefinedBins(trials_.BestOfBins(lobes_, rest, grid), rest);
-  // One place that photos show is one luminaire.
-  const auto is_free = [&](const Eigen::Vector3d& p) {
+  const auto is_free = [&](const Eigen::Vector3d& p) { return IsFree(p); };
+  std::vector<Tried> lobes = RefinedBins(trials_.BestOfBins(lobes_, rest, grid, is_free), rest);
+  const auto is_new = [&](const Eigen::Vector3d& p) {
     return std::none_of(sources_.begin(), sources_.end(), [&](const Tried& t) { return t.position == p; });
   };
-  for (Tried& at_seen : MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, seen, is_free)))
+  for (Tried& at_seen : MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, seen, is_new)))
     lobes.push_back(TurnedInPlace(at_seen, rest));
   const auto best = std::min_element(lobes.begin(), lobes.end(), IsBetter);
   if (best == lobes.end() || !(best->cost < before)) return false;
@@ -84,8 +85,8 @@ void GroupSearch::TurnAll() {
   for (size_t j = 0; j < sources_.size() && sources_.size() > 1; ++j) {
     if (stays(j)) continue;
     const Eigen::MatrixXd rest = Others(j);
-    const std::vector<Tried> lobes = Sorted(
-        MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, Lit(room_, places_, {sources_[j].position}))));
+    const std::vector<Tried> lobes =
+        Sorted(MostlyDown(trials_.BestOfBins(AtKnownPlace(), rest, LitFrom(sources_[j]))));
     if (!lobes.empty()) sources_[j] = TurnedInPlace(lobes.front(), rest);
   }
 }
@@ -97,7 +98,7 @@ void GroupSearch::ReshapeSeen() {
       const Tried& source = sources_[j];
       if (!is_seen(j) || is_held(j) || !IsDown(source)) continue;
       const Tried best = trials_.Best(IsInMidAir(source.position) ? LobesInMidAir() : LobesUnderCeiling(),
-                                      Others(j), Lit(room_, places_, {source.position}));
+                                      Others(j), LitFrom(source));
       if (std::isfinite(best.cost)) sources_[j] = best;
     }
   }
@@ -107,6 +108,18 @@ bool GroupSearch::IsInMidAir(const Eigen::Vector3d& place) const {
   // Half of what a Lambertian back emits falls within this distance of a surface.
   constexpr double kBehindM = 0.1;
   return !room_.rays.Occluded(place, place + kBehindM * Eigen::Vector3d::UnitZ());
+}
+
+bool GroupSearch::IsFree(const Eigen::Vector3d& place) const {
+  constexpr double kOneM = 0.3;
+  for (size_t j = 0; j < sources_.size(); ++j) {
+    if (!is_seen(j)) continue;
+    const Eigen::Vector3d& half = sources_[j].half_length;
+    const Eigen::Vector3d off = place - sources_[j].position;
+    const double along = half.isZero() ? 0 : std::clamp(off.dot(half) / half.squaredNorm(), -1.0, 1.0);
+    if ((off - along * half).norm() < kOneM) return false;
+  }
+  return true;
 }
 
 std::vector<Tried> GroupSearch::RivalsOf(size_t source, const LitPlaces& grid) const {
@@ -130,7 +143,7 @@ double GroupSearch::MeanSquareIn(const GroupEquations& others) const {
   Eigen::MatrixXd columns(static_cast<Eigen::Index>(others.rows().size()),
                           static_cast<Eigen::Index>(sources_.size()));
   for (size_t j = 0; j < sources_.size(); ++j) {
-    const LitPlaces here = Lit(room_, places_, {sources_[j].position});
+    const LitPlaces here = LitFrom(sources_[j]);
     columns.col(static_cast<Eigen::Index>(j)) =
         LobeColumns(others.Weighted(here.light[0]), {sources_[j].lobe}).cast<double>();
   }
@@ -168,16 +181,18 @@ std::vector<Lobe> GroupSearch::LobesAbout(const Lobe& lobe, int halvings) const 
 
 Tried GroupSearch::Refined(const Tried& source, int halvings, const Eigen::MatrixXd& rest,
                            bool any_lobe) const {
-  const std::vector<Eigen::Vector3d> near = Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
+  std::vector<Eigen::Vector3d> near = Neighbours(source.position, std::ldexp(step_m_, -halvings), box_);
+  near.erase(std::remove_if(near.begin(), near.end(), [&](const Eigen::Vector3d& p) { return !IsFree(p); }),
+             near.end());
   const bool is_any = any_lobe && lobes_ == LobeSet::kSimple;
   const Tried best = trials_.Best(is_any ? SimpleLobes() : LobesAbout(source.lobe, halvings), rest,
-                                  Lit(room_, places_, near, views_));
+                                  Lit(room_, places_, std::move(near), views_));
   return IsBetter(best, source) ? best : source;
 }
 
 Tried GroupSearch::TurnedInPlace(Tried source, const Eigen::MatrixXd& rest) const {
   if (lobes_ == LobeSet::kSimple) return source;
-  const LitPlaces here = Lit(room_, places_, {source.position});
+  const LitPlaces here = LitFrom(source);
   for (int r = 1; r <= std::max(1, refinements_); ++r) {
     const Tried best = trials_.Best(LobesAbout(source.lobe, r), rest, here);
     if (IsBetter(best, source)) source = best;

@@ -69,7 +69,14 @@ class GroupSearch {
  private:
   LobeSet AtKnownPlace() const { return lobes_ == LobeSet::kSimple ? LobeSet::kOfKnownPlaces : lobes_; }
 
+  LitPlaces LitFrom(const Tried& source) const {
+    return LitAlong(room_, places_, source.position, source.half_length);
+  }
+
   bool IsInMidAir(const Eigen::Vector3d& place) const;
+
+  // Returns whether the place is off all luminaires that photos show: one place that they show is one luminaire.
+  bool IsFree(const Eigen::Vector3d& place) const;
 
   // Returns the columns of all sources but one.
   Eigen::MatrixXd Others(size_t without) const;

@@ -37,10 +37,12 @@ LitPlace LightFrom(const Room& room, const std::vector<Sensor>& sensors, const E
 
 // Returns the light of a lobe that shines to both sides; none where the sensors see but one of them: the other's could
 // be as much as one likes.
-Eigen::ArrayXf TwoSidedColumn(const LitPlace& place, const Eigen::ArrayXf& cosine) {
+Eigen::ArrayXf TwoSidedColumn(const LitPlace& place, const Eigen::ArrayXf& cosine, double share_back) {
   const Eigen::ArrayXf lx = cosine * place.lx_per_cd.array();
   if (lx.size() == 0 || !(lx.minCoeff() < 0 && lx.maxCoeff() > 0)) return Eigen::ArrayXf::Zero(lx.size());
-  return static_cast<float>(0.5 / M_PI) * lx.abs();
+  const auto front = static_cast<float>((1 - share_back) / M_PI),
+             back = static_cast<float>(share_back / M_PI);
+  return front * lx.max(0.0F) - back * lx.min(0.0F);
 }
 
 // Raises cosines to a power: whole ones by multiplication, in a fifth of the time.
@@ -75,15 +77,17 @@ Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobe
     if (lobes[l].distribution != Distribution::kCosinePower)
       throw std::invalid_argument("LobeColumns: expected isotropic lobes and cosine powers");
     column = (place.rays * lobes[l].aim.cast<float>()).array();
-    if (lobes[l].is_two_sided) {
-      column = TwoSidedColumn(place, column);
+    if (lobes[l].share_back > 0) {
+      column = TwoSidedColumn(place, column, lobes[l].share_back);
       continue;
     }
     column = column.max(0.0F);
     RaiseTo(lobes[l].exponent, column);
     column *= static_cast<float>((lobes[l].exponent + 1) / (2 * M_PI)) * place.lx_per_cd.array();
   }
-  return columns;
+  if (place.along.empty()) return columns;
+  for (const LitPlace& other : place.along) columns += LobeColumns(other, lobes);
+  return columns / static_cast<float>(1 + place.along.size());
 }
 
 std::vector<Eigen::Vector3d> GridThrough(const Eigen::AlignedBox3d& box, double step) {
@@ -110,6 +114,17 @@ LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<
     places.light[i].watching = ViewsOf(room, views, places.positions[i]);
   });
   return places;
+}
+
+LitPlaces LitAlong(const Room& room, const std::vector<Sensor>& sensors, const Eigen::Vector3d& middle,
+                   const Eigen::Vector3d& half_length) {
+  LitPlaces lit = Lit(room, sensors, {middle});
+  if (half_length.isZero()) return lit;
+  LitPlace& place = lit.light.front();
+  place.half_length = half_length;
+  for (const double at : {-0.8, -0.4, 0.4, 0.8})
+    place.along.push_back(LightFrom(room, sensors, middle + at * half_length));
+  return lit;
 }
 
 }  // namespace luxfit

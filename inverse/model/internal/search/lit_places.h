@@ -22,6 +22,8 @@ struct LitPlace {
   Eigen::VectorXf lx_per_cd;                     // by sensor
   Eigen::Matrix<float, Eigen::Dynamic, 3> rays;  // unit vectors to the sensors
   std::vector<WatchingView> watching;
+  Eigen::Vector3d half_length = Eigen::Vector3d::Zero();  // of a long luminaire, from its middle to an end
+  std::vector<LitPlace> along;                            // its other points: they share its light evenly
 };
 
 struct LitPlaces {
@@ -31,6 +33,10 @@ struct LitPlaces {
 // `views`: those that may watch the places.
 LitPlaces Lit(const Room& room, const std::vector<Sensor>& sensors, std::vector<Eigen::Vector3d> positions,
               const std::vector<Watcher>& views = {});
+
+// Returns the light from along a line: from five points in the middles of its fifths, or from the place alone where it has no length.
+LitPlaces LitAlong(const Room& room, const std::vector<Sensor>& sensors, const Eigen::Vector3d& middle,
+                   const Eigen::Vector3d& half_length);
 
 // Returns D, sensors x lobes. A lobe to both sides of which the sensors see but one gives nothing. Throws std::invalid_argument for a lobe that is neither isotropic nor a cosine power.
 Eigen::MatrixXf LobeColumns(const LitPlace& place, const std::vector<Lobe>& lobes);

@@ -78,7 +78,8 @@ std::vector<Tried> LobeTrials::BestOf(const LobesAt& lobes_at, size_t bins, cons
           LobeColumns(equations_.Weighted(places.light[next->place]), {next->lobe}).cast<double>();
       const GroupEquations::Solution solution = equations_.SolveWith(base, column);
       if (!(solution.strength[solution.strength.size() - 1] > 0) || solution.cost >= best[bin].cost) continue;
-      best[bin] = {places.positions[next->place], next->lobe, column, solution.cost};
+      best[bin] = {places.positions[next->place], next->lobe, places.light[next->place].half_length, column,
+                   solution.cost};
     }
   });
   best.erase(

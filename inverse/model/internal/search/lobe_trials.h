@@ -28,7 +28,8 @@ enum class LobeSet { kSimple, kOfKnownPlaces, kAimed };
 struct Tried {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Lobe lobe;
-  Eigen::VectorXd column;  // weighted
+  Eigen::Vector3d half_length = Eigen::Vector3d::Zero();  // as LitPlace has it
+  Eigen::VectorXd column;                                 // weighted
   double cost = std::numeric_limits<double>::infinity();
 };
 inline bool IsBetter(const Tried& a, const Tried& b) { return a.cost < b.cost; }

@@ -48,7 +48,7 @@ const std::vector<Lobe>& SimpleLobes() {
 const std::vector<Lobe>& LobesOfKnownPlaces() {
   static const std::vector<Lobe> lobes = [] {
     std::vector<Lobe> all = SimpleLobes();
-    all.push_back({Distribution::kCosinePower, 1, {0, 0, -1}, true});
+    all.push_back({Distribution::kCosinePower, 1, {0, 0, -1}, 0.5});
     return all;
   }();
   return lobes;
@@ -68,7 +68,7 @@ const std::vector<Lobe>& LobesInMidAir() {
   static const std::vector<Lobe> lobes = [] {
     std::vector<Lobe> all = LobesUnderCeiling();
     all.push_back(SimpleLobes().front());
-    all.push_back(LobesOfKnownPlaces().back());
+    for (const double up : {0.25, 0.5, 0.75}) all.push_back({Distribution::kCosinePower, 1, {0, 0, -1}, up});
     return all;
   }();
   return lobes;

@@ -7,7 +7,8 @@
 // around it and both next widths.
 //
 //   I = (m + 1) cos^m(gamma) / (2 pi) cd per lm        half of the peak at cos(gamma) = 2^(-1 / m)
-//   I = |cos(gamma)| / (2 pi)                          up and down
+//   I = (1 - b) cos(gamma) / pi                        to both sides; b: share of the flux to the back
+//   I = b |cos(gamma)| / pi                            on the back
 //
 // Source: forward/luminaire/luminaire.h (intensities).
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_SEARCH_LOBES_H_
@@ -25,13 +26,14 @@ struct Lobe {
   Distribution distribution = Distribution::kCosinePower;
   double exponent = 1;
   Eigen::Vector3d aim{0, 0, -1};
-  bool is_two_sided = false;  // of exponent 1
+  double share_back =
+      0;  // of the flux, to the side that the aim leaves; where it is not 0, the exponent is 1
 };
 
 const std::vector<Lobe>& SimpleLobes();
 // Returns the simple lobes and the one that shines up and down: at a place in mid-air it may imitate two luminaires.
 const std::vector<Lobe>& LobesOfKnownPlaces();
-// Return those of them that shine straight down and, in mid-air, those to all sides and to both.
+// Return those of them that shine straight down and, in mid-air, those to all sides and to both, of which more or less is up.
 const std::vector<Lobe>& LobesUnderCeiling();
 const std::vector<Lobe>& LobesInMidAir();
 

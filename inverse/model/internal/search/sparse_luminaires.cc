@@ -55,6 +55,7 @@ SparseLuminaires Result(const GroupSearch& search, const GroupEquations& equatio
     SparseSource source;
     source.luminaire = LuminaireOf(search.sources()[j]);
     source.lobe = search.sources()[j].lobe;
+    source.half_length = search.sources()[j].half_length;
     source.strength = solution.strength[static_cast<Eigen::Index>(j)];
     source.is_held = search.is_held(j);
     source.is_seen = search.is_seen(j);
@@ -148,13 +149,14 @@ class GroupFinder {
 
   SparseLuminaires Run(const std::vector<SparseSource>& start, const std::vector<SeenPlace>& seen) {
     if (seen.empty() && SearchesOn()) return WithRivals(BestLobes(start, grid_(), refinements_));
-    std::vector<Eigen::Vector3d> positions;
-    positions.reserve(seen.size());
-    for (const SeenPlace& place : seen) positions.push_back(place.position);
     const std::vector<SparseSource> alike =
         SourcesAtAlike(seen, static_cast<size_t>(count_) - std::min<size_t>(start.size(), count_));
     if (!alike.empty()) return AtAlike(start, alike, seen);
-    at_seen_ = Lit(room_, sensors_, positions);
+    for (const SeenPlace& place : seen) {
+      LitPlaces lit = LitAlong(room_, sensors_, place.position, SourceAt(place).half_length);
+      at_seen_.positions.push_back(place.position);
+      at_seen_.light.push_back(std::move(lit.light.front()));
+    }
     SparseRun alone = BestLobes(start, {}, 0);
     if ((IsComplete(alone) && alone.found.mean_square < kExplained) || !SearchesOn()) {
       alone.found.was_searched = false;
@@ -263,17 +265,12 @@ class GroupFinder {
                                                   const std::vector<SeenPlace>& seen,
                                                   const SparseRun& alone) {
     for (SparseSource source : alone.found.sources) {
-      if (!IsAtSurePlace(source, seen)) continue;
-      source.is_seen = true;
-      start.push_back(std::move(source));
+      const auto place = std::find_if(seen.begin(), seen.end(), [&](const SeenPlace& one) {
+        return IsSure(one) && one.position == source.luminaire.position;
+      });
+      if (!source.is_held && place != seen.end()) start.push_back(SeenAt(std::move(source), *place));
     }
     return start;
-  }
-
-  static bool IsAtSurePlace(const SparseSource& source, const std::vector<SeenPlace>& seen) {
-    return !source.is_held && std::any_of(seen.begin(), seen.end(), [&](const SeenPlace& place) {
-      return IsSure(place) && place.position == source.luminaire.position;
-    });
   }
 
   // Returns the sources of a search with their rivals, `others` among them.

@@ -12,7 +12,9 @@ constexpr int kEnough = 3;       // views, as IsSure has it
 double ShareOfPeak(const Lobe& lobe, const Eigen::Vector3d& direction) {
   if (lobe.distribution == Distribution::kIsotropic) return 1;
   const double cosine = lobe.aim.dot(direction);
-  if (lobe.is_two_sided) return std::abs(cosine);
+  if (lobe.share_back > 0)
+    return (cosine > 0 ? 1 - lobe.share_back : lobe.share_back) * std::abs(cosine) /
+           std::max(lobe.share_back, 1 - lobe.share_back);
   return cosine > 0 ? std::pow(cosine, lobe.exponent) : 0;
 }
 

@@ -28,10 +28,11 @@ class WatchedRoom : public testing::Test {
 TEST_F(WatchedRoom, ALuminaireThatShinesTowardsThreeViewsWouldBeSeen) {
   EXPECT_TRUE(Refutes(under_ceiling_, {Distribution::kIsotropic}, all_));
   EXPECT_TRUE(Refutes(under_ceiling_, {kCosine, 1, {0, 0, -1}}, all_));
-  EXPECT_TRUE(Refutes(under_ceiling_, {kCosine, 1, {0, 0, -1}, true}, all_));
+  EXPECT_TRUE(Refutes(under_ceiling_, {kCosine, 1, {0, 0, -1}, 0.5}, all_));
 }
 
 TEST_F(WatchedRoom, OneThatShinesElsewhereWouldNot) {
+  EXPECT_FALSE(Refutes(under_ceiling_, {kCosine, 1, {0, 0, -1}, 0.8}, all_));  // four times as bright above
   EXPECT_FALSE(Refutes(under_ceiling_, {kCosine, 1, {0, 0, 1}}, all_));
   EXPECT_FALSE(Refutes(under_ceiling_, {kCosine, 32, {0, 0, -1}}, all_));  // a narrow beam between them
   EXPECT_FALSE(Refutes({0.01, 2, 1.5}, {kCosine, 1, {-1, 0, 0}}, all_));   // towards the wall
