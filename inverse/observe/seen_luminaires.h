@@ -54,8 +54,8 @@ struct SeenPlace {
   int views = 0;       // views from which it was triangulated, in one state
   int missing = 0;     // photos of those states that should show it and do not
   double area_m2 = 0;
-  // The horizontal rectangle with the second moments of what photos show, median over photos: its sides, the longer one first, and
-  // the direction of that, a unit vector. 0: none shows the place from beside that plane.
+  // The horizontal rectangle with the second moments of what photos show: its sides, the longer one first, and the direction of that,
+  // a unit vector. 0: no photo shows it whole, or all look along a side.
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
   Eigen::Vector3d heading = Eigen::Vector3d::UnitX();
   bool is_at_common_height = false;  // placed on the height that others of its area share: `views` may be one

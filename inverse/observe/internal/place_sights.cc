@@ -115,6 +115,12 @@ Eigen::Matrix2d PlaceSights::MomentsM2(const PhotoBlobs& photo, const BrightBlob
 }
 
 void PlaceSights::MeasureExtent(SeenPlace& place) const {
+  constexpr double kAlong = 0.866;  // cosine of 30 degrees
+  struct Shown {
+    Eigen::Matrix2d moments;
+    Eigen::Vector2d direction;  // from the eye
+  };
+  std::vector<Shown> shown;
   std::vector<double> xx, xy, yy;
   for (const PhotoBlobs& photo : photos_) {
     if (std::count(place.states.begin(), place.states.end(), photo.state) == 0) continue;
@@ -122,16 +128,30 @@ void PlaceSights::MeasureExtent(SeenPlace& place) const {
       if (blob.touches_edge || !Shows(photo, blob, place)) continue;
       const Eigen::Matrix2d moments = MomentsM2(photo, blob, place.position);
       if (!moments.allFinite()) continue;
+      const Eigen::Vector3d eye =
+          views_[static_cast<size_t>(photo.view)].cam_from_world.inverse().translation();
+      shown.push_back({moments, (place.position - eye).head<2>().normalized()});
       xx.push_back(moments(0, 0)), xy.push_back(moments(0, 1)), yy.push_back(moments(1, 1));
     }
   }
-  if (xx.empty()) return;
+  if (shown.empty()) return;
   Eigen::Matrix2d moments;
   moments << Quantile(std::move(xx), 0.5), 0, 0, Quantile(std::move(yy), 0.5);
   moments(0, 1) = moments(1, 0) = Quantile(std::move(xy), 0.5);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(moments);
+  // What hangs down from the plane, as a globe does, seems longer along the sight: the shortest counts, and who looks along an axis does
+  // not tell its length.
+  Eigen::Array2d least = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  for (const Shown& one : shown) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d along = axes.eigenvectors().col(1 - axis);
+      if (std::abs(along.dot(one.direction)) < kAlong)
+        least[axis] = std::min(least[axis], along.dot(one.moments * along));
+    }
+  }
+  if (!least.isFinite().all() || least[0] < least[1]) return;
   // Of a side a, the moment is a^2 / 12.
-  place.size_m = (12 * axes.eigenvalues().reverse().cwiseMax(0)).cwiseSqrt();
+  place.size_m = (12 * least.max(0)).sqrt();
   place.heading << axes.eigenvectors().col(1), 0;
 }
 

@@ -114,6 +114,17 @@ TEST_F(SeenLuminaires, ALongOneHasItsSidesAndHeading) {
   }
 }
 
+// From one end a strip could as well be a body that hangs down.
+TEST_F(SeenLuminaires, AlongTheSightNoLengthIsTold) {
+  const LuminousRectangle strip{{2.7, 2.0, 2.2}, {0.6, 0.1}, 100};
+  views_.resize(3);
+  for (size_t v = 0; v < views_.size(); ++v)
+    views_[v].cam_from_world = support::LookAt({0.4, 1.2 + 0.8 * static_cast<double>(v), 1.2}, strip.center);
+  const auto places = Find(SeenByAll({{strip}, {}, {}}));
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(places[0].size_m, Eigen::Vector2d::Zero());
+}
+
 TEST_F(SeenLuminaires, AShortExposureDoesAsWell) {
   const LuminousRectangle panel{{2.7, 2.3, 2.79}, {0.3, 0.3}, 100};
   std::vector<PhotoBlobs> photos;

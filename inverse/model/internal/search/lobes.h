@@ -26,8 +26,8 @@ struct Lobe {
   Distribution distribution = Distribution::kCosinePower;
   double exponent = 1;
   Eigen::Vector3d aim{0, 0, -1};
-  double share_back =
-      0;  // of the flux, to the side that the aim leaves; where it is not 0, the exponent is 1
+  // Share of the flux to the side that the aim leaves. Where it is not 0, the exponent is 1.
+  double share_back = 0;
 };
 
 const std::vector<Lobe>& SimpleLobes();
