@@ -100,11 +100,12 @@ double PlaceSights::FacingDownM2(const PhotoBlobs& photo, const BrightBlob& blob
 
 Eigen::Matrix2d PlaceSights::MomentsM2(const PhotoBlobs& photo, const BrightBlob& blob,
                                        const Eigen::Vector3d& place) const {
-  const Eigen::Matrix2d unknown = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Matrix2d unknown = Eigen::Matrix2d::Constant(std::numeric_limits<double>::quiet_NaN());
   constexpr double kLeastSlope = 0.05;
   constexpr size_t kFewestPoints = 6;
   if (blob.contour_px.size() < kFewestPoints) return unknown;
   std::vector<Eigen::Vector2d> corners;
+  corners.reserve(blob.contour_px.size());
   for (const Eigen::Vector2d& pixel : blob.contour_px) {
     const Sight sight = SightThrough(photo, pixel, 1);
     const double t = (place.z() - sight.origin.z()) / sight.direction.z();

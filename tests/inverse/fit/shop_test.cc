@@ -26,8 +26,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kRows = 4, kPanelsInRow = 5, kTracks = 2, kSpotsOnTrack = 4;
-constexpr int kPanels = kRows * kPanelsInRow, kLuminaires = kPanels + kTracks * kSpotsOnTrack;
+constexpr Eigen::Index kRows = 4, kPanelsInRow = 5, kTracks = 2, kSpotsOnTrack = 4;
+constexpr Eigen::Index kPanels = kRows * kPanelsInRow, kLuminaires = kPanels + kTracks * kSpotsOnTrack;
 
 Scene Shop() {
   Scene scene = support::ClosedRoom({12, 8, 3.2}, {"wall", "wall", "wall", "wall", "floor", "ceiling"});
@@ -66,10 +66,10 @@ support::TracedRoom TrueRoom() {
     for (int i = 0; i < kPanelsInRow; ++i) room.luminaires.push_back(Panel(row, i));
   for (int track = 0; track < kTracks; ++track)
     for (int i = 0; i < kSpotsOnTrack; ++i) room.luminaires.push_back(Spot(track, i));
-  room.dimming.assign(kRows + kTracks + 1, Eigen::VectorXd::Zero(kLuminaires));
-  for (int row = 0; row < kRows; ++row)
+  room.dimming.assign(static_cast<size_t>(kRows + kTracks + 1), Eigen::VectorXd::Zero(kLuminaires));
+  for (Eigen::Index row = 0; row < kRows; ++row)
     room.dimming[static_cast<size_t>(row)].segment(row * kPanelsInRow, kPanelsInRow).setOnes();
-  for (int track = 0; track < kTracks; ++track)
+  for (Eigen::Index track = 0; track < kTracks; ++track)
     room.dimming[static_cast<size_t>(kRows + track)]
         .segment(kPanels + track * kSpotsOnTrack, kSpotsOnTrack)
         .setOnes();

@@ -55,6 +55,7 @@ class SeenLuminaires : public testing::Test {
   }
   std::vector<PhotoBlobs> SeenByAll(const LampScene& scene, int state = 0) const {
     std::vector<PhotoBlobs> photos;
+    photos.reserve(views_.size());
     for (int v = 0; v < static_cast<int>(views_.size()); ++v) photos.push_back(Seen(scene, v, state));
     return photos;
   }
@@ -128,6 +129,7 @@ TEST_F(SeenLuminaires, AlongTheSightNoLengthIsTold) {
 TEST_F(SeenLuminaires, AShortExposureDoesAsWell) {
   const LuminousRectangle panel{{2.7, 2.3, 2.79}, {0.3, 0.3}, 100};
   std::vector<PhotoBlobs> photos;
+  photos.reserve(views_.size());
   for (int v = 0; v < 5; ++v) photos.push_back(Seen({{panel}, {}, {}}, v, 0, 0.009));  // 0.9 of full scale
   const auto places = Find(photos);
   ASSERT_EQ(places.size(), 1u);
@@ -230,6 +232,7 @@ TEST_F(SeenLuminaires, PaperOfASurveyedTagIsNoLuminaire) {
 TEST_F(SeenLuminaires, AWashedOutSurfaceIsNotOneInShorterExposures) {
   const LampScene scene{{}, {}, {{{2.8, 1.5, 0.741}, {0.2, 0.2}, 3.5}}};
   std::vector<PhotoBlobs> photos;
+  photos.reserve(views_.size());
   for (int v = 0; v < 5; ++v) photos.push_back(Seen(scene, v, 0, v < 2 ? 0.5 : 0.1));
   ASSERT_EQ(photos[0].blobs.size() + photos[1].blobs.size(), 2u);
   EXPECT_TRUE(Find(photos).empty());
