@@ -140,8 +140,8 @@ void PlaceSights::MeasureExtent(SeenPlace& place) const {
   moments << Quantile(std::move(xx), 0.5), 0, 0, Quantile(std::move(yy), 0.5);
   moments(0, 1) = moments(1, 0) = Quantile(std::move(xy), 0.5);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(moments);
-  // What hangs down from the plane, as a globe does, seems longer along the sight: the shortest counts, and who looks along an axis does
-  // not tell its length.
+  // A body that hangs down from the plane, as a globe does, seems longer along the sight: the shortest length over views counts. A view
+  // along an axis tells no length of it.
   Eigen::Array2d least = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
   for (const Shown& one : shown) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -151,7 +151,7 @@ void PlaceSights::MeasureExtent(SeenPlace& place) const {
     }
   }
   if (!least.isFinite().all() || least[0] < least[1]) return;
-  // Of a side a, the moment is a^2 / 12.
+  // A side a has the moment a^2 / 12.
   place.size_m = (12 * least.max(0)).sqrt();
   place.heading << axes.eigenvectors().col(1), 0;
 }

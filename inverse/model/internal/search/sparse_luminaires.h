@@ -41,7 +41,8 @@ struct SparseSource {
   double strength = 0;  // g
   bool is_held = false;
   bool is_seen = false;  // it stays where photos show it
-  // Of one that photos show, from its middle to an end, m. No other source is within 0.3 m of the line between its ends.
+  // Leads from the middle of a source that photos show to one of its ends, m. No other source lies within 0.3 m of the line between
+  // the ends.
   Eigen::Vector3d half_length = Eigen::Vector3d::Zero();
   // Luminaires at other places, at least a grid step away. Those of the places seen alone come first, then
   // those that leave less than half more squares, best first, then what the same search found with the other set of lobes.
