@@ -257,9 +257,9 @@ class RoomFitter {
                        found && !known.aim.has_value(),
                        found && !known.shape_is_known && !known.heading.has_value(), RefinementsOf(k)});
     }
-    const LightState typed = TypedBySwitching(data, state, open_);
-    const ModelChoice choice = ChooseLuminaireModels(room_, data, typed, open_, Priors(),
-                                                     SeenPlacesOfTypes(given_.seen, data, typed));
+    const LightState typed = TypedBySwitching(data, state, open_, start_.seen);
+    const ModelChoice choice = ChooseLuminaireModels(
+        room_, data, typed, open_, Priors(), SeenPlacesOfTypes(given_.seen, data, typed, start_.seen));
     for (const PlacesChoice& c : choice.places) {
       RecordPlaces(given_, c, result_.findings);
       if (!c.is_seen) continue;

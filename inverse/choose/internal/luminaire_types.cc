@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -25,6 +26,15 @@ bool AreOnTogether(const LightData& data, int a, int b) {
   return std::all_of(data.dimming.begin(), data.dimming.end(), [&](const Eigen::VectorXd& dimming) {
     return std::abs(dimming[a] - dimming[b]) < kSameLevel;
   });
+}
+
+// Returns whether photos show luminaires of two kinds: at other heights, or of other areas.
+bool AreOfTwoKinds(const std::optional<SeenPlace>& a, const std::optional<SeenPlace>& b) {
+  constexpr double kHeightM = 0.3, kAreaFactor = 3;
+  if (!a || !b) return false;
+  const double larger = std::max(a->area_m2, b->area_m2), smaller = std::min(a->area_m2, b->area_m2);
+  return std::abs(a->position.z() - b->position.z()) > kHeightM ||
+         (smaller > 0 && larger > kAreaFactor * smaller);
 }
 
 // Returns whether the search for places told the aims of all these luminaires, and two of them differ.
@@ -208,17 +218,23 @@ bool AreReached(const std::vector<Eigen::Vector3d>& places, const LightState& st
 
 }  // namespace
 
-LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open) {
+LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open,
+                            const ShownLuminaires& shown) {
   std::vector<int> first;
   for (int k = 0; k < static_cast<int>(open.size()); ++k) {
     const auto of = static_cast<size_t>(k);
     first.push_back(k);
-    for (int j = 0; j < k && first.back() == k; ++j) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (int j = 0; j < k; ++j) {
       const auto other = static_cast<size_t>(j);
-      const bool has_one_aim = (open[of].aim && open[other].aim) ||
-                               start.luminaires[of].aim.dot(start.luminaires[other].aim) > kSameAim;
-      if (IsOpen(open[of]) && IsOpen(open[other]) && AreOnTogether(data, j, k) && has_one_aim)
-        first.back() = first[other];
+      const Luminaire &a = start.luminaires[of], &b = start.luminaires[other];
+      const bool has_one_aim = (open[of].aim && open[other].aim) || a.aim.dot(b.aim) > kSameAim;
+      const double apart_m = std::abs(a.position.z() - b.position.z());
+      if (!IsOpen(open[of]) || !IsOpen(open[other]) || !AreOnTogether(data, j, k) || !has_one_aim ||
+          AreOfTwoKinds(shown[of], shown[other]) || apart_m >= least_m)
+        continue;
+      first.back() = first[other];
+      least_m = apart_m;
     }
   }
   start.first_of_type = std::move(first);
@@ -249,13 +265,18 @@ LightState WithTypes(LightState state, const std::vector<int>& first_of_type) {
 }
 
 std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, const LightData& data,
-                                          const LightState& state) {
+                                          const LightState& state, const ShownLuminaires& shown) {
   std::vector<TypePlaces> all;
   for (const std::vector<int>& type : TypesOf(state)) {
     if (type.size() < 2) continue;
     std::vector<SeenPlace> own;
-    for (const SeenPlace& place : seen)
-      if (MayBePlaceOf(place, data.dimming, type.front()) && place.area_m2 > 0) own.push_back(place);
+    for (const SeenPlace& place : seen) {
+      const bool is_of_kind = std::none_of(type.begin(), type.end(), [&](int k) {
+        return AreOfTwoKinds(place, shown[static_cast<size_t>(k)]);
+      });
+      if (is_of_kind && MayBePlaceOf(place, data.dimming, type.front()) && place.area_m2 > 0)
+        own.push_back(place);
+    }
     if (own.size() < type.size()) continue;
     std::stable_sort(own.begin(), own.end(),
                      [](const SeenPlace& a, const SeenPlace& b) { return a.area_m2 > b.area_m2; });

@@ -12,7 +12,7 @@ namespace {
 // A fit by hand of three discs that look down, with sigmas of 1 cm and 1 %.
 class LuminaireTypes : public testing::Test {
  protected:
-  LuminaireTypes() : open_(3) {
+  LuminaireTypes() : open_(3), shown_(3) {
     fit_.status = FitStatus::kConverged;
     fit_.state.luminaires.resize(3);
     fit_.state.free.resize(3);
@@ -42,7 +42,7 @@ class LuminaireTypes : public testing::Test {
   }
 
   std::vector<int> TypesFrom(const std::vector<Eigen::Vector3d>& dimming, const LightState& start) const {
-    return TypedBySwitching(States(dimming), start, open_).first_of_type;
+    return TypedBySwitching(States(dimming), start, open_, shown_).first_of_type;
   }
 
   // Spots whose aims the search told: two turned by 40 degrees to either side, one between them.
@@ -58,12 +58,33 @@ class LuminaireTypes : public testing::Test {
 
   LuminaireFit fit_;
   std::vector<OpenChoice> open_;
+  ShownLuminaires shown_;
 };
 
 TEST_F(LuminaireTypes, WhatIsAlwaysOnTogetherIsOfOneType) {
   const LightState& start = fit_.state;
   EXPECT_EQ(TypesFrom({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 0.5}}, start), (std::vector<int>{0, 1, 0}));
   EXPECT_EQ(TypesFrom({{1, 0, 1}, {0, 1, 0}, {0.5, 1, 1}}, start), (std::vector<int>{0, 1, 2}));
+}
+
+// Two downlights, the second of which no photo shows, and a pendant on one switch.
+TEST_F(LuminaireTypes, WhatPhotosShowToBeOfAnotherKindStaysApart) {
+  LightState start = fit_.state;
+  start.luminaires[1].position.z() = 1.4;
+  const auto show = [&](size_t k, double area_m2) {
+    shown_[k].emplace();
+    shown_[k]->position = start.luminaires[k].position;
+    shown_[k]->area_m2 = area_m2;
+  };
+  show(0, 0.02);
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 0, 0}));
+  show(1, 0.02);
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 0}));
+  start.luminaires[1].position.z() = 1.9;
+  show(1, 0.05);
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 0, 0}));
+  show(1, 0.08);
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 0}));
 }
 
 TEST_F(LuminaireTypes, AGivenModelOrAnotherAimStaysApart) {
@@ -85,7 +106,7 @@ TEST_F(LuminaireTypes, AnAimThatTheFirstGuessSeesWrongIsThatOfTheOthers) {
 
 TEST_F(LuminaireTypes, SpotsOfOneTypeHaveAimsOfTheirOwn) {
   const LightState spots = Spots();
-  LightState typed = TypedBySwitching(States({{1, 1, 1}}), spots, open_);
+  LightState typed = TypedBySwitching(States({{1, 1, 1}}), spots, open_, shown_);
   EXPECT_EQ(typed.first_of_type, (std::vector<int>{0, 0, 0}));
   typed.luminaires[1].cosine_exponent = 20;
   typed = WithTypes(typed, typed.first_of_type);
@@ -105,7 +126,7 @@ TEST_F(LuminaireTypes, SpotsOfOneTypeHaveAimsOfTheirOwn) {
 
 // Sigma of a tilt: 0.6 degrees.
 TEST_F(LuminaireTypes, AimsThatTheFitDoesNotTellApartBecomeOne) {
-  fit_.state = TypedBySwitching(States({{1, 1, 1}}), Spots(), open_);
+  fit_.state = TypedBySwitching(States({{1, 1, 1}}), Spots(), open_, shown_);
   Merged();
   EXPECT_TRUE(WithMergedTypes(fit_, open_).turned_alike.empty());
   for (size_t k = 0; k < 3; ++k) {
@@ -134,16 +155,20 @@ TEST_F(LuminaireTypes, PlacesThatPhotosShowAreASecondStart) {
   };
   // A highlight is smaller than a luminaire, and the third is on in another state.
   std::vector<SeenPlace> seen{place(3, 0.1, {0}), place(1.5, 0.01, {0}), place(2, 1, {1})};
-  EXPECT_TRUE(SeenPlacesOfTypes({seen[0], seen[2]}, data, state).empty());
+  EXPECT_TRUE(SeenPlacesOfTypes({seen[0], seen[2]}, data, state, shown_).empty());
   seen.push_back(place(0, 0.1, {0}));
-  const std::vector<TypePlaces> places = SeenPlacesOfTypes(seen, data, state);
+  const std::vector<TypePlaces> places = SeenPlacesOfTypes(seen, data, state, shown_);
   ASSERT_EQ(places.size(), 1U);
   EXPECT_EQ(places[0].first, 0);
   ASSERT_EQ(places[0].places.size(), 2U);
   EXPECT_EQ(places[0].places[0].x(), 0);
   EXPECT_EQ(places[0].places[1].x(), 3);
+  shown_[0] = seen[3];
+  seen[0].position.z() = 2.4;
+  EXPECT_TRUE(SeenPlacesOfTypes(seen, data, state, shown_).empty()) << "of another kind";
+  seen[0].position.z() = 2;
   state.luminaires[1].position.x() = 2.9;
-  EXPECT_TRUE(SeenPlacesOfTypes(seen, data, state).empty()) << "the fit is there";
+  EXPECT_TRUE(SeenPlacesOfTypes(seen, data, state, shown_).empty()) << "the fit is there";
 }
 
 // Sigma of a difference: 1.4 cm and 1.4 %.
