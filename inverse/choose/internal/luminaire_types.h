@@ -1,8 +1,8 @@
 // Decides which luminaires are of one type: alike but for place and flux.
 //
 // Luminaires that are always switched together are taken as alike at first: an installer puts one kind into a
-// row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen. But where photos show that one
-// hangs 0.3 m and more below the other, or has three times its area and more, they are of two kinds.
+// row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen. But where
+// photos show that one hangs 0.3 m and more below the other, or has three times its area, they are of two kinds.
 //
 // Types whose models have the same form are merged where a fit of all luminaires does not tell their numbers
 // apart: exponents, sizes, tables, tilts, headings. Directions of a type's own luminaires become one by the same test.
@@ -24,8 +24,9 @@ namespace luxfit {
 using ShownLuminaires = std::vector<std::optional<SeenPlace>>;
 
 // Returns the state with its types: luminaires of `open` distribution and shape that are always on together at the
-// same level, and of no two kinds by `shown`, are of one type; one that no photo shows is of that which is nearest in height. Given aims must be alike. Where the search for places told aims that differ by 11
-// degrees and more, as those of spots do, each luminaire of the type has its own direction.
+// same level, and not of two kinds by what is `shown`, are of one type. One that no photo shows joins those that are
+// nearest in height. Given aims must be alike. Where the search for places told aims that differ by 11 degrees and
+// more, as those of spots do, each luminaire of the type has its own direction.
 LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open,
                             const ShownLuminaires& shown);
 
@@ -34,8 +35,9 @@ LightState TypedBySwitching(const LightData& data, LightState start, const std::
 LightState WithTypes(LightState state, const std::vector<int>& first_of_type);
 
 // Returns for every type of several luminaires the places of photos that may be theirs: of those that are bright
-// where and only where the type is on, and of no other kind than its luminaires that are `shown`, as many as it has luminaires, of largest
-// area, in the order of x. No places where photos show too few, and none where all are within reach of the state's.
+// where and only where the type is on, and of no other kind than those of its luminaires that are `shown`, as many
+// as it has luminaires, of largest area, in the order of x. No places where photos show too few, and none where all
+// are within reach of the state's.
 std::vector<TypePlaces> SeenPlacesOfTypes(const std::vector<SeenPlace>& seen, const LightData& data,
                                           const LightState& state, const ShownLuminaires& shown);
 
