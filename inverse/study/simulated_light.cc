@@ -27,7 +27,7 @@ TracedLight TraceLight(const Room& room, const std::vector<int>& elements,
   for (const Reading& reading : readings) sensors.push_back(reading.sensor);
   LightTracerOptions tracer;
   tracer.paths_per_sensor = options.paths_per_point;
-  tracer.replicates = 8;  // their spread is not used
+  tracer.replicates = 2;  // the fewest: their spread is not used
   const TracedIlluminance lit =
       TraceIlluminance(room.scene, room.rays, light.luminaires, light.albedo, sensors, tracer);
   const Eigen::MatrixXd at_points = lit.direct + lit.indirect;

@@ -88,7 +88,7 @@ class ChooseAccuracyInRoom : public testing::TestWithParam<bool> {
 };
 
 TEST_P(ChooseAccuracyInRoom, EstimateCoversTheTrueError) {
-  const Truth truth = Trace(lit_, GetParam() ? 1 << 19 : 1 << 17);
+  const Truth truth = Trace(lit_, GetParam() ? 1 << 20 : 1 << 17);
   ASSERT_LT(truth.sigma_percent, 0.25) << "too noisy for the test to tell";
   int last_elements = 0;
   for (const double asked : {5.0, 1.0}) {

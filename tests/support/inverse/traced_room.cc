@@ -82,8 +82,8 @@ Sights SightsOf(const TracedRoom& room, const Room& model, const RayScene& rays)
   return sights;
 }
 
-// The variance of each point's indirect light by luminaire, lx2. Eight replicates tell one point's badly: the relative
-// error is pooled over all points.
+// The variance of each point's indirect light by luminaire, lx2. Two replicates, which have the least of it, tell one
+// point's badly: the relative error is pooled over all points.
 Eigen::MatrixXd TracerVariance(const TracedIlluminance& lx) {
   Eigen::MatrixXd variance(lx.indirect.rows(), lx.indirect.cols());
   for (Eigen::Index k = 0; k < variance.cols(); ++k) {
@@ -97,7 +97,7 @@ void AddPhotos(const TracedRoom& room, const RayScene& rays, const Sights& sight
                const TracedRoomOptions& options, std::mt19937_64& rng, RoomObservations& given) {
   LightTracerOptions tracer;
   tracer.paths_per_sensor = options.paths_per_point;
-  tracer.replicates = 8;
+  tracer.replicates = 2;
   const TracedIlluminance lx =
       TraceIlluminance(room.truth, rays, room.luminaires, room.albedo, sights.sensors, tracer);
   const Eigen::MatrixXd tracer_lx2 = TracerVariance(lx);
