@@ -165,9 +165,32 @@ std::vector<double> Losses(const Ratios& ratios, const MaterialFit& fit, AlbedoD
   return losses;
 }
 
+// Sum of a - b over the observations of a facet in one state, whose errors are not independent.
+struct StateDifference {
+  double sum = 0, count = 0;
+};
+using FacetDifferences = std::map<int, std::map<int, StateDifference>>;  // by facet and state
+
+// Returns the variance of the sum over all. States of a facet are replicates: that a detail helps on one facet alone,
+// in all states alike, is no error. A facet that one state shows is compared with `mean`, that of all.
+double ScatterOf(const FacetDifferences& by_facet, double mean) {
+  double scatter = 0, clusters = 0;
+  for (const auto& [facet, states] : by_facet) clusters += static_cast<double>(states.size());
+  for (const auto& [facet, states] : by_facet) {
+    const bool is_alone = states.size() == 1;
+    const double n = is_alone ? clusters : static_cast<double>(states.size());
+    if (n == 1) return INFINITY;  // one cluster cannot tell its own error
+    StateDifference all;
+    for (const auto& [state, d] : states) all = {all.sum + d.sum, all.count + d.count};
+    const double centre = is_alone ? mean : all.sum / all.count;
+    for (const auto& [state, d] : states) scatter += n / (n - 1) * std::pow(d.sum - d.count * centre, 2);
+  }
+  return scatter;
+}
+
 struct Compared {
   double mean = 0;   // mean of a - b
-  double error = 0;  // standard error of that mean, by facet and state
+  double error = 0;  // standard error of that mean
   double score = 0;  // mean of b
 };
 Compared Compare(const Ratios& ratios, const RatioIndices& own, const std::vector<double>& a,
@@ -183,16 +206,14 @@ Compared Compare(const Ratios& ratios, const RatioIndices& own, const std::vecto
   if (count == 0) return result;
   result.mean /= count;
   result.score /= count;
-  std::map<std::pair<int, int>, double> clusters;
+  FacetDifferences by_facet;
   for (size_t i = 0; i < own.size(); ++i) {
-    if (std::isfinite(a[i]) && std::isfinite(b[i]))
-      clusters[{ratios[own[i]].facet, ratios[own[i]].state}] += a[i] - b[i] - result.mean;
+    if (!std::isfinite(a[i]) || !std::isfinite(b[i])) continue;
+    StateDifference& state = by_facet[ratios[own[i]].facet][ratios[own[i]].state];
+    state.sum += a[i] - b[i];
+    state.count += 1;
   }
-  double scatter = 0;
-  for (const auto& [cluster, sum] : clusters) scatter += sum * sum;
-  const double n = static_cast<double>(clusters.size());
-  // One cluster cannot tell its own error.
-  result.error = n > 1 ? std::sqrt(scatter * n / (n - 1)) / count : INFINITY;
+  result.error = std::sqrt(ScatterOf(by_facet, result.mean)) / count;
   return result;
 }
 

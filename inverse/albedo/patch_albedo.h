@@ -13,7 +13,8 @@
 // uses its other states; where it has none, its patch, then its material. The finer detail is chosen under
 // two conditions:
 // - the mean of min(z^2, 9) on data left out falls by more than its standard error, for which residuals of
-//   one facet and state are not independent;
+//   one facet and state are not independent, and the states of a facet are replicates: a poster on one wall is
+//   no chance, though the other walls have none;
 // - its albedos vary by more than the forward model's own error at single places.
 //
 // Cauchy weights make the estimate robust. Elements that a shadow edge crosses are left out. Sigmas contain
