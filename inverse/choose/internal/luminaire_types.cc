@@ -28,13 +28,11 @@ bool AreOnTogether(const LightData& data, int a, int b) {
   });
 }
 
-// Returns whether photos show luminaires of two kinds: at other heights, or of other areas.
+// Returns whether photos show luminaires of two kinds, at other heights. Their areas tell no more than the fit of
+// shapes, which starts worse from types that these split.
 bool AreOfTwoKinds(const std::optional<SeenPlace>& a, const std::optional<SeenPlace>& b) {
-  constexpr double kHeightM = 0.3, kAreaFactor = 3;
-  if (!a || !b) return false;
-  const double larger = std::max(a->area_m2, b->area_m2), smaller = std::min(a->area_m2, b->area_m2);
-  return std::abs(a->position.z() - b->position.z()) > kHeightM ||
-         (smaller > 0 && larger > kAreaFactor * smaller);
+  constexpr double kHeightM = 0.3;
+  return a && b && std::abs(a->position.z() - b->position.z()) > kHeightM;
 }
 
 // Returns whether the search for places told the aims of all these luminaires, and two of them differ.

@@ -2,7 +2,7 @@
 //
 // Luminaires that are always switched together are taken as alike at first: an installer puts one kind into a
 // row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen. But where
-// photos show that one hangs 0.3 m and more below the other, or has three times its area, they are of two kinds.
+// photos show that one hangs 0.3 m and more below the other, they are of two kinds.
 //
 // Types whose models have the same form are merged where a fit of all luminaires does not tell their numbers
 // apart: exponents, sizes, tables, tilts, headings. Directions of a type's own luminaires become one by the same test.
