@@ -212,7 +212,7 @@ inline TracedElements TraceElements(const Room& model, const TiledRoom& truth,
   }
   LightTracerOptions options;
   options.paths_per_sensor = 2048;  // 8192 an element: 0.2 to 0.5 % of the indirect light
-  options.replicates = 2;  // long ones have the smallest errors, which are pooled over all points
+  options.replicates = 2;           // long ones have the smallest errors, which are pooled over all points
   options.seed = kTracerSeed;
   const TracedIlluminance lx =
       TraceIlluminance(truth.scene, RayScene(truth.scene), luminaires, truth.albedo, sensors, options);
