@@ -8,7 +8,7 @@
 //   d = (1 / n) sum_g (a_g - b_g)
 //   SE^2 = G / (G - 1) * (G - 1) / (G - 3) * sum_g (a_g - b_g - n_g d)^2 / n^2
 //
-// a_g, b_g: sums of scores over the n_g rows of group g (a facet, or a reading), n rows and G groups in all.
+// a_g, b_g: sums of scores over the n_g rows of group g (such as a block of neighbouring places), n rows and G groups in all.
 // Residuals of one group share their error and are not independent, so differences are paired by groups. The
 // factor (G - 1) / (G - 3) is the variance of Student's t. The standard error is infinite for G <= 3.
 //

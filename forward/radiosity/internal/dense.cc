@@ -6,12 +6,43 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 #include <vector>
 
 #include "forward/factors/form_factors.h"
 
+// Functions of OpenBLAS that its headers leave out; absent where it was built for one processor alone.
+extern "C" {
+__attribute__((weak)) void gotoblas_dynamic_init();
+__attribute__((weak)) void gotoblas_dynamic_quit();
+}
+
 namespace luxfit {
 namespace {
+
+// Chooses OpenBLAS's kernels by what the processor can do. OpenBLAS chooses by its model, and a model that is newer than
+// the library gets kernels of 2004, a third as fast.
+bool ChooseBlasKernels() {
+#ifdef __x86_64__
+  const bool is_unknown = std::string_view(openblas_get_corename()) == "Prescott";
+  if (!is_unknown || std::getenv("OPENBLAS_CORETYPE") != nullptr || gotoblas_dynamic_init == nullptr ||
+      gotoblas_dynamic_quit == nullptr || !__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    return false;
+  const bool is_wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+  setenv("OPENBLAS_CORETYPE", is_wide ? "SkylakeX" : "Haswell", 1);
+  gotoblas_dynamic_quit();
+  gotoblas_dynamic_init();
+  unsetenv("OPENBLAS_CORETYPE");  // other libraries of the process have an OpenBLAS of their own
+  return true;
+#else
+  return false;
+#endif
+}
+
+// Runs before main, while no thread can be in OpenBLAS.
+[[maybe_unused]] const bool kHasChosenKernels = ChooseBlasKernels();
 
 // OpenBLAS's own threads wait by yielding, which on a busy machine costs a scheduler's turn at every barrier:
 // minutes instead of seconds. It therefore computes on the calling thread, and the parallel loops here divide

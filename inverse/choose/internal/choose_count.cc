@@ -99,7 +99,7 @@ LightState StartOf(const SparseLuminaires& found, const LightState& given, doubl
 
 // One fold judges all numbers, every fifth patch or reading. The search for places sees the others alone: a place
 // that follows the errors of the rows that judge it would seem to be supported. Whole blocks in its place leave
-// too few facets to judge by, and five folds in turn take five searches.
+// too few blocks to judge by, and five folds in turn take five searches.
 constexpr int kJudgingFold = 1;
 
 SubProblem CutEveryFifth(const Room& room, SubProblem problem) {

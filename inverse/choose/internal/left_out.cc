@@ -51,8 +51,9 @@ LightState AloneOrOthersHeld(const LightState& start, const std::vector<int>& me
   return state;
 }
 
-void CutIntoFolds(const std::vector<Eigen::Vector3d>& place_of_row, SubProblem& problem) {
-  problem.fold_of_row = SpatialBlocks(place_of_row, kFolds * kBlocksPerFold);
+void CutIntoBlocks(const std::vector<Eigen::Vector3d>& place_of_row, SubProblem& problem) {
+  problem.group_of_row = SpatialBlocks(place_of_row, kFolds * kBlocksPerFold);
+  problem.fold_of_row = problem.group_of_row;
   for (int& fold : problem.fold_of_row) fold %= kFolds;
 }
 
@@ -67,13 +68,12 @@ void AddObservations(const Room& room, const LightData& data, const std::vector<
   for (const Observation& o : problem.data.observations) {
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
     places.push_back(room.patches.patches[static_cast<size_t>(patch)].center);
-    problem.group_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].facet);
     problem.element_of_row.push_back(o.element);
     problem.material_of_row.push_back(room.patches.patches[static_cast<size_t>(patch)].material);
     problem.value.push_back(o.relative_luminance);
     problem.variance.push_back(o.variance);
   }
-  CutIntoFolds(places, problem);
+  CutIntoBlocks(places, problem);
 }
 
 void AddReadings(const LightData& data, const std::vector<bool>& state_used, SubProblem& problem) {
@@ -85,13 +85,12 @@ void AddReadings(const LightData& data, const std::vector<bool>& state_used, Sub
     problem.value.push_back(reading.illuminance_lx);
     problem.variance.push_back(reading.sigma_lx * reading.sigma_lx);
   }
-  problem.group_of_row = SpatialBlocks(places, static_cast<int>(places.size()));
-  CutIntoFolds(places, problem);
+  CutIntoBlocks(places, problem);
 }
 
 // Adds an outline. A fold leaves whole views out.
 void AddOutline(const SeenOutline& outline, int luminaire, SubProblem& problem) {
-  constexpr int kFirstGroup = 1 << 28;  // apart from those of facets
+  constexpr int kFirstGroup = 1 << 28;  // apart from blocks
   problem.data.outlines.push_back({luminaire, outline});
   for (size_t i = 0; i < outline.rays.size(); ++i) {
     problem.group_of_row.push_back(kFirstGroup + outline.view);

@@ -6,8 +6,9 @@
 //
 // The score is the sum of min(z^2, 9) over all rows, z the residual over its own sigma and one common model
 // error: the smallest of the models compared. What an element's rows share by its texture is whitened. Rows that a shadow edge crosses in any of these models count
-// for none, because no fit uses them; a model that would leave few rows in that way has no say in it. Differences of two models are paired group by group (facets, or places
-// of readings), because residuals of one facet are not independent.
+// for none, because no fit uses them; a model that would leave few rows in that way has no say in it. Differences of two models are paired block by block, because
+// residuals of neighbours are not independent. A few facets would be too few groups: what one wall of six tells alone lies one
+// standard error from nothing, however sure it is.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 #define LUXFIT_INVERSE_CHOOSE_INTERNAL_LEFT_OUT_H_
 
@@ -30,7 +31,7 @@ struct SubProblem {
   int luminaire = 0;            // its index in `state`; the first of several
   std::vector<int> members{0};  // of the type, by index in `state`
   LightData data;
-  std::vector<int> group_of_row;  // facet, place of a reading, or view of an outline
+  std::vector<int> group_of_row;  // block of places, or view of an outline
   std::vector<int> fold_of_row;
   std::vector<int> element_of_row, material_of_row;  // of photos' rows, which come first
   std::vector<double> value;                         // measured

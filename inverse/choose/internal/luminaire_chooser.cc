@@ -259,7 +259,7 @@ class LuminaireChooser {
       parameters.push_back(candidate.parameters);
     }
     SelectionOptions options;
-    // A beam falls on a facet or two, whose errors are its own.
+    // A beam falls on few blocks of places, whose errors are its own.
     if (is_aimed_) options.worth_having = kWorthHaving;
     Selection selection = SelectAmong(problem_, models, parameters, options);
     choice.score = std::move(selection.score);

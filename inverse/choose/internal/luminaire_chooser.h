@@ -16,7 +16,7 @@
 // chosen candidate stays free only where the same holds for it. Where the start's tilt is free, the search for
 // places has told the aim from those along the room's axes
 // (inverse/model/internal/search/sparse_luminaires.h). The aim stays free, and candidates have an exponent. A beam
-// falls on a facet or two. Differences over so few groups have no reliable standard error, and a size must also gain
+// falls on few blocks of places. Differences over so few groups have no reliable standard error, and a size must also gain
 // a quarter of the score.
 //
 // Source: Breiman, Friedman, Olshen, Stone (1984), "Classification and Regression Trees", sec. 3.4
