@@ -260,7 +260,7 @@ class LuminaireChooser {
     }
     SelectionOptions options;
     // A beam falls on few blocks of places, whose errors are its own.
-    if (is_aimed_) options.worth_having = kWorthHaving;
+    options.worth_having = is_aimed_ ? kWorthHaving : kWorthDetail;
     Selection selection = SelectAmong(problem_, models, parameters, options);
     choice.score = std::move(selection.score);
     choice.standard_error = std::move(selection.standard_error);
