@@ -55,8 +55,6 @@ struct SelectionCandidate {
 
 // Share of the best score, for parameters that can absorb errors of others: gains, tables, cells of an emission.
 constexpr double kWorthHaving = 0.25;
-// Share of the best score, for more detail of the same thing: a luminaire's shape and distribution, colours, reflectances.
-constexpr double kWorthDetail = 0.1;
 
 struct SelectionOptions {
   double standard_errors = 1;  // k

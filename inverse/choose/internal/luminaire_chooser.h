@@ -9,7 +9,7 @@
 //
 // Every candidate is fitted until it converges and scored by cross-validation over five folds
 // (inverse/choose/internal/left_out.h). The simplest candidate within one standard error of the best score, or
-// a tenth, is chosen: over many blocks the error is small, and what the mesh lacks favours more parameters.
+// a fiftieth, is chosen.
 //
 // Aim: a cosine-power point (or the given model) is fitted with the start's aim and with a free one. The
 // candidates turn only where the free aim lowers the score by more than a standard error. The aim of the

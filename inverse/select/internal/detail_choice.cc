@@ -10,7 +10,7 @@ DetailChoice ChooseDetail(const std::vector<std::string>& names, const std::vect
   for (const GroupScores& score : scores)
     candidates.push_back({score, static_cast<double>(candidates.size()), true});
   SelectionOptions options;
-  options.worth_having = kWorthDetail;
+  options.worth_having = 0.1;
   const Selection selection = SimplestWithinOneStandardError(candidates, options);
   DetailChoice choice;
   for (size_t c = 0; c < names.size(); ++c)
