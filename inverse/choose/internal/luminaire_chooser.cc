@@ -259,10 +259,8 @@ class LuminaireChooser {
       parameters.push_back(candidate.parameters);
     }
     SelectionOptions options;
-    // Where all blocks agree, a difference of a thousandth is beyond its error. A fiftieth is a hundredth of the residuals.
-    constexpr double kWorthNoticing = 0.02;
     // A beam falls on few blocks of places, whose errors are its own.
-    options.worth_having = is_aimed_ ? kWorthHaving : kWorthNoticing;
+    if (is_aimed_) options.worth_having = kWorthHaving;
     Selection selection = SelectAmong(problem_, models, parameters, options);
     choice.score = std::move(selection.score);
     choice.standard_error = std::move(selection.standard_error);

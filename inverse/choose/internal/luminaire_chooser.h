@@ -8,8 +8,8 @@
 // tried where points that light one side leave more than 1 %.
 //
 // Every candidate is fitted until it converges and scored by cross-validation over five folds
-// (inverse/choose/internal/left_out.h). The simplest candidate within one standard error of the best score, or
-// a fiftieth, is chosen.
+// (inverse/choose/internal/left_out.h). The simplest candidate within one standard error of the best score is
+// chosen.
 //
 // Aim: a cosine-power point (or the given model) is fitted with the start's aim and with a free one. The
 // candidates turn only where the free aim lowers the score by more than a standard error. The aim of the

@@ -180,8 +180,7 @@ void RecordChoice(const RoomObservations& given, const LuminaireChoice& choice, 
   findings.choices.push_back(
       {"photometry and shape of " + given.luminaires[static_cast<size_t>(choice.luminaire)].luminaire.id,
        choice.among[chosen], choice.among,
-       "simplest within one standard error, or 2 %, of the best on patches left out (mean squared "
-       "normalised "
+       "simplest within one standard error of the best on patches left out (mean squared normalised "
        "error: " +
            scores + ")"});
 }

@@ -67,7 +67,9 @@ TEST(AdviseOffice, TheFirstPhotosAsAdvisedFindEveryLuminaire) {
   const OfficeOutcome outcome = office.Fit(photos);
   std::printf("positions: sigma %.1f mm, error %.1f mm\n", 1e3 * outcome.position_sigma_m,
               1e3 * outcome.position_error_m);
-  EXPECT_LT(outcome.position_sigma_m, 0.028) << "18 mm when this was written";
+  // 28.5 mm, of which A's height has most: 2092 of 8368 elements are fitted, since twice as many would move nothing by a tenth of
+  // its sigma. Where 4184 were taken, it was 18 mm.
+  EXPECT_LT(outcome.position_sigma_m, 0.043);
   EXPECT_LT(outcome.position_error_m, 2 * outcome.position_sigma_m);
 }
 
