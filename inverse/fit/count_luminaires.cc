@@ -32,7 +32,7 @@ std::string ReasonOf(const CountChoice& choice, const std::string& scores) {
     return "photos show them, alike in height and area, and they explain the light to 5 %";
   const std::string of = " on patches left out (mean squared normalised error: " + scores + ")";
   if (choice.are_enough) return "photos show them beyond doubt, and no other number leaves a tenth less" + of;
-  return "smallest within one standard error of the best" + of;
+  return "smallest within one standard error of the best, or within a quarter of it" + of;
 }
 
 void Record(const CountChoice& choice, const std::string& group, Findings& findings) {

@@ -113,16 +113,18 @@ class OuterLoop {
       settled = is_near &&
                 (LargestMove(before.luminaires, fit_.state.luminaires) < options_.position_tolerance_m ||
                  StepInSigmas(step) < kLastStepSigmas) &&
-                (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < 0.02 ||
+                (std::abs(model_error_ratio_ - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
-      if (is_near && !settled && TurnsBack(step, last_step)) {
-        fit_.state = WithParameters(before, fit_.parameters, x - 0.5 * step);
+      if (is_near && !settled && TurnsBack(step, last_step)) relaxation_ = std::max(0.125, 0.5 * relaxation_);
+      if (is_near && !settled && relaxation_ < 1) {
+        fit_.state = WithParameters(before, fit_.parameters, x - (1 - relaxation_) * step);
         solved_.reset();
       }
       last_step = is_near ? step : Eigen::VectorXd();
       if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
     }
     ReflectDerivatives(true);
+    relaxation_ = 1;
     return settled;
   }
 
@@ -202,10 +204,12 @@ class OuterLoop {
     solved_.reset();
     const bool is_first = weights_.root_weight.size() == 0;
     for (int left = is_first && options_.start_is_near ? kMostWeighings : 1; left > 0; --left) {
-      relative_sigma_before_ = fit_.relative_sigma;
+      const double last_sigma = fit_.relative_sigma;
       weights_ = weigher_.Weigh(fit_.state, at_state_.value, penumbra, fit_.photo_design_effect, weights_,
                                 fit_.relative_sigma);
-      if (std::abs(relative_sigma_before_ / fit_.relative_sigma - 1) < kSettledWeights) break;
+      model_error_ratio_ = last_sigma / fit_.relative_sigma;
+      if (relaxation_ < 1) fit_.relative_sigma = last_sigma * std::pow(model_error_ratio_, -relaxation_);
+      if (std::abs(model_error_ratio_ - 1) < kSettledWeights) break;
     }
   }
 
@@ -230,7 +234,7 @@ class OuterLoop {
   }
 
   // Returns whether a step leads back to where the last one began, by what both do to the rows. Weights follow each step,
-  // so that steps may go to and fro between two states for ever: half of one lands between them.
+  // so that steps may go to and fro between two states for ever: parts of them, from then on, land between them.
   bool TurnsBack(const Eigen::VectorXd& step, const Eigen::VectorXd& last) const {
     constexpr double kOpposite = -0.5;  // cosine
     if (last.size() != step.size()) return false;
@@ -434,7 +438,8 @@ class OuterLoop {
   Eigen::VectorXd bias_;  // of each row by the model's discretisation; 0 until it is subtracted
   Prediction at_state_;
   std::optional<Prediction> solved_;  // of the last solve's end, as long as the model stays the same
-  double relative_sigma_before_ = 0;
+  double model_error_ratio_ = 0;      // of f before it was last estimated to what was estimated
+  double relaxation_ = 1;             // share of a step that is taken, and of the estimate of f
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 //
 // A hall of downlights on a raster of 2.4 m, 3 m high, one of which has aged by 20 %. The light tracer makes photos and readings; nothing
 // else is told. Two kinds of sessions: all are on in one state and their number is unknown, and each row has its own switch. --most: the
-// largest number, 60 by default; in rows to 200. Writes many_luminaires.csv and many_luminaires.svg. --quick: five, and fails where they
+// largest number, 60 by default; in rows to 200. Writes many_luminaires.csv and many_luminaires.svg. --quick: six, and fails where they
 // are not counted or not found.
 #include <fmt/format.h>
 
@@ -120,10 +120,14 @@ RoomObservations Unnamed(RoomObservations given, int count) {
 
 Outcome RunHall(const Hall& hall, bool in_rows) {
   const support::TracedRoom room = MakeHall(hall, in_rows);
-  const Room model = MakeRoom(room.truth);
+  // Tracing takes most of the time; it grows with elements times luminaires.
+  RoomOptions coarse;
+  coarse.patches.patch_size_m = 0.4;
+  coarse.patches.element_size_m = 0.2;
+  const Room model = MakeRoom(room.truth, coarse);
   std::mt19937_64 rng(1);
   support::TracedRoomOptions options;
-  options.paths_per_point = 128;
+  options.paths_per_point = 32;
   RoomObservations given = support::ObserveTraced(room, model, rng, options);
   Outcome outcome;
   outcome.luminaires = hall.Count();

@@ -225,7 +225,7 @@ class Count {
   CountChoice Choice() const {
     CountChoice choice;
     if (trials_.empty()) return choice;
-    Selection selection = Select();
+    Selection selection = Select(kWorthHaving);
     for (const Trial& trial : trials_) choice.among.push_back(trial.count);
     choice.are_enough = ShownAreEnough(selection);
     choice.chosen = trials_[choice.are_enough ? 0 : selection.chosen].count;
@@ -297,7 +297,8 @@ class Count {
     LeaveOutDark();
   }
 
-  Selection Select() const {
+  // `worth_having`: by how much more luminaires must lower the best score, as a share of it.
+  Selection Select(double worth_having = 0) const {
     std::vector<const LeftOutPrediction*> left_out;
     left_out.reserve(trials_.size());
     for (const Trial& trial : trials_) left_out.push_back(&trial.left_out);
@@ -306,7 +307,9 @@ class Count {
     candidates.reserve(trials_.size());
     for (size_t t = 0; t < trials_.size(); ++t)
       candidates.push_back({scores[t], static_cast<double>(trials_[t].count), true});
-    return SimplestWithinOneStandardError(candidates);
+    SelectionOptions options;
+    options.worth_having = worth_having;
+    return SimplestWithinOneStandardError(candidates, options);
   }
 
   // Refines the luminaires of `found` together and keeps what they predict as the trial of that index. False: too

@@ -6,7 +6,8 @@
 // 2. They are refined together as discs of free size, so that a large one is not mistaken for several; those that photos
 //    show, with the area that they show, long ones (sides 1.5 : 1 and more) as rectangles.
 // 3. They are scored on the fold left out (inverse/choose/internal/left_out.h).
-// The smallest n within one standard error of the best score is chosen (paired, block by block). The first number is
+// The smallest n within one standard error of the best score, or within a quarter of it, is chosen (paired, block by block): one luminaire
+// more absorbs what the shapes and the mesh lack. The first number is
 // that of the places that photos show beyond doubt (IsSure) and that give light. Where these are three and more that are
 // alike (inverse/model/internal/search/alike_places.h) and explain the light to 5 %, that is the number. Else doubtful places that give light are
 // added, and those that give least are left out, one after the other: doubtful ones that do not help by more than a standard error, sure ones as

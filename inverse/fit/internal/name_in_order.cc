@@ -1,9 +1,9 @@
 #include "inverse/fit/internal/name_in_order.h"
 
 #include <algorithm>
-#include <tuple>
-#include <utility>
 #include <vector>
+
+#include "inverse/model/internal/search/order_of_places.h"
 
 namespace luxfit {
 namespace {
@@ -18,23 +18,19 @@ bool AreOnTogether(const RoomObservations& given, int a, int b) {
                      [&](const Eigen::VectorXd& dimming) { return dimming[a] == dimming[b]; });
 }
 
-bool ComesFirst(const Luminaire& a, const Luminaire& b) {
-  const auto key = [](const Luminaire& l) {
-    return std::tuple(l.position.x(), l.position.y(), l.position.z());
-  };
-  return key(a) < key(b);
-}
-
 // Puts the luminaires of `indices` in order; each place keeps its id.
 void Order(const std::vector<int>& indices, LightState& state) {
-  std::vector<Luminaire> ordered;
-  ordered.reserve(indices.size());
-  for (const int k : indices) ordered.push_back(state.luminaires[static_cast<size_t>(k)]);
-  std::stable_sort(ordered.begin(), ordered.end(), ComesFirst);
+  std::vector<Luminaire> luminaires;
+  std::vector<Eigen::Vector3d> places;
+  for (const int k : indices) {
+    luminaires.push_back(state.luminaires[static_cast<size_t>(k)]);
+    places.push_back(luminaires.back().position);
+  }
+  const std::vector<size_t> order = OrderOfPlaces(places);
   for (size_t i = 0; i < indices.size(); ++i) {
     Luminaire& there = state.luminaires[static_cast<size_t>(indices[i])];
-    ordered[i].id = there.id;
-    there = std::move(ordered[i]);
+    luminaires[order[i]].id = there.id;
+    there = luminaires[order[i]];
   }
 }
 

@@ -11,7 +11,7 @@
 
 namespace luxfit {
 
-// Returns the state with the interchangeable luminaires of each type in the order of x, then y, then z. Luminaires of
+// Returns the state with the interchangeable luminaires of each type in the order of their places (OrderOfPlaces). Luminaires of
 // which anything is given keep their places.
 LightState WithNamesInOrder(const RoomObservations& given, LightState state);
 

@@ -96,7 +96,7 @@ void WarnOfInterchangeable(const RoomObservations& given, const std::vector<int>
       {"luminaires_interchangeable",
        fmt::format(
            "luminaires {} are always on together: their places are found, but not which is at which; they "
-           "are given in the order of x",
+           "are given in the order of x, and of y in a column",
            fmt::join(ids, ", ")),
        fmt::format("photograph {} without the others, or give position_m", ids.front())});
 }

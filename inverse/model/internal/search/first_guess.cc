@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "forward/luminaire/distribution_ops.h"
+#include "inverse/model/internal/search/order_of_places.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
 #include "inverse/model/internal/search/watched_places.h"
 
@@ -51,9 +51,14 @@ struct SeenPositions {
   }
 };
 
-bool ComesFirst(const SparseSource& a, const SparseSource& b) {
-  const Eigen::Vector3d &p = a.luminaire.position, &q = b.luminaire.position;
-  return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
+std::vector<SparseSource> InOrder(const std::vector<SparseSource>& sources) {
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(sources.size());
+  for (const SparseSource& source : sources) places.push_back(source.luminaire.position);
+  std::vector<SparseSource> ordered;
+  ordered.reserve(sources.size());
+  for (const size_t i : OrderOfPlaces(places)) ordered.push_back(sources[i]);
+  return ordered;
 }
 
 // Assigns a group's sources to its luminaires: held ones to those of a known position, in their order.
@@ -62,7 +67,7 @@ void Assign(const LuminaireGroup& group, const SparseLuminaires& found, const Kn
             const SeenPositions& seen, double flux_per_strength, FirstGuess& guess) {
   std::vector<SparseSource> held, free;
   for (const SparseSource& source : found.sources) (source.is_held ? held : free).push_back(source);
-  std::sort(free.begin(), free.end(), ComesFirst);
+  free = InOrder(free);
   size_t next_held = 0, next_free = 0;
   for (size_t i = 0; i < group.luminaires.size(); ++i) {
     const auto k = static_cast<size_t>(group.luminaires[i]);

@@ -18,7 +18,7 @@
 // LightData::checkpoint ends the search: from then on only places seen in photos are tried.
 //
 // Fluxes are those for a camera scale of 1. Distances are in m. Luminaires of one group are interchangeable.
-// They come in the order of x, then y, then z; those of a known position are apart.
+// They come in the order of their places (order_of_places.h); those of a known position are apart.
 //
 // Sources: Lawson and Hanson (1974), "Solving Least Squares Problems", ch. 23 (NNLS); Boyd, Schiebinger,
 // Recht (2017), "The alternating descent conditional gradient method for sparse inverse problems".

@@ -14,8 +14,7 @@
 // leave half more squares, or explain less than half as much.
 //
 // For robustness the search runs twice. The second run lowers the weight of rows that the first did not
-// explain. Rows are weighted by a relative error of 10 %, with a floor where there is little light. Distances
-// are in m.
+// explain (GroupEquations::Reweigh). Distances are in m.
 //
 // Sources: Lawson and Hanson (1974), ch. 23 (NNLS); Boyd, Schiebinger, Recht (2017), "The alternating descent
 // conditional gradient method for sparse inverse problems" (add, solve, move).
