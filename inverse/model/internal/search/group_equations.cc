@@ -19,7 +19,10 @@ constexpr double kLeastInverseAlbedo = 1 / 0.95;
 // Returns the error of light, 10 %; `floor`: the mean of what is measured, in the same unit.
 double SigmaOf(double light, double floor) { return 0.1 * light + 0.02 * floor; }
 
-double MedianOf(const Eigen::VectorXd& values) { return Quantile({values.begin(), values.end()}, 0.5); }
+double MedianSize(const Eigen::VectorXd& values) {
+  const Eigen::VectorXd sizes = values.cwiseAbs();
+  return Quantile({sizes.begin(), sizes.end()}, 0.5);
+}
 
 }  // namespace
 
@@ -110,22 +113,24 @@ GroupEquations::Residuals GroupEquations::ResidualsOf(const Eigen::VectorXd& dir
     const double measured = white * value_[i];
     const double modelled = direct[i] + (AreReadings() ? other[m] : indirect_[i]);
     left.sigma[i] = SigmaOf(std::max(measured, modelled), white * mean);
-    left.size[i] = std::abs(measured - modelled) / left.sigma[i];
+    left.value[i] = (measured - modelled) / left.sigma[i];
   }
   return left;
 }
 
 Eigen::VectorXd GroupEquations::RobustWeights(const Residuals& left) const {
-  const double median_sigma = std::max(MedianOf(left.size) / 0.6745, 1e-6);
-  const auto squares = [&](double sigmas) {
-    return 1 + (left.size / (sigmas * median_sigma)).array().square();
-  };
-  const Eigen::ArrayXd down = AreReadings() ? squares(3).rsqrt().eval() : squares(2).inverse().eval();
-  return down / left.sigma.array();
+  const double sigma = std::max(MedianSize(left.value) / 0.6745, 1e-6);
+  Eigen::VectorXd weight(left.value.size());
+  for (Eigen::Index i = 0; i < weight.size(); ++i) {
+    const bool is_dark = !AreReadings() && left.value[i] < 0;
+    const double r = left.value[i] / (is_dark ? 2 * sigma : 3 * sigma);
+    weight[i] = (is_dark ? 1 / (1 + r * r) : 1 / std::sqrt(1 + r * r)) / left.sigma[i];
+  }
+  return weight;
 }
 
 GroupEquations::Solution GroupEquations::BestScaled(const Eigen::MatrixXd& light, Solution best) const {
-  double least = MedianOf(ResidualsOf(light * best.strength, best.other).size);
+  double least = MedianSize(ResidualsOf(light * best.strength, best.other).value);
   Eigen::VectorXd unit = best.strength;
   if (!(unit.sum() > 0)) unit.setOnes();
   const Eigen::VectorXd direct_of_unit = light * unit;
@@ -141,7 +146,7 @@ GroupEquations::Solution GroupEquations::BestScaled(const Eigen::MatrixXd& light
           inverse_albedo.push_back((indirect_[i] + direct[i]) / value_[i]);
       other[m] = std::max(kLeastInverseAlbedo, Quantile(std::move(inverse_albedo), 0.5));
     }
-    const double median = MedianOf(ResidualsOf(direct, other).size);
+    const double median = MedianSize(ResidualsOf(direct, other).value);
     if (median >= least) continue;
     least = median;
     best.strength = factor * unit;

@@ -35,9 +35,9 @@ class GroupEquations {
   // wrong about the surface: dark things stand on a floor. Errors are relative to the larger of what is measured and what is modelled.
   // Against the measured alone, a thing of a fifth of the floor's reflectance errs by 400 %, and no light at all explains it best. With
   // photos, the strengths are first tried at several scales, and the one of least median residual is where it starts.
-  // Sources: Geman and McClure (1987), "Statistical methods for tomographic image reconstruction" (photos: weights
-  // 1 / (1 + r^2)^2, r in twice the median residual's sigma; readings have Cauchy's, at three times); Rousseeuw (1984), "Least
-  // median of squares regression".
+  // Sources: Geman and McClure (1987), "Statistical methods for tomographic image reconstruction" (rows that are darker than
+  // modelled: weights 1 / (1 + r^2)^2, r in twice the median residual's sigma. Brighter ones and readings have Cauchy's, at
+  // three times: they may be a beam that no source explains yet); Rousseeuw (1984), "Least median of squares regression".
   void Reweigh(const Eigen::MatrixXd& sources);
 
   struct Solution {
@@ -70,7 +70,7 @@ class GroupEquations {
   bool AreReadings() const { return materials_.front() < 0; }
   // Residuals by row, and the sigmas they are divided by.
   struct Residuals {
-    Eigen::VectorXd size, sigma;
+    Eigen::VectorXd value, sigma;  // positive: brighter than modelled
   };
   Residuals ResidualsOf(const Eigen::VectorXd& direct, const Eigen::VectorXd& other) const;
   // Returns root weights by row.
