@@ -79,7 +79,7 @@ TEST(GroupEquations, SeparateDirectLightFromReflectance) {
   EXPECT_NEAR(found.wall, 0.7, 1e-3);
 }
 
-// Furniture that the mesh lacks. Weighted by what is measured, dark places say that there is hardly any light: g = 0.4.
+// Furniture that the mesh lacks. Weighted by what is measured alone, dark places would say that there is hardly any light.
 TEST(GroupEquations, LetDarkThingsOnAThirdOfTheFloorLoseTheirSay) {
   const Found found = SolveReweighed(FloorAndWall({0.3, 0.7}, [](int i) { return i % 3 == 0; }));
   EXPECT_NEAR(found.strength, kStrength, 0.05 * kStrength);
