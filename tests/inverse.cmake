@@ -29,6 +29,7 @@ luxfit_test(inverse/furniture painted_parts_test WHOLE LINK luxfit_apps nlohmann
 luxfit_test(inverse/model light_model_test LINK luxfit::inverse)
 luxfit_test(inverse/model penumbra_test LINK luxfit::inverse)
 luxfit_test(inverse/model point_horizon_test LINK luxfit::inverse)
+luxfit_test(inverse/model relaxation_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_bodies_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_colour_test LINK luxfit::inverse)
 luxfit_test(inverse/model light_model_clusters_test LINK luxfit::inverse)

@@ -12,6 +12,7 @@
 #include "inverse/model/internal/intervals/null_direction.h"
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/part_smoothness.h"
+#include "inverse/model/internal/relaxation.h"
 #include "inverse/model/internal/weights/indirect_error.h"
 #include "inverse/model/internal/weights/row_weights.h"
 #include "inverse/model/internal/weights/shared_errors.h"
@@ -115,16 +116,18 @@ class OuterLoop {
                  StepInSigmas(step) < kLastStepSigmas) &&
                 (std::abs(model_error_ratio_ - 1) < 0.02 ||
                  fit_.relative_sigma < 2 * options_.min_relative_sigma);  // there f only creeps
-      if (is_near && !settled && TurnsBack(step, last_step)) relaxation_ = std::max(0.125, 0.5 * relaxation_);
-      if (is_near && !settled && relaxation_ < 1) {
-        fit_.state = WithParameters(before, fit_.parameters, x - (1 - relaxation_) * step);
-        solved_.reset();
+      if (is_near && !settled) {
+        if (last_step.size() == step.size()) relaxation_.Compare(Moved(step), Moved(last_step));
+        if (relaxation_.IsPartial()) {
+          fit_.state = WithParameters(before, fit_.parameters, relaxation_.PartOf(step, x));
+          solved_.reset();
+        }
       }
       last_step = is_near ? step : Eigen::VectorXd();
       if (options_.on_round) options_.on_round({fit_.outer_iterations, fit_.relative_sigma, fit_.state});
     }
     ReflectDerivatives(true);
-    relaxation_ = 1;
+    relaxation_ = {};
     return settled;
   }
 
@@ -208,7 +211,7 @@ class OuterLoop {
       weights_ = weigher_.Weigh(fit_.state, at_state_.value, penumbra, fit_.photo_design_effect, weights_,
                                 fit_.relative_sigma);
       model_error_ratio_ = last_sigma / fit_.relative_sigma;
-      if (relaxation_ < 1) fit_.relative_sigma = last_sigma * std::pow(model_error_ratio_, -relaxation_);
+      fit_.relative_sigma = relaxation_.Between(last_sigma, fit_.relative_sigma);
       if (std::abs(model_error_ratio_ - 1) < kSettledWeights) break;
     }
   }
@@ -225,22 +228,16 @@ class OuterLoop {
     return true;
   }
 
+  // Returns what a step does to the weighted rows.
+  Eigen::VectorXd Moved(const Eigen::VectorXd& step) const {
+    return weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
+  }
+
   // Returns the root mean square of a step from the present weights' state in the sigmas that the rows give, the
   // photos' design effect included.
   double StepInSigmas(const Eigen::VectorXd& step) const {
-    const Eigen::VectorXd moved = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
-    const double squares = moved.squaredNorm() + step.dot(PriorInformation() * step);
+    const double squares = Moved(step).squaredNorm() + step.dot(PriorInformation() * step);
     return std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(1, step.size())));
-  }
-
-  // Returns whether a step leads back to where the last one began, by what both do to the rows. Weights follow each step,
-  // so that steps may go to and fro between two states for ever: parts of them, from then on, land between them.
-  bool TurnsBack(const Eigen::VectorXd& step, const Eigen::VectorXd& last) const {
-    constexpr double kOpposite = -0.5;  // cosine
-    if (last.size() != step.size()) return false;
-    const Eigen::VectorXd now = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * step));
-    const Eigen::VectorXd before = weights_.Weighed(Eigen::VectorXd(at_state_.jacobian * last));
-    return now.dot(before) < kOpposite * now.norm() * before.norm();
   }
 
   // Returns the largest move of any point of any luminaire, in m.
@@ -439,7 +436,7 @@ class OuterLoop {
   Prediction at_state_;
   std::optional<Prediction> solved_;  // of the last solve's end, as long as the model stays the same
   double model_error_ratio_ = 0;      // of f before it was last estimated to what was estimated
-  double relaxation_ = 1;             // share of a step that is taken, and of the estimate of f
+  Relaxation relaxation_;             // of steps, and of f
 };
 
 }  // namespace

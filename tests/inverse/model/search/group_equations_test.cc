@@ -87,7 +87,7 @@ TEST(GroupEquations, LetDarkThingsOnAThirdOfTheFloorLoseTheirSay) {
   EXPECT_NEAR(found.wall, 0.7, 0.02);
 }
 
-// What the mesh lacks may double the light of a wall.
+// A wall shows twice the light that it can reflect: something that the mesh lacks stands there.
 TEST(GroupEquations, KnowThatNoSurfaceReflectsMoreThanItGets) {
   GroupedLight light = FloorAndWall({0.3, 0.7}, [](int) { return false; });
   for (size_t i = 0; i < light.places.size(); ++i)
