@@ -177,7 +177,8 @@ class RoomFitter {
         FitFromSeveralStarts(room_, data, fit.state, start_.rivals, start_.priors, SeenPriors());
     starts_ = starts.comparisons;
     best_ = starts.state;
-    result_.data.outlines = data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
+    result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
+    data.outlines = TellingOutlines(result_.data.outlines, starts.state);
     const LightState chosen = ChooseModels(data, starts.state);
     state = WithNamesInOrder(given_, chosen);
     FollowNames(chosen, state);

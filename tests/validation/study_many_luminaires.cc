@@ -1,10 +1,10 @@
 // How time and error grow with the number of luminaires.
 //
-//   study_many_luminaires -o FOLDER [--quick] [--most N]
+//   study_many_luminaires -o FOLDER [--quick] [--most N] [--only N]
 //
 // A hall of downlights on a raster of 2.4 m, 3 m high, one of which has aged by 20 %. The light tracer makes photos and readings; nothing
 // else is told. Two kinds of sessions: all are on in one state and their number is unknown, and each row has its own switch. --most: the
-// largest number, 60 by default; in rows to 200. Writes many_luminaires.csv and many_luminaires.svg. --quick: six, and fails where they
+// largest number, 60 by default; in rows to 200. --only: this number alone. Writes many_luminaires.csv and many_luminaires.svg. --quick: six, and fails where they
 // are not counted or not found.
 #include <fmt/format.h>
 
@@ -155,10 +155,10 @@ std::string LineOf(const std::string& kind, const Outcome& o) {
                      o.observations, o.found, o.count_s, o.fit_s, o.rounds, o.worst_mm, o.worst_flux_percent);
 }
 
-int MostOf(int argc, char** argv) {
+int OptionOf(int argc, char** argv, const char* name, int otherwise) {
   for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], "--most") == 0) return std::atoi(argv[i + 1]);
-  return 60;
+    if (std::strcmp(argv[i], name) == 0) return std::atoi(argv[i + 1]);
+  return otherwise;
 }
 
 int Run(int argc, char** argv) {
@@ -182,7 +182,7 @@ int Run(int argc, char** argv) {
                ? 0
                : 1;
   }
-  const int most = MostOf(argc, argv);
+  const int most = OptionOf(argc, argv, "--most", 60), only = OptionOf(argc, argv, "--only", 0);
   XyChart chart{
       "Time and the number of luminaires", "downlights on a raster, photos by the light tracer", {}, {}, {}};
   chart.x.label = "luminaires";
@@ -193,6 +193,7 @@ int Run(int argc, char** argv) {
     for (const Hall& hall : {Hall{3, 2}, {4, 3}, {5, 4}, {8, 5}, {10, 6}, {12, 8}, {20, 10}}) {
       const bool is_beyond = hall.Count() > (kind == "rows" ? std::max(most, 200) : most);
       if (is_beyond || (kind == "rows" && most < 60 && hall.Count() > most)) continue;
+      if (only > 0 && hall.Count() != only) continue;
       const Outcome outcome = run(kind, hall);
       series.points.emplace_back(outcome.luminaires, outcome.count_s + outcome.fit_s);
     }

@@ -114,9 +114,9 @@ Eigen::MatrixXd OutlineInformation(const Room& room, const LightState& state,
   const OutlineBlock block(data);
   Eigen::MatrixXd rows(kOutlinePoints, static_cast<Eigen::Index>(parameters.size()));
   for (int i = 0; i < kOutlinePoints; ++i) {
-    for (size_t p = 0; p < parameters.size(); ++p)
-      rows(i, static_cast<Eigen::Index>(p)) =
-          block.OwnDerivative(state, parameters[p], 0, i) / kOutlineSigmaPx;
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(rows.cols());
+    block.AddOwnDerivatives(state, parameters, 0, i, row);
+    rows.row(i) = row / kOutlineSigmaPx;
   }
   const Eigen::VectorXd sum = rows.colwise().sum();
   const double grown = std::pow(kOutlineSigmaPx / kOutlineGrowthPx, 2) + kOutlinePoints;

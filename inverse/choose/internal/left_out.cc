@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "inverse/choose/internal/held_luminaires.h"
 #include "inverse/model/internal/blocks/outline_block.h"
 #include "inverse/model/internal/weights/row_whitening.h"
 #include "inverse/select/internal/spatial_blocks.h"
@@ -27,14 +28,24 @@ bool OnAlone(const Eigen::VectorXd& dimming, const std::vector<int>& luminaires)
   return sum > 0 && dimming.sum() - sum < kRounding;
 }
 
-LightState AloneOrOthersHeld(const LightState& start, const std::vector<int>& members, bool alone,
-                             bool with_albedo) {
+std::vector<Observation> ObservationsOf(const LightData& data, const std::vector<bool>& state_used,
+                                        int max_elements) {
+  std::vector<Observation> own;
+  for (const Observation& o : data.observations) {
+    if (state_used[static_cast<size_t>(o.state)]) own.push_back(o);
+  }
+  return ThinElements(own, max_elements);
+}
+
+// `only_members`: the others are left out, not held.
+LightState StateOfProblem(const LightState& start, const std::vector<int>& members, bool only_members,
+                          bool with_albedo) {
   LightState state = start;
   if (!with_albedo) state.albedo_free.assign(state.albedo_free.size(), false);
   state.camera_scale_free = false;
   state.meter_scale_free = false;
   state.first_of_type.clear();
-  if (alone) {
+  if (only_members) {
     state.luminaires.clear(), state.free.clear();
     for (const int k : members) {
       state.luminaires.push_back(start.luminaires[static_cast<size_t>(k)]);
@@ -57,13 +68,8 @@ void CutIntoBlocks(const std::vector<Eigen::Vector3d>& place_of_row, SubProblem&
   for (int& fold : problem.fold_of_row) fold %= kFolds;
 }
 
-void AddObservations(const Room& room, const LightData& data, const std::vector<bool>& state_used,
-                     int max_elements, SubProblem& problem) {
-  std::vector<Observation> own;
-  for (const Observation& o : data.observations) {
-    if (state_used[static_cast<size_t>(o.state)]) own.push_back(o);
-  }
-  problem.data.observations = ThinElements(own, max_elements);
+void AddObservations(const Room& room, std::vector<Observation> observations, SubProblem& problem) {
+  problem.data.observations = std::move(observations);
   std::vector<Eigen::Vector3d> places;
   for (const Observation& o : problem.data.observations) {
     const int patch = room.patches.elements[static_cast<size_t>(o.element)].patch;
@@ -136,14 +142,16 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
                                           [&](const Observation& o) { return is_alone(o.state); })
                             : std::any_of(data.readings.begin(), data.readings.end(),
                                           [&](const Reading& r) { return r.used && is_alone(r.state); });
-  problem.state = AloneOrOthersHeld(start, luminaires, alone, photos && data.indirect_is_held);
+  // The others are off, or their light is known.
+  const bool only_members = alone || (photos && data.indirect_is_held);
+  problem.state = StateOfProblem(start, luminaires, only_members, photos && data.indirect_is_held);
   problem.members = luminaires;
-  if (alone) std::iota(problem.members.begin(), problem.members.end(), 0);
+  if (only_members) std::iota(problem.members.begin(), problem.members.end(), 0);
   problem.luminaire = problem.members.front();
   std::vector<bool> state_used;
   for (const Eigen::VectorXd& dimming : data.dimming) {
     state_used.push_back(alone ? OnAlone(dimming, luminaires) : SumOf(dimming, luminaires) > 0);
-    problem.data.dimming.push_back(alone ? Eigen::VectorXd(dimming(luminaires)) : dimming);
+    problem.data.dimming.push_back(only_members ? Eigen::VectorXd(dimming(luminaires)) : dimming);
   }
   problem.data.indirect_is_held = data.indirect_is_held;
   problem.data.pose_root = data.pose_root;
@@ -154,7 +162,9 @@ SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightSt
     return at == luminaires.end() ? -1 : problem.members[static_cast<size_t>(at - luminaires.begin())];
   };
   if (photos) {
-    AddObservations(room, data, state_used, max_elements, problem);
+    std::vector<Observation> own = ObservationsOf(data, state_used, max_elements);
+    if (only_members && !alone) own = WithHeldLight(room, data.dimming, start, luminaires, std::move(own));
+    AddObservations(room, std::move(own), problem);
     for (const LuminaireOutline& outline : data.outlines) {
       if (member_of(outline.luminaire) >= 0 && state_used[static_cast<size_t>(outline.seen.state)])
         AddOutline(outline.seen, member_of(outline.luminaire), problem);
@@ -191,7 +201,7 @@ SubProblem CutAll(const Room& room, const LightData& data, int max_elements) {
   if (data.observations.empty()) {
     AddReadings(data, every_state, problem);
   } else {
-    AddObservations(room, data, every_state, max_elements, problem);
+    AddObservations(room, ObservationsOf(data, every_state, max_elements), problem);
     for (const LuminaireOutline& outline : data.outlines)
       AddOutline(outline.seen, outline.luminaire, problem);
   }

@@ -43,7 +43,9 @@ struct SubProblem {
 };
 
 // Returns the problem over the states where no other luminaires are on. Where there are none, it takes all
-// states and holds the others. Several luminaires are of one type: LightState::first_of_type ties them. Scales are held. With photos and measured indirect light,
+// states and holds the others: with photos whose indirect light is held, as light that is known (held_luminaires.h), so that
+// its state has the members alone. Several luminaires are of one type: LightState::first_of_type ties them. Scales are
+// held. With photos and measured indirect light,
 // reflectances are fitted beside the luminaire, so that they carry no other model's errors; otherwise they
 // are held. Of the observed elements, at most `max_elements` are taken evenly.
 SubProblem MakeSubProblem(const Room& room, const LightData& data, const LightState& start,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -115,6 +116,35 @@ std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const st
     if (found[k] && HasOutline(given.luminaires[k])) outlines.push_back(std::move(outline));
   }
   return outlines;
+}
+
+std::vector<LuminaireOutline> TellingOutlines(const std::vector<LuminaireOutline>& outlines,
+                                              const LightState& state) {
+  constexpr double kEnough = 0.9;
+  std::vector<double> tells;
+  std::map<int, double> of_luminaire;
+  for (const LuminaireOutline& outline : outlines) {
+    const Eigen::Vector3d& place = state.luminaires[static_cast<size_t>(outline.luminaire)].position;
+    double sum = 0;
+    for (const OutlineRay& ray : outline.seen.rays) sum += ray.px_per_rad * ray.px_per_rad;
+    tells.push_back(sum / (place - outline.seen.eye).squaredNorm());
+    of_luminaire[outline.luminaire] += tells.back();
+  }
+  std::vector<size_t> order(outlines.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return tells[a] > tells[b]; });
+  std::map<int, double> taken;
+  std::vector<size_t> kept;
+  for (const size_t i : order) {
+    double& so_far = taken[outlines[i].luminaire];
+    if (so_far < kEnough * of_luminaire[outlines[i].luminaire]) kept.push_back(i);
+    so_far += tells[i];
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<LuminaireOutline> telling;
+  telling.reserve(kept.size());
+  for (const size_t i : kept) telling.push_back(outlines[i]);
+  return telling;
 }
 
 double OpeningAreaM2(const Luminaire& luminaire) {

@@ -25,6 +25,13 @@ namespace luxfit {
 std::vector<LuminaireOutline> OutlinesOf(const RoomObservations& given, const std::vector<bool>& found,
                                          const LightState& state);
 
+// Returns of each luminaire's outlines those that together hold nine tenths of what all of them tell about its place,
+// the most telling first taken: enough to compare models. In a hall whose every camera sees every luminaire, rows then
+// grow with the luminaires, not with their square. A point of an outline tells a place to distance / px_per_rad, so
+// an outline counts with the sum of (px_per_rad / distance)^2.
+std::vector<LuminaireOutline> TellingOutlines(const std::vector<LuminaireOutline>& outlines,
+                                              const LightState& state);
+
 // Returns the area of a disc's or rectangle's opening, m2; 0 of other shapes.
 double OpeningAreaM2(const Luminaire& luminaire);
 

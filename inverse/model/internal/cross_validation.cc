@@ -26,8 +26,11 @@ class FoldPredictor {
     model_.RefreezeVisibility(fit.state);
     at_fit_ = {fit.state, fit.parameters, model_.Predict(fit.state, fit.parameters, true)};
     weights_ = WeightsOf(fit, room, data);
-    information_ =
-        weights_.Weighed(at_fit_.prediction.jacobian).colwise().squaredNorm().transpose().cwiseMax(1e-300);
+    const RowMajorMatrix jacobian = weights_.Weighed(at_fit_.prediction.jacobian);
+    information_ = jacobian.colwise().squaredNorm().transpose().cwiseMax(1e-300);
+    const Eigen::VectorXd residual = weights_.Residual(at_fit_.prediction.value);
+    for (int fold = -1; fold < FoldCount() && !fit.parameters.empty(); ++fold)
+      of_fold_.push_back(SumOf(jacobian, residual, [fold](int of_row) { return of_row == fold; }));
   }
 
   LeftOutPrediction Run() {
@@ -37,8 +40,7 @@ class FoldPredictor {
     result.value = at_fit_.prediction.value;
     result.is_smooth = model_.InPenumbra();
     result.is_smooth.flip();
-    const int folds = 1 + *std::max_element(fold_of_row_.begin(), fold_of_row_.end());
-    for (int fold = 0; fold < folds; ++fold) {
+    for (int fold = 0; fold < FoldCount(); ++fold) {
       const Eigen::VectorXd value = ValueWithout(fold);
       for (Eigen::Index i = 0; i < value.size(); ++i)
         if (FoldOf(i) == fold) result.value[i] = value[i];
@@ -71,6 +73,8 @@ class FoldPredictor {
     Prediction prediction;
   };
 
+  int FoldCount() const { return 1 + *std::max_element(fold_of_row_.begin(), fold_of_row_.end()); }
+
   // Rows that follow the model's belong to no fold.
   int FoldOf(Eigen::Index row) const {
     const auto i = static_cast<size_t>(row);
@@ -88,17 +92,35 @@ class FoldPredictor {
     return squares;
   }
 
-  NormalEquations EquationsWithout(int fold, const Point& at) const {
-    const Eigen::VectorXd x = PackParameters(at.state, at.parameters);
-    NormalEquations equations(x.size());
-    const Eigen::VectorXd residual = weights_.Residual(at.prediction.value);
-    const RowMajorMatrix jacobian = weights_.Weighed(at.prediction.jacobian);
-    std::vector<Eigen::Index> kept;
+  // Sums the rows of those folds; of the matrix, only the lower triangle is filled.
+  template <typename IsTaken>
+  NormalEquations SumOf(const RowMajorMatrix& jacobian, const Eigen::VectorXd& residual,
+                        const IsTaken& is_taken) const {
+    NormalEquations equations(jacobian.cols());
+    std::vector<Eigen::Index> taken;
     for (Eigen::Index i = 0; i < residual.size(); ++i)
-      if (FoldOf(i) != fold) kept.push_back(i);
-    const Eigen::MatrixXd rows = jacobian(kept, Eigen::all).transpose();
+      if (is_taken(FoldOf(i))) taken.push_back(i);
+    if (taken.empty()) return equations;
+    const Eigen::MatrixXd rows = jacobian(taken, Eigen::all).transpose();
     equations.matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows);
-    equations.gradient.noalias() += rows * residual(kept);
+    equations.gradient.noalias() += rows * residual(taken);
+    return equations;
+  }
+
+  // Sums the rows of all other folds at a point, `is_at_fit` of the fit itself: those sums are known.
+  NormalEquations SumWithout(int fold, const Point& at, bool is_at_fit) const {
+    if (!is_at_fit)
+      return SumOf(weights_.Weighed(at.prediction.jacobian), weights_.Residual(at.prediction.value),
+                   [fold](int of_row) { return of_row != fold; });
+    NormalEquations equations(information_.size());
+    for (size_t i = 0; i < of_fold_.size(); ++i)
+      if (static_cast<int>(i) - 1 != fold) equations.Add(of_fold_[i]);
+    return equations;
+  }
+
+  NormalEquations EquationsWithout(int fold, const Point& at, bool is_at_fit) const {
+    const Eigen::VectorXd x = PackParameters(at.state, at.parameters);
+    NormalEquations equations = SumWithout(fold, at, is_at_fit);
     equations.matrix = Eigen::MatrixXd(equations.matrix.selfadjointView<Eigen::Lower>());
     AddPriors(priors_, smoothness_, x, equations);
     // A direction that only the fold determines stays where it is.
@@ -109,8 +131,8 @@ class FoldPredictor {
 
   // Takes one step, halved until it lowers the squares. Returns the share of the expected gain that it made;
   // 0: no step lowers the squares.
-  double Step(int fold, Point& at) const {
-    const NormalEquations equations = EquationsWithout(fold, at);
+  double Step(int fold, Point& at, bool is_at_fit) const {
+    const NormalEquations equations = EquationsWithout(fold, at, is_at_fit);
     const Eigen::VectorXd step = -equations.matrix.ldlt().solve(equations.gradient);
     const double expected = -equations.gradient.dot(step);
     const Eigen::VectorXd x0 = PackParameters(at.state, at.parameters);
@@ -139,7 +161,7 @@ class FoldPredictor {
     constexpr double kNearlyLinear = 0.8;
     Point at = at_fit_;
     for (int i = 0; i < kMostSteps; ++i) {
-      const double gained = Step(fold, at);
+      const double gained = Step(fold, at, i == 0);
       if (gained <= 0 || gained > kNearlyLinear) break;
       at.parameters = Recentred(at.parameters, at.state);
       at.prediction = model_.Predict(at.state, at.parameters, true);
@@ -154,7 +176,8 @@ class FoldPredictor {
   LightModel model_;
   RowWeights weights_;
   Point at_fit_;
-  Eigen::VectorXd information_;  // diagonal of the whole fit's matrix
+  Eigen::VectorXd information_;           // diagonal of the whole fit's matrix
+  std::vector<NormalEquations> of_fold_;  // at the fit; first, of rows of no fold
 };
 
 }  // namespace

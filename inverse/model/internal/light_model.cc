@@ -103,11 +103,6 @@ class ReceiverDerivative {
   std::vector<std::vector<Term>> terms_;  // by state
 };
 
-// Says whether gains and offsets of rows that receive light may depend on the parameter.
-bool ConcernsResponse(const Parameter& parameter) {
-  return parameter.kind != ParameterKind::kLuminaire && parameter.kind != ParameterKind::kLogFlux;
-}
-
 }  // namespace
 
 LightModel::LightModel(const Room& room, const LightData& data)
@@ -315,10 +310,13 @@ std::vector<bool> LightModel::SizesThatOutlinesTell(const LightState& state,
         (p.quantity != LuminaireQuantity::kSizeAlong && p.quantity != LuminaireQuantity::kSizeAcross))
       continue;
     // A rectangle far longer than its outline is judged by its other sides alone: there the light has to bring it back.
+    const std::vector<Parameter> size{p};
+    Eigen::RowVectorXd derivative = Eigen::RowVectorXd::Zero(1);
     for (const auto& block : blocks_) {
-      for (int row = 0; row < block->row_count() && !is_told[i]; ++row)
-        is_told[i] = block->OwnDerivative(state, p, 0, row) != 0;
+      for (int row = 0; row < block->row_count() && derivative[0] == 0; ++row)
+        block->AddOwnDerivatives(state, size, 0, row, derivative);
     }
+    is_told[i] = derivative[0] != 0;
   }
   return is_told;
 }
@@ -350,9 +348,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     const RowResponse response = block.ResponseOf(state, row.place);
     if (row.receiver < 0) {
       prediction.value[i] = response.offset;
-      for (size_t p = 0; with_jacobian && p < parameters.size(); ++p)
-        prediction.jacobian(i, static_cast<Eigen::Index>(p)) =
-            block.OwnDerivative(state, parameters[p], 0, row.place);
+      if (with_jacobian) block.AddOwnDerivatives(state, parameters, 0, row.place, prediction.jacobian.row(i));
       return;
     }
     const double unhidden_lx = light.total.row(row.receiver).cast<double>() * lumens;
@@ -364,11 +360,7 @@ Prediction LightModel::Predict(const LightState& state, const std::vector<Parame
     prediction.direct[i] = response.gain * (light.direct.row(row.receiver).cast<double>() * lumens).value();
     if (!with_jacobian) return;
     derivative.AddTo(row.state, row.receiver, left * response.gain, prediction.jacobian.row(i));
-    for (size_t p = 0; p < parameters.size(); ++p) {
-      if (!ConcernsResponse(parameters[p])) continue;
-      prediction.jacobian(i, static_cast<Eigen::Index>(p)) +=
-          block.OwnDerivative(state, parameters[p], illuminance_lx, row.place);
-    }
+    block.AddOwnDerivatives(state, parameters, illuminance_lx, row.place, prediction.jacobian.row(i));
   });
   return prediction;
 }

@@ -177,5 +177,23 @@ TEST_F(Outlines, LuminairesThatAreHeldOrNotFoundHaveNone) {
   EXPECT_EQ(CountOf(Taken(), 0), 0);
 }
 
+// Of twelve views, 1 m to 12 m from A, the nearest three hold 87 % of the sum of 1 / distance^2, and four 91 %. B is seen
+// from two places that tell alike.
+TEST_F(Outlines, ViewsThatTellLittleMoreAreNotNeeded) {
+  given_.outlines.clear();
+  const Eigen::Vector3d a = state_.luminaires[0].position, b = state_.luminaires[1].position;
+  for (int view = 11; view >= 0; --view) {
+    const Eigen::Vector3d eye = a - (view + 1.0) * Eigen::Vector3d(0.6, 0, 0.8);
+    given_.outlines.push_back(support::OutlineFrom(eye, state_.luminaires[0], {view, 0, 1}));
+  }
+  for (const int view : {12, 13}) {
+    const Eigen::Vector3d eye = b + Eigen::Vector3d(0, view - 12.5, -1.5);
+    given_.outlines.push_back(support::OutlineFrom(eye, state_.luminaires[1], {view, 0, 1}));
+  }
+  std::vector<int> views;
+  for (const LuminaireOutline& outline : TellingOutlines(Taken(), state_)) views.push_back(outline.seen.view);
+  EXPECT_EQ(views, (std::vector<int>{0, 1, 2, 3, 12, 13}));
+}
+
 }  // namespace
 }  // namespace luxfit

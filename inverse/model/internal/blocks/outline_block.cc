@@ -4,7 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "inverse/model/internal/blocks/outline_distance.h"
@@ -12,11 +14,20 @@
 namespace luxfit {
 namespace {
 
-// The derivative by each quantity; exponents, tables and cells do not change an outline.
-constexpr int kOutlineQuantities = static_cast<int>(LuminaireQuantity::kSide) + 1;
-using Jet = ceres::Jet<double, kOutlineQuantities>;
+// The quantities that change an outline; exponents, tables and cells do not.
+constexpr std::array<LuminaireQuantity, 8> kOutlineQuantities{
+    LuminaireQuantity::kPositionX,  LuminaireQuantity::kPositionY,  LuminaireQuantity::kPositionZ,
+    LuminaireQuantity::kSizeAlong,  LuminaireQuantity::kSizeAcross, LuminaireQuantity::kTiltAlong,
+    LuminaireQuantity::kTiltAcross, LuminaireQuantity::kHeading};
+using Jet = ceres::Jet<double, kOutlineQuantities.size()>;
 
-Jet Variable(double value, LuminaireQuantity quantity) { return Jet(value, static_cast<int>(quantity)); }
+// Returns where the quantity stands among those; their number: it changes no outline.
+int PlaceOf(LuminaireQuantity quantity) {
+  const auto* const found = std::find(kOutlineQuantities.begin(), kOutlineQuantities.end(), quantity);
+  return static_cast<int>(found - kOutlineQuantities.begin());
+}
+
+Jet Variable(double value, LuminaireQuantity quantity) { return Jet(value, PlaceOf(quantity)); }
 
 // Returns the outline with its derivatives; turns count from where the luminaire points.
 Outline<Jet> WithDerivatives(const Luminaire& luminaire) {
@@ -78,15 +89,23 @@ RowResponse OutlineBlock::ResponseOf(const LightState& state, int row) const {
                  OutlineDistanceRad(luminaire.shape, OutlineOf(luminaire), Of(row).seen.eye, ray.direction)};
 }
 
-double OutlineBlock::OwnDerivative(const LightState& state, const Parameter& parameter,
-                                   double /*illuminance_lx*/, int row) const {
-  if (parameter.kind != ParameterKind::kLuminaire || !parameter.Concerns(Of(row).luminaire)) return 0;
-  const Luminaire& luminaire = state.luminaires[static_cast<size_t>(Of(row).luminaire)];
-  const OutlineRay& ray = RayOf(row);
-  const Eigen::Matrix<Jet, 3, 1> direction = ray.direction.cast<Jet>();
-  const Jet distance =
-      OutlineDistanceRad(luminaire.shape, WithDerivatives(luminaire), Of(row).seen.eye, direction);
-  return ray.px_per_rad * distance.v[static_cast<int>(parameter.quantity)];
+void OutlineBlock::AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                                     double /*illuminance_lx*/, int row,
+                                     Eigen::Ref<Eigen::RowVectorXd> derivatives) const {
+  const int of = Of(row).luminaire;
+  std::optional<Jet> distance;
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    const Parameter& parameter = parameters[p];
+    if (parameter.kind != ParameterKind::kLuminaire || !parameter.Concerns(of)) continue;
+    const int place = PlaceOf(parameter.quantity);
+    if (place == static_cast<int>(kOutlineQuantities.size())) continue;
+    if (!distance) {
+      const Luminaire& luminaire = state.luminaires[static_cast<size_t>(of)];
+      distance = OutlineDistanceRad(luminaire.shape, WithDerivatives(luminaire), Of(row).seen.eye,
+                                    Eigen::Matrix<Jet, 3, 1>(RayOf(row).direction.cast<Jet>()));
+    }
+    derivatives[static_cast<Eigen::Index>(p)] += RayOf(row).px_per_rad * distance->v[place];
+  }
 }
 
 Eigen::MatrixXd OutlineBlock::PoseDerivativeOf(const LightState& state) const {

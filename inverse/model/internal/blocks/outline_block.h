@@ -36,8 +36,9 @@ class OutlineBlock : public RowBlock {
   bool IsRobust() const override { return true; }
   bool IsSpoiltByPenumbra() const override { return false; }
   RowResponse ResponseOf(const LightState& state, int row) const override;
-  double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                       int row) const override;
+  void AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                         double illuminance_lx, int row,
+                         Eigen::Ref<Eigen::RowVectorXd> derivatives) const override;
   std::optional<std::pair<int, int>> ClusterOf(int row) const override;
   Eigen::VectorXd BiasOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Zero(row_count());

@@ -24,13 +24,19 @@ RowResponse PhotoBlock::ResponseOf(const LightState& state, int row) const {
   return {state.camera_scale / M_PI * rho, rho * indirect};
 }
 
-double PhotoBlock::OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                                 int row) const {
+void PhotoBlock::AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                                   double illuminance_lx, int row,
+                                   Eigen::Ref<Eigen::RowVectorXd> derivatives) const {
   const int material = material_[static_cast<size_t>(row)];
   const double unit = state.camera_scale / M_PI;
-  if (parameter.kind == ParameterKind::kLogCameraScale) return unit * state.albedo[material] * illuminance_lx;
-  if (parameter.kind != ParameterKind::kAlbedo || parameter.index != material) return 0;
-  return unit * illuminance_lx + (data_.indirect_is_held ? Of(row).relative_indirect : 0);
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    const Parameter& parameter = parameters[p];
+    double& derivative = derivatives[static_cast<Eigen::Index>(p)];
+    if (parameter.kind == ParameterKind::kLogCameraScale)
+      derivative += unit * state.albedo[material] * illuminance_lx;
+    else if (parameter.kind == ParameterKind::kAlbedo && parameter.index == material)
+      derivative += unit * illuminance_lx + (data_.indirect_is_held ? Of(row).relative_indirect : 0);
+  }
 }
 
 std::optional<std::pair<int, int>> PhotoBlock::ClusterOf(int row) const {

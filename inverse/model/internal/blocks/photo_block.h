@@ -28,8 +28,9 @@ class PhotoBlock : public RowBlock {
     return data_.luminance_weights.cwiseProduct(state.tint.col(material_[static_cast<size_t>(row)]));
   }
   RowResponse ResponseOf(const LightState& state, int row) const override;
-  double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                       int row) const override;
+  void AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                         double illuminance_lx, int row,
+                         Eigen::Ref<Eigen::RowVectorXd> derivatives) const override;
   std::optional<std::pair<int, int>> ClusterOf(int row) const override;
   Eigen::VectorXd BiasOf(const LightState& state) const override;
 

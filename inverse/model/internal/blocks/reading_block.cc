@@ -8,12 +8,17 @@ RowResponse ReadingBlock::ResponseOf(const LightState& state, int row) const {
   return {state.meter_scale * gain, 0};
 }
 
-double ReadingBlock::OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                                   int row) const {
-  const bool is_meter = parameter.kind == ParameterKind::kLogMeterScale;
-  const bool is_sensor =
-      parameter.kind == ParameterKind::kLogSensorGain && parameter.index == Of(row).sensor_index;
-  return is_meter || is_sensor ? ResponseOf(state, row).gain * illuminance_lx : 0;
+void ReadingBlock::AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                                     double illuminance_lx, int row,
+                                     Eigen::Ref<Eigen::RowVectorXd> derivatives) const {
+  for (size_t p = 0; p < parameters.size(); ++p) {
+    const Parameter& parameter = parameters[p];
+    const bool is_meter = parameter.kind == ParameterKind::kLogMeterScale;
+    const bool is_sensor =
+        parameter.kind == ParameterKind::kLogSensorGain && parameter.index == Of(row).sensor_index;
+    if (is_meter || is_sensor)
+      derivatives[static_cast<Eigen::Index>(p)] += ResponseOf(state, row).gain * illuminance_lx;
+  }
 }
 
 }  // namespace luxfit

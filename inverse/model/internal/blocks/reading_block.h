@@ -27,8 +27,9 @@ class ReadingBlock : public RowBlock {
     return data_.luminance_weights;
   }
   RowResponse ResponseOf(const LightState& state, int row) const override;
-  double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                       int row) const override;
+  void AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                         double illuminance_lx, int row,
+                         Eigen::Ref<Eigen::RowVectorXd> derivatives) const override;
   std::optional<std::pair<int, int>> ClusterOf(int /*row*/) const override { return std::nullopt; }
   Eigen::VectorXd BiasOf(const LightState& /*state*/) const override {
     return Eigen::VectorXd::Zero(row_count());

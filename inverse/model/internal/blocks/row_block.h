@@ -68,10 +68,11 @@ class RowBlock {
     return Eigen::Vector3d::Zero();
   }
   virtual RowResponse ResponseOf(const LightState& state, int row) const = 0;
-  // Returns the derivative by way of gain and offset, with the illuminance held. 0 by luminaires' numbers and fluxes,
-  // which are not asked for, where the row receives light.
-  virtual double OwnDerivative(const LightState& state, const Parameter& parameter, double illuminance_lx,
-                               int row) const = 0;
+  // Adds the derivatives of the row's value by the parameters, by way of gain and offset, with the illuminance held.
+  // None by luminaires' numbers and fluxes where the row receives light.
+  virtual void AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
+                                 double illuminance_lx, int row,
+                                 Eigen::Ref<Eigen::RowVectorXd> derivatives) const = 0;
 
   // Returns the cluster, whose rows share their model error. None: the row stands alone.
   virtual std::optional<std::pair<int, int>> ClusterOf(int row) const = 0;

@@ -55,14 +55,14 @@ void RowWhitening::ApplyTo(Matrix& rows) const {
   }
   for (const Block& block : blocks_) {
     const Eigen::Index p = block.effect.cols();
-    Eigen::MatrixXd by_owner = Eigen::MatrixXd::Zero(block.turned.rows(), rows.cols());
+    Rows by_owner = Rows::Zero(block.turned.rows(), rows.cols());
     for (Eigen::Index i = 0; i < block.effect.rows(); ++i)
-      by_owner.middleRows(block.owner[static_cast<size_t>(i)] * p, p) +=
+      by_owner.middleRows(block.owner[static_cast<size_t>(i)] * p, p).noalias() +=
           block.effect.row(i).transpose() * rows.row(block.first + i);
     const Eigen::VectorXd factor = block.squares.unaryExpr(&FactorOf);
     by_owner = block.turned * (factor.asDiagonal() * (block.turned.transpose() * by_owner)).eval();
     for (Eigen::Index i = 0; i < block.effect.rows(); ++i)
-      rows.row(block.first + i) -=
+      rows.row(block.first + i).noalias() -=
           block.effect.row(i) * by_owner.middleRows(block.owner[static_cast<size_t>(i)] * p, p);
   }
 }
