@@ -34,6 +34,7 @@
 #include "inverse/fit/internal/outlines.h"
 #include "inverse/fit/internal/room_light.h"
 #include "inverse/fit/internal/start.h"
+#include "inverse/fit/internal/start_at_outlines.h"
 #include "inverse/fit/internal/surface_texture.h"
 #include "inverse/fit/internal/words.h"
 #include "inverse/model/internal/measured_indirect.h"
@@ -178,8 +179,9 @@ class RoomFitter {
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
-    data.outlines = TellingOutlines(result_.data.outlines, starts.state);
-    const LightState chosen = ChooseModels(data, starts.state);
+    const LightState shown = AtOutlines(result_.data.outlines, starts.state);
+    data.outlines = TellingOutlines(result_.data.outlines, shown);
+    const LightState chosen = ChooseModels(data, shown);
     state = WithNamesInOrder(given_, chosen);
     FollowNames(chosen, state);
     result_.data.outlines = shown_ = OutlinesOf(given_, start_.luminaire_found, state);
