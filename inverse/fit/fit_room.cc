@@ -179,7 +179,7 @@ class RoomFitter {
     starts_ = starts.comparisons;
     best_ = starts.state;
     result_.data.outlines = OutlinesOf(given_, start_.luminaire_found, starts.state);
-    const LightState shown = AtOutlines(result_.data.outlines, starts.state);
+    const LightState shown = AtOutlines(room_, result_.data.outlines, starts.state);
     data.outlines = TellingOutlines(result_.data.outlines, shown);
     const LightState chosen = ChooseModels(data, shown);
     state = WithNamesInOrder(given_, chosen);

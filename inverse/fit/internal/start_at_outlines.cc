@@ -35,9 +35,21 @@ std::optional<Sight> SightOf(const Luminaire& luminaire, const SeenOutline& seen
   return Sight{seen.view, seen.eye, (middle / area).normalized(), kMiddleSigmaPx / px_per_rad};
 }
 
+// Returns where a luminaire gets that is moved: there, or 1 cm in front of the surface on the way.
+Eigen::Vector3d Moved(const Room& room, const Eigen::Vector3d& from, Eigen::Vector3d to) {
+  constexpr double kInFrontM = 0.01;
+  const double way_m = (to - from).norm();
+  if (!(way_m > 0)) return from;
+  const RayHit hit = room.rays.Trace(from, (to - from) / way_m);
+  if (hit.facet < 0 || hit.distance > way_m) return to;
+  const Facet& facet = room.scene.facets[static_cast<size_t>(hit.facet)];
+  const Eigen::Vector3d normal = hit.front ? facet.Normal() : -facet.Normal();
+  return to + (normal.dot(facet.PointAt(hit.u, hit.v) - to) + kInFrontM) * normal;
+}
+
 }  // namespace
 
-LightState AtOutlines(const std::vector<LuminaireOutline>& outlines, LightState state) {
+LightState AtOutlines(const Room& room, const std::vector<LuminaireOutline>& outlines, LightState state) {
   constexpr double kReachM = 0.15;
   std::map<int, std::vector<Sight>> sights;
   for (const LuminaireOutline& outline : outlines) {
@@ -49,8 +61,10 @@ LightState AtOutlines(const std::vector<LuminaireOutline>& outlines, LightState 
   for (const auto& [k, own] : sights) {
     const std::vector<TriangulatedPoint> points = TriangulateSights(own);
     Eigen::Vector3d& position = state.luminaires[static_cast<size_t>(k)].position;
-    if (!points.empty() && (points.front().position - position).norm() < kReachM)
-      position = points.front().position;
+    if (points.empty() || !((points.front().position - position).norm() < kReachM)) continue;
+    const Eigen::Vector3d moved = Moved(room, position, points.front().position);
+    // Positions are sought in the room's box.
+    if (room.scene.facets.empty() || room.scene.Bounds().contains(moved)) position = moved;
   }
   return state;
 }

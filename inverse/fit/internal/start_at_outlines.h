@@ -11,13 +11,14 @@
 
 #include <vector>
 
+#include "forward/light/room.h"
 #include "inverse/model/light_state.h"
 
 namespace luxfit {
 
 // Returns the state with those luminaires moved whose position is free, of whose outlines three views or more meet, and
-// that are at most 0.15 m off.
-LightState AtOutlines(const std::vector<LuminaireOutline>& outlines, LightState state);
+// that are at most 0.15 m off. None passes through a surface: what hangs under a ceiling may be triangulated above it.
+LightState AtOutlines(const Room& room, const std::vector<LuminaireOutline>& outlines, LightState state);
 
 }  // namespace luxfit
 
