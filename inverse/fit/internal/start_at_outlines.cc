@@ -9,7 +9,7 @@
 namespace luxfit {
 namespace {
 
-// Of an outline's middle, with what its view's pose is off by.
+// Covers the middle of an outline and the error of its view's pose.
 constexpr double kMiddleSigmaPx = 2;
 
 // Returns the ray to the middle of the luminaire; none where its plane is seen edge-on.

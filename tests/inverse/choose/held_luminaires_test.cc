@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "inverse/model/internal/light_model.h"
-#include "tests/support/scenes.h"
+#include "tests/support/room_with_screen.h"
 
 namespace luxfit {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 // A room with a screen, a disc A and a rectangle B, both on in two states, the second at other levels.
 class TwoOnTogether : public testing::Test {
  protected:
-  TwoOnTogether() : room_(MakeRoom(RoomScene(), {{0.5, 0.25}, {64}})) {
+  TwoOnTogether() : room_(MakeRoom(support::RoomWithScreen(), {{0.5, 0.25}, {64}})) {
     state_.luminaires.resize(2);
     Luminaire &a = state_.luminaires[0], &b = state_.luminaires[1];
     a.id = "A";
@@ -42,13 +42,6 @@ class TwoOnTogether : public testing::Test {
       o.relative_indirect = 0.05 + 0.001 * (e % 7);
       data_.observations.push_back(o);
     }
-  }
-
-  static Scene RoomScene() {
-    Scene scene = support::ClosedRoom({3.2, 2.2, 2.4}, {"wall", "wall", "wall", "wall", "floor", "wall"});
-    support::AddBox(scene, {Eigen::Vector3d(1.55, 0.6, 0.2), Eigen::Vector3d(1.65, 1.6, 1.2)},
-                    support::Facing::kOutward, {"screen"});
-    return scene;
   }
 
   // Returns A's problem with the light of B known.

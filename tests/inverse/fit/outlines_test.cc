@@ -177,8 +177,8 @@ TEST_F(Outlines, LuminairesThatAreHeldOrNotFoundHaveNone) {
   EXPECT_EQ(CountOf(Taken(), 0), 0);
 }
 
-// Of twelve views, 1 m to 12 m from A, the nearest three hold 87 % of the sum of 1 / distance^2, and four 91 %. B is seen
-// from two places that tell alike.
+// Twelve views stand 1 m to 12 m from A: the nearest three hold 87 % of the sum of 1 / distance^2, four hold 91 %. Two
+// views of B tell alike.
 TEST_F(Outlines, ViewsThatTellLittleMoreAreNotNeeded) {
   given_.outlines.clear();
   const Eigen::Vector3d a = state_.luminaires[0].position, b = state_.luminaires[1].position;

@@ -12,6 +12,7 @@
 
 #include "forward/luminaire/luminaire_parts.h"
 #include "tests/support/closed_forms.h"
+#include "tests/support/room_with_screen.h"
 #include "tests/support/scenes.h"
 
 namespace luxfit {
@@ -56,7 +57,7 @@ void ExpectCentralDifferences(const Room& room, const LightData& data, const Lig
 // than 0.2 m, so that no step changes the order of their quadrature.
 class SmallRoom : public testing::Test {
  protected:
-  SmallRoom() : room_(MakeRoom(RoomScene(), {{0.5, 0.25}, {64}})) {
+  SmallRoom() : room_(MakeRoom(support::RoomWithScreen(), {{0.5, 0.25}, {64}})) {
     state_.luminaires.resize(2);
     Luminaire &a = state_.luminaires[0], &b = state_.luminaires[1];
     a.id = "A";
@@ -83,13 +84,6 @@ class SmallRoom : public testing::Test {
       data_.observations.push_back(o);
     }
     for (int s = 0; s < 3; ++s) data_.readings.push_back({{{0.5, 0.5, 0.01}, {0, 0, 1}}, s, 100, 1, true});
-  }
-
-  static Scene RoomScene() {
-    Scene scene = support::ClosedRoom({3.2, 2.2, 2.4}, {"wall", "wall", "wall", "wall", "floor", "wall"});
-    support::AddBox(scene, {Eigen::Vector3d(1.55, 0.6, 0.2), Eigen::Vector3d(1.65, 1.6, 1.2)},
-                    support::Facing::kOutward, {"screen"});
-    return scene;
   }
 
   Room room_;
