@@ -36,5 +36,17 @@ TEST(TurnedSpots, ANarrowBeamBesideGlobesStartsTurned) {
   support::ExpectFound(room.drawn.room, room.model, room.given, limits);
 }
 
+// Five washers on one switch: at their places, turned lobes leave little of the light but where things stand in the beams, and
+// those few rows leave as much of the squares as lobes along the axes leave of all rows.
+TEST(TurnedSpots, FiveWashersOnOneSwitchAreAllTurned) {
+  const support::ObservedRandomRoom room = support::ObserveRandomRoom(14);
+  ASSERT_EQ(std::count(room.drawn.kinds.begin(), room.drawn.kinds.end(), "washers"), 5) << room.drawn.words;
+  support::FoundLimits limits;
+  limits.outlined_off_mm = limits.off_mm;  // no outline tells where they are:
+  limits.common_error_mm = 10;             // all that they share is known to 7 mm
+  limits.reading_percent = 3;
+  support::ExpectFound(room.drawn.room, room.model, room.given, limits);
+}
+
 }  // namespace
 }  // namespace luxfit

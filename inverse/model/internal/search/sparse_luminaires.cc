@@ -34,7 +34,7 @@ Eigen::AlignedBox3d SearchBox(const Room& room, const std::vector<Sensor>& place
 constexpr double kExplained = 0.25;
 
 // The same of simple lobes, at any place, below which aimed ones need no trial: 2 %. A lobe along an axis at a wrong place may
-// explain a beam to 4 %.
+// explain a beam to 4 %. Aimed ones that reach it are right where simple ones do not even reach the former.
 constexpr double kWellExplained = 0.04;
 
 Luminaire LuminaireOf(const Tried& tried) {
@@ -236,18 +236,23 @@ class GroupFinder {
     return result;
   }
 
-  // A narrow beam falls on few rows. Lowered weights would hide it, so all rows judge the lobes.
+  // A narrow beam falls on few rows. Lowered weights would hide it, so all rows judge the lobes, unless the rows that keep their
+  // weight leave no doubt.
   SparseRun BestLobes(const std::vector<SparseSource>& start, const LitPlaces& grid, int refinements) const {
     SparseRun simple = RunWith(LobeSet::kSimple, start, grid, refinements);
     if (IsComplete(simple) && simple.mean_square_of_all < kWellExplained) return simple;
     SparseRun aimed = RunWith(LobeSet::kAimed, start, grid, refinements);
     const bool is_turned = aimed.found.sources.size() >= simple.found.sources.size() &&
                            (kRival * aimed.mean_square_of_all < simple.mean_square_of_all ||
-                            !ExplainsHalf(simple, aimed, start));
+                            IsExplainedByFirstAlone(aimed, simple) || !ExplainsHalf(simple, aimed, start));
     SparseRun &best = is_turned ? aimed : simple, &other = is_turned ? simple : aimed;
     if (other.mean_square_of_all <= kRival * best.mean_square_of_all)
       best.of_other_lobes = std::move(other.found.sources);
     return std::move(best);
+  }
+
+  static bool IsExplainedByFirstAlone(const SparseRun& first, const SparseRun& second) {
+    return first.found.mean_square < kWellExplained && second.found.mean_square > kExplained;
   }
 
   // Returns whether lobes explain at least half of what others explain beyond the start. At the right place, simple lobes
