@@ -26,6 +26,7 @@
 #include "forward/light/room.h"
 #include "inverse/fit/fit_room.h"
 #include "tests/support/inverse/traced_room.h"
+#include "tests/support/inverse/unnamed_luminaires.h"
 #include "tests/support/scenes.h"
 #include "tests/support/study_options.h"
 
@@ -107,17 +108,6 @@ double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-RoomObservations Unnamed(RoomObservations given, int count) {
-  given.luminaires.clear();
-  for (int k = 0; k < count; ++k) {
-    given.luminaires.emplace_back();
-    given.luminaires.back().luminaire.id = "lamp" + std::to_string(k + 1);
-  }
-  given.luminaires_are_named = false;
-  for (Eigen::VectorXd& dimming : given.dimming) dimming = Eigen::VectorXd::Ones(count);
-  return given;
-}
-
 Outcome RunHall(const Hall& hall, bool in_rows) {
   const support::TracedRoom room = MakeHall(hall, in_rows);
   // Tracing takes most of the time; it grows with elements times luminaires.
@@ -136,8 +126,7 @@ Outcome RunHall(const Hall& hall, bool in_rows) {
   Clock::time_point start = Clock::now();
   if (!in_rows) {
     Findings findings;
-    const int count = CountLuminaires(model, Unnamed(given, 0), {}, findings);
-    given = Unnamed(std::move(given), count);
+    given = support::WithCounted(model, std::move(given), findings);
     outcome.count_s = SecondsSince(start);
   }
   start = Clock::now();

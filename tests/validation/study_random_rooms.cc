@@ -34,6 +34,7 @@
 #include "inverse/fit/fit_room.h"
 #include "inverse/study/stability_score.h"
 #include "tests/support/inverse/random_room.h"
+#include "tests/support/inverse/unnamed_luminaires.h"
 #include "tests/support/study_options.h"
 #include "tests/validation/random_rooms/room_degradations.h"
 #include "tests/validation/random_rooms/run_traced.h"
@@ -130,25 +131,12 @@ std::string LuminaireLines(const support::RandomRoom& drawn, const RoomFit& fit)
 // The codes of warnings that the room gives as it is.
 using KnownCodes = std::set<std::string>;
 
-// Names as many luminaires as photos and readings of one state tell.
-RoomObservations WithCountedLuminaires(const Room& model, RoomObservations given, Findings& findings) {
-  given.luminaires.clear();
-  given.luminaires_are_named = false;
-  given.dimming = {Eigen::VectorXd()};
-  const int count = CountLuminaires(model, given, {}, findings);
-  given.luminaires.resize(static_cast<size_t>(count));
-  for (int k = 0; k < count; ++k)
-    given.luminaires[static_cast<size_t>(k)].luminaire.id = fmt::format("lamp{}", k + 1);
-  given.dimming = {Eigen::VectorXd::Ones(count)};
-  return given;
-}
-
 // `drawn`: the room as it is said to be. `model`: of its mesh.
 Outcome FitGiven(const support::RandomRoom& drawn, const Room& model, RoomObservations given,
                  const Sweep& sweep, const KnownCodes& known) {
   const auto start = std::chrono::steady_clock::now();
   Findings of_count;
-  if (sweep.estimates) given = WithCountedLuminaires(model, std::move(given), of_count);
+  if (sweep.estimates) given = support::WithCounted(model, std::move(given), of_count);
   RoomFit fit = RunTraced(model, given, sweep.applies);
   fit.findings.warnings.insert(fit.findings.warnings.begin(), of_count.warnings.begin(),
                                of_count.warnings.end());

@@ -65,6 +65,9 @@ FittedSession FitOf(PreparedSession prepared, RunContext& context) {
   const LinearizedSession& linearized = prepared.linearized;
   Session session = WithCountedLuminaires(prepared.session, linearized, prepared.room, observed, context);
   RoomFit fit = FitSession(session, linearized, prepared.room, observed, context);
+  // The fit may do with fewer than were counted.
+  if (session.count_is_estimated)
+    session = WithMoreLuminaires(prepared.session, static_cast<int>(fit.fit.state.luminaires.size()));
   return {std::move(prepared), std::move(session), std::move(fit)};
 }
 

@@ -14,6 +14,7 @@
 #include "inverse/model/internal/light_model.h"
 #include "inverse/model/internal/search/alike_places.h"
 #include "inverse/model/internal/search/first_guess.h"
+#include "inverse/model/internal/search/places_inside.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
 #include "inverse/model/internal/search/watched_places.h"
 #include "inverse/select/one_standard_error.h"
@@ -176,7 +177,7 @@ class Count {
         const std::vector<Watcher>& views, const ChooseCountOptions& options)
       : room_(room),
         given_(given),
-        places_(places),
+        places_(PlacesInside(room.scene.Bounds(), places)),
         views_(WatchingViews(places, views)),
         options_(options),
         problem_(CutEveryFifth(room, CutAll(room, data, options.max_elements))),
@@ -385,7 +386,7 @@ class Count {
 
   const Room& room_;
   const LightState& given_;
-  const std::vector<SeenPlace>& places_;
+  const std::vector<SeenPlace> places_;  // inside the room
   std::vector<Watcher> views_;
   const ChooseCountOptions& options_;
   const SubProblem problem_;

@@ -35,6 +35,19 @@ bool AreOfTwoKinds(const std::optional<SeenPlace>& a, const std::optional<SeenPl
   return a && b && std::abs(a->position.z() - b->position.z()) > kHeightM;
 }
 
+// Returns whether one shines all round or to both sides, as globes and pendants do, and the other in a beam.
+bool HaveTwoLobes(const LightState& state, size_t a, size_t b) {
+  constexpr double kBeam = 3;  // half of its peak lies 37 degrees off the aim
+  const auto is_open = [&](size_t k) {
+    return state.luminaires[k].distribution == Distribution::kIsotropic || state.free[k].sides;
+  };
+  const auto is_beam = [&](size_t k) {
+    return state.luminaires[k].distribution == Distribution::kCosinePower &&
+           state.luminaires[k].cosine_exponent > kBeam;
+  };
+  return (is_open(a) && is_beam(b)) || (is_beam(a) && is_open(b));
+}
+
 // Returns whether the search for places told the aims of all these luminaires, and two of them differ.
 bool MayHaveOwnAims(const LightState& state, const std::vector<int>& type) {
   const auto aim = [&](int k) { return state.luminaires[static_cast<size_t>(k)].aim; };
@@ -229,7 +242,7 @@ LightState TypedBySwitching(const LightData& data, LightState start, const std::
       const bool has_one_aim = (open[of].aim && open[other].aim) || a.aim.dot(b.aim) > kSameAim;
       const double apart_m = std::abs(a.position.z() - b.position.z());
       if (!IsOpen(open[of]) || !IsOpen(open[other]) || !AreOnTogether(data, j, k) || !has_one_aim ||
-          AreOfTwoKinds(shown[of], shown[other]) || apart_m >= least_m)
+          AreOfTwoKinds(shown[of], shown[other]) || HaveTwoLobes(start, of, other) || apart_m >= least_m)
         continue;
       first.back() = first[other];
       least_m = apart_m;

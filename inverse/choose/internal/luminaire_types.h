@@ -2,7 +2,7 @@
 //
 // Luminaires that are always switched together are taken as alike at first: an installer puts one kind into a
 // row, and their light alone hardly tells the models of single ones. A model of the whole row is chosen. But where
-// photos show that one hangs 0.3 m and more below the other, they are of two kinds.
+// photos show that one hangs 0.3 m and more below the other, or where one shines all round and the other in a beam, they are of two kinds.
 //
 // Types whose models have the same form are merged where a fit of all luminaires does not tell their numbers
 // apart: exponents, sizes, tables, tilts, headings. Directions of a type's own luminaires become one by the same test.
@@ -24,7 +24,7 @@ namespace luxfit {
 using ShownLuminaires = std::vector<std::optional<SeenPlace>>;
 
 // Returns the state with its types: luminaires of `open` distribution and shape that are always on together at the
-// same level, and not of two kinds by what is `shown`, are of one type. One that no photo shows joins those that are
+// same level, and not of two kinds by what is `shown` or by their lobes, are of one type. One that no photo shows joins those that are
 // nearest in height. Given aims must be alike. Where the search for places told aims that differ by 11 degrees and
 // more, as those of spots do, each luminaire of the type has its own direction.
 LightState TypedBySwitching(const LightData& data, LightState start, const std::vector<OpenChoice>& open,

@@ -8,11 +8,6 @@
 namespace luxfit {
 namespace {
 
-bool IsUnknown(const KnownLuminaire& known) {
-  return known.photometry == KnownPhotometry::kNothing && !known.is_held && !known.position_m &&
-         !known.flux_lm && !known.aim && !known.heading && !known.shape_is_known;
-}
-
 bool AreOnTogether(const RoomObservations& given, int a, int b) {
   return std::all_of(given.dimming.begin(), given.dimming.end(),
                      [&](const Eigen::VectorXd& dimming) { return dimming[a] == dimming[b]; });
@@ -36,11 +31,16 @@ void Order(const std::vector<int>& indices, LightState& state) {
 
 }  // namespace
 
+bool IsNothingKnownOf(const KnownLuminaire& luminaire) {
+  return luminaire.photometry == KnownPhotometry::kNothing && !luminaire.is_held && !luminaire.position_m &&
+         !luminaire.flux_lm && !luminaire.aim && !luminaire.heading && !luminaire.shape_is_known;
+}
+
 LightState WithNamesInOrder(const RoomObservations& given, LightState state) {
   for (const std::vector<int>& type : TypesOf(state)) {
     std::vector<int> unknown;
     for (const int k : type) {
-      if (IsUnknown(given.luminaires[static_cast<size_t>(k)])) unknown.push_back(k);
+      if (IsNothingKnownOf(given.luminaires[static_cast<size_t>(k)])) unknown.push_back(k);
     }
     while (unknown.size() > 1) {  // a type may hold several groups
       const auto rest = std::stable_partition(

@@ -11,6 +11,9 @@
 
 namespace luxfit {
 
+// Returns whether nothing but its name is given of a luminaire.
+bool IsNothingKnownOf(const KnownLuminaire& luminaire);
+
 // Returns the state with the interchangeable luminaires of each type in the order of their places (OrderOfPlaces). Luminaires of
 // which anything is given keep their places.
 LightState WithNamesInOrder(const RoomObservations& given, LightState state);

@@ -93,6 +93,19 @@ TEST_F(LuminaireTypes, AGivenModelOrAnotherAimStaysApart) {
   EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 2}));
 }
 
+// Pendants that shine both ways hang among downlights.
+TEST_F(LuminaireTypes, OneThatShinesAllRoundIsOfAnotherKindThanBeams) {
+  LightState start = fit_.state;
+  start.luminaires[0].cosine_exponent = start.luminaires[2].cosine_exponent = 7;
+  start.luminaires[1].distribution = Distribution::kIsotropic;
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 0}));
+  start.luminaires[1].distribution = Distribution::kMeasured;
+  start.free[1].sides = true;
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 1, 0}));
+  start.luminaires[0].cosine_exponent = start.luminaires[2].cosine_exponent = 1;
+  EXPECT_EQ(TypesFrom({{1, 1, 1}}, start), (std::vector<int>{0, 0, 0})) << "a wide lobe may be either";
+}
+
 TEST_F(LuminaireTypes, AnAimThatTheFirstGuessSeesWrongIsThatOfTheOthers) {
   LightState start = fit_.state;
   start.luminaires[0].aim = Eigen::Vector3d(1, 0, -1).normalized();

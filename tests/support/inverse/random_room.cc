@@ -351,9 +351,9 @@ RandomRoom DrawRoom(std::mt19937_64& rng) {
   return drawn;
 }
 
-ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed) {
-  std::mt19937_64 rng(seed);
-  RandomRoom drawn = DrawRoom(rng);
+namespace {
+
+ObservedRandomRoom Observed(RandomRoom drawn, std::mt19937_64& rng) {
   RoomOptions options;
   options.patches.patch_size_m = 0.4;
   options.patches.element_size_m = 0.2;
@@ -362,6 +362,21 @@ ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed) {
   traced.paths_per_point = 128;
   RoomObservations given = ObserveTraced(drawn.room, model, rng, traced);
   return {std::move(drawn), std::move(model), std::move(given)};
+}
+
+}  // namespace
+
+ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  RandomRoom drawn = DrawRoom(rng);
+  return Observed(std::move(drawn), rng);
+}
+
+ObservedRandomRoom ObserveRandomRoomAllOn(std::uint64_t seed) {
+  std::mt19937_64 rng(seed);
+  RandomRoom drawn = DrawRoom(rng);
+  drawn.room.dimming = {drawn.room.dimming.back()};
+  return Observed(std::move(drawn), rng);
 }
 
 }  // namespace luxfit::support

@@ -42,6 +42,9 @@ struct ObservedRandomRoom {
 };
 ObservedRandomRoom ObserveRandomRoom(std::uint64_t seed);
 
+// The same with photos and readings of the last state alone, in which all luminaires are on.
+ObservedRandomRoom ObserveRandomRoomAllOn(std::uint64_t seed);
+
 // Materials come in the order of the pieces: those of the first few pieces begin those of all.
 Scene WithFurniture(Scene shell, const std::vector<Furniture>& pieces);
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "forward/luminaire/distribution_ops.h"
 #include "inverse/model/internal/search/order_of_places.h"
+#include "inverse/model/internal/search/places_inside.h"
 #include "inverse/model/internal/search/sparse_luminaires.h"
 #include "inverse/model/internal/search/watched_places.h"
 
@@ -31,13 +33,6 @@ std::vector<int> SeenOf(const LuminaireGroup& group, const LightData& data,
     if (MayBePlaceOf(seen[i], data.dimming, group.luminaires[0])) own.push_back(static_cast<int>(i));
   }
   return own;
-}
-
-// Moves a place into the room: a luminaire hangs inside, whatever the error of the seen place.
-Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& p) {
-  if (box.isEmpty()) return p;
-  const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
-  return p.cwiseMax(box.min() + inner).cwiseMin(box.max() - inner);
 }
 
 struct SeenPositions {
@@ -143,10 +138,8 @@ FirstGuess GuessLuminaires(const Room& room, const LightData& data, const KnownP
   for (size_t g = 0; g < light.groups.size(); ++g) {
     const LuminaireGroup& group = light.groups[g];
     SeenPositions own{SeenOf(group, data, seen), {}};
-    for (const int i : own.index) {
-      own.places.push_back(seen[static_cast<size_t>(i)]);
-      own.places.back().position = Inside(room.scene.Bounds(), own.places.back().position);
-    }
+    for (const int i : own.index) own.places.push_back(seen[static_cast<size_t>(i)]);
+    own.places = PlacesInside(room.scene.Bounds(), std::move(own.places));
     const SparseLuminaires found =
         search.Find(static_cast<int>(g), static_cast<int>(group.luminaires.size()),
                     HeldSources(group, known_positions), own.places, [&] { return GoesOn(data); });

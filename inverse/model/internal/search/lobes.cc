@@ -59,6 +59,7 @@ const std::vector<Lobe>& LobesUnderCeiling() {
     std::vector<Lobe> down;
     for (const Lobe& lobe : SimpleLobes())
       if (lobe.distribution == Distribution::kCosinePower && lobe.aim.z() < 0) down.push_back(lobe);
+    down.push_back({Distribution::kCosinePower, 22, {0, 0, -1}});
     return down;
   }();
   return lobes;

@@ -33,7 +33,8 @@ struct Lobe {
 const std::vector<Lobe>& SimpleLobes();
 // Returns the simple lobes and the one that shines up and down: at a place in mid-air it may imitate two luminaires.
 const std::vector<Lobe>& LobesOfKnownPlaces();
-// Return those of them that shine straight down and, in mid-air, those to all sides and to both, of which more or less is up.
+// Return those of them that shine straight down, with a beam of half that width (22: half of its peak lies 14 degrees off), and, in
+// mid-air, those to all sides and to both, of which more or less is up.
 const std::vector<Lobe>& LobesUnderCeiling();
 const std::vector<Lobe>& LobesInMidAir();
 
