@@ -22,4 +22,11 @@ bool IsInRoom(const RayScene& rays, const Eigen::Vector3d& p) {
   return fronts > 0 && backs <= kMostBacks * kDirectionsOfPoint;
 }
 
+Eigen::Vector3d InFrontOf(const Scene& scene, const RayHit& hit, const Eigen::Vector3d& place,
+                          double in_front_m) {
+  const Facet& facet = scene.facets[static_cast<size_t>(hit.facet)];
+  const Eigen::Vector3d normal = hit.front ? facet.Normal() : -facet.Normal();
+  return place + (normal.dot(facet.PointAt(hit.u, hit.v) - place) + in_front_m) * normal;
+}
+
 }  // namespace luxfit

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "calib/register/triangulation.h"
+#include "forward/room/in_room.h"
 
 namespace luxfit {
 namespace {
@@ -36,15 +37,13 @@ std::optional<Sight> SightOf(const Luminaire& luminaire, const SeenOutline& seen
 }
 
 // Returns where a luminaire gets that is moved: there, or 1 cm in front of the surface on the way.
-Eigen::Vector3d Moved(const Room& room, const Eigen::Vector3d& from, Eigen::Vector3d to) {
+Eigen::Vector3d Moved(const Room& room, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   constexpr double kInFrontM = 0.01;
   const double way_m = (to - from).norm();
   if (!(way_m > 0)) return from;
   const RayHit hit = room.rays.Trace(from, (to - from) / way_m);
   if (hit.facet < 0 || hit.distance > way_m) return to;
-  const Facet& facet = room.scene.facets[static_cast<size_t>(hit.facet)];
-  const Eigen::Vector3d normal = hit.front ? facet.Normal() : -facet.Normal();
-  return to + (normal.dot(facet.PointAt(hit.u, hit.v) - to) + kInFrontM) * normal;
+  return InFrontOf(room.scene, hit, to, kInFrontM);
 }
 
 }  // namespace

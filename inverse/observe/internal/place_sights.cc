@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/luminance/median.h"
+#include "forward/room/in_room.h"
 
 namespace luxfit {
 namespace {
@@ -254,9 +255,7 @@ Eigen::Vector3d PlaceSights::InFrontOfSurfaces(const SeenPlace& place) const {
     const Eigen::Vector3d eye = views_[v].cam_from_world.inverse().translation(), to_place = position - eye;
     const RayHit hit = room_.rays.Trace(eye, to_place.normalized());
     if (hit.facet < 0 || !hit.front || hit.distance > to_place.norm()) continue;
-    const Facet& facet = room_.scene.facets[static_cast<size_t>(hit.facet)];
-    const Eigen::Vector3d normal = facet.Normal();
-    position += (normal.dot(facet.PointAt(hit.u, hit.v) - position) + kInFrontM) * normal;
+    position = InFrontOf(room_.scene, hit, position, kInFrontM);
   }
   return position;
 }

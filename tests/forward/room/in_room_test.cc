@@ -37,6 +37,20 @@ TEST(IsInRoom, TellsTheOpenFromWhatNoMeterCanBeIn) {
   EXPECT_FALSE(IsInRoom(rays, {100, 0, 1}));
 }
 
+// A table top that is hit from above, and from below.
+TEST(InFrontOf, IsOnTheSideFromWhichTheRayCame) {
+  const Scene scene = RoomWithTable();
+  const RayScene rays(scene);
+  for (const double from_z : {2.0, 0.1}) {
+    const Eigen::Vector3d from(1.8, 1.4, from_z);
+    const RayHit hit = rays.Trace(from, {0, 0, from_z > 0.75 ? -1.0 : 1.0});
+    ASSERT_GE(hit.facet, 0);
+    const double side = from_z > 0.75 ? 1 : -1;
+    EXPECT_TRUE(InFrontOf(scene, hit, {1.5, 1.2, 0.75 - 0.03 * side}, 0.01)
+                    .isApprox(Eigen::Vector3d(1.5, 1.2, 0.75 + 0.01 * side)));
+  }
+}
+
 TEST(IsInRoom, NothingIsInAnEmptyScene) { EXPECT_FALSE(IsInRoom(RayScene(Scene{}), {0, 0, 0})); }
 
 }  // namespace
