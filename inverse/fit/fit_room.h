@@ -126,6 +126,8 @@ struct RoomFit {
   bool TellsDirectLight() const { return !direct_share || direct_share->is_determined; }
 };
 
+// Fits the luminaires of `observations`. Where these are counted (luminaires_are_named is false), the fit may do with fewer: the last
+// of those of which nothing is known are then missing.
 RoomFit FitRoom(const Room& room, const RoomObservations& observations, const FitRoomOptions& options = {});
 
 // The following functions read a fit as its users do: only what the data determine, with sigmas. NaN marks

@@ -1,5 +1,6 @@
 // Fits as given. What is given of a luminaire's place and is contradicted by all other data is left out, and the fit done again: it stays out
 // where the light is explained no worse without it. Where luminaires are counted, not named, those that the fit leaves over are left out alike.
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -32,7 +33,7 @@ RoomFit FitWithoutPlaces(const Room& room, const RoomObservations& given, const 
 // Fits with one luminaire fewer as long as the fit leaves one over and explains the light as well without.
 void LeaveOutSuperfluous(const Room& room, RoomObservations& given, RoomFit& fit,
                          const FitRoomOptions& options) {
-  const auto counted = given.luminaires.size();
+  const size_t counted = given.luminaires.size();
   const double counted_sigma = fit.fit.relative_sigma;
   while (std::optional<RoomObservations> fewer = WithoutSuperfluous(given, fit)) {
     RoomFit next = FitAsGiven(room, *fewer, options);

@@ -38,14 +38,14 @@ bool AreOfTwoKinds(const std::optional<SeenPlace>& a, const std::optional<SeenPl
 // Returns whether one shines all round or to both sides, as globes and pendants do, and the other in a beam.
 bool HaveTwoLobes(const LightState& state, size_t a, size_t b) {
   constexpr double kBeam = 3;  // half of its peak lies 37 degrees off the aim
-  const auto is_open = [&](size_t k) {
+  const auto is_all_round = [&](size_t k) {
     return state.luminaires[k].distribution == Distribution::kIsotropic || state.free[k].sides;
   };
   const auto is_beam = [&](size_t k) {
     return state.luminaires[k].distribution == Distribution::kCosinePower &&
            state.luminaires[k].cosine_exponent > kBeam;
   };
-  return (is_open(a) && is_beam(b)) || (is_beam(a) && is_open(b));
+  return (is_all_round(a) && is_beam(b)) || (is_beam(a) && is_all_round(b));
 }
 
 // Returns whether the search for places told the aims of all these luminaires, and two of them differ.

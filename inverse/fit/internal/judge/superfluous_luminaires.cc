@@ -12,7 +12,7 @@
 namespace luxfit {
 namespace {
 
-// Of the squares: a luminaire that explains less makes up for what the models lack.
+// A luminaire that lowers the squares by less makes up for what the models lack.
 constexpr double kAsWell = 1.1;
 
 // A fit that departs from the data by less is as good as mesh and paint let it be: what more luminaires explain is theirs.

@@ -5,18 +5,19 @@
 #include <limits>
 #include <utility>
 
+#include "inverse/model/internal/search/places_inside.h"
+
 namespace luxfit {
 namespace {
 
 // Returns the places of the cell about a place, in half steps.
 std::vector<Eigen::Vector3d> Neighbours(const Eigen::Vector3d& centre, double step,
                                         const Eigen::AlignedBox3d& box) {
-  const Eigen::Vector3d inner = Eigen::Vector3d::Constant(5e-3);
   std::vector<Eigen::Vector3d> places;
   places.reserve(27);
   for (int i = 0; i < 27; ++i) {
     const Eigen::Vector3d offset = Eigen::Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1).cast<double>();
-    places.push_back((centre + step * offset).cwiseMax(box.min() + inner).cwiseMin(box.max() - inner));
+    places.push_back(Inside(box, centre + step * offset));
   }
   return places;
 }

@@ -10,6 +10,9 @@
 
 namespace luxfit {
 
+// Returns the place; one outside the box, 5 mm inside it. m.
+Eigen::Vector3d Inside(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& place);
+
 // Returns the places, those outside the box 5 mm inside it. `box`: of the room (m, world); empty: there is no mesh.
 std::vector<SeenPlace> PlacesInside(const Eigen::AlignedBox3d& box, std::vector<SeenPlace> places);
 
