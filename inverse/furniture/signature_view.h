@@ -27,6 +27,7 @@ struct SignatureView {
   Eigen::Matrix3d pixel_from_ray = Eigen::Matrix3d::Identity();  // of the pinhole
   // Covariance of the pose as in RegisteredView: (rotation vector in world axes rad, eye in world m).
   Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  int camera = 0;  // views of one share its vignetting
   int width_px = 0, height_px = 0, states = 0;
   std::vector<float> log_luminance;  // height x width x states
   std::vector<float> variance;       // of log_luminance, by the photos' noise
@@ -34,9 +35,12 @@ struct SignatureView {
   Eigen::Vector3d Eye() const { return cam_from_world.inverse().translation(); }
 };
 
-// `photos`: of one pose, by state; null where there is none. The caller sets the pose's covariance, where it is known.
+// `photos`: of one pose, by state; null where there is none. The caller sets the camera's number, and the pose's covariance where it is known.
 SignatureView MakeSignatureView(const Camera& camera, const Eigen::Isometry3d& cam_from_world,
                                 const std::vector<const LuminanceImage*>& photos);
+
+// Returns the pixel of a place; NaN where the view does not show it a pixel within its edges.
+Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world);
 
 }  // namespace luxfit
 

@@ -1,41 +1,18 @@
 #include "inverse/observe/room_furniture.h"
 
-#include <tbb/parallel_for.h>
-
-#include <memory>
 #include <utility>
 
+#include "inverse/furniture/photo_gains.h"
+#include "inverse/observe/room_signatures.h"
+
 namespace luxfit {
-namespace {
-
-std::vector<SignatureView> SignaturesOf(const RoomPhotos& photos, const std::vector<Camera>& cameras,
-                                        const std::vector<RegisteredView>& views, int states) {
-  std::vector<SignatureView> signatures(views.size());
-  tbb::parallel_for(size_t{0}, views.size(), [&](size_t v) {
-    std::vector<std::shared_ptr<const LuminanceImage>> kept(static_cast<size_t>(states));
-    std::vector<const LuminanceImage*> images(kept.size());
-    for (size_t i = 0; i < photos.photos.size(); ++i) {
-      const RoomPhoto& photo = photos.photos[i];
-      if (photo.view != views[v].view || photo.camera != views[v].camera) continue;
-      const auto state = static_cast<size_t>(photo.state);
-      kept[state] = photos.read(i);
-      images[state] = kept[state].get();
-    }
-    signatures[v] =
-        MakeSignatureView(cameras[static_cast<size_t>(views[v].camera)], views[v].cam_from_world, images);
-    signatures[v].pose_covariance = views[v].covariance;
-  });
-  return signatures;
-}
-
-}  // namespace
 
 RevisedRoom LookForFurniture(const Scene& mesh, const Scene& room, const RoomPhotos& photos,
                              const std::vector<Camera>& cameras, const std::vector<RegisteredView>& views,
                              int states, const std::vector<Eigen::Vector3d>& free_places,
                              const std::vector<SurveyedTag>& survey) {
   if (views.size() < 3) return {};
-  const std::vector<SignatureView> signatures = SignaturesOf(photos, cameras, views, states);
+  std::vector<SignatureView> signatures = SignaturesOf(photos, cameras, views, states);
   MovedWallsOptions of_walls;
   of_walls.survey = survey;
   FurnitureOptions options;
@@ -43,6 +20,8 @@ RevisedRoom LookForFurniture(const Scene& mesh, const Scene& room, const RoomPho
   RevisedRoom revised;
   revised.mesh_as_if = FindMeshAsIf(mesh, signatures, survey);
   if (!revised.mesh_as_if.empty()) return revised;  // all of it would be furniture that the room lacks
+  const PhotoGains gains = EstimatePhotoGains(mesh, signatures, options.tolerance);
+  signatures = WithoutGains(std::move(signatures), gains);
   revised.walls = FindMovedWalls(mesh, signatures, of_walls);
   if (revised.walls.empty()) {
     revised.furniture = ReviseFurniture(mesh, room, signatures, options);

@@ -2,7 +2,7 @@
 // they leave for furniture: what the mesh lacks, or has where the room has none; and on its walls for parts of other paint. Before, whether the whole mesh lies
 // otherwise than the room.
 //
-//   photos of a view in every state -> SignatureView -> FindMeshAsIf; FindMovedWalls, ReviseFurniture, FindPaintedParts -> change -> mesh with the change
+//   photos of a view in every state -> SignatureView -> FindMeshAsIf; WithoutGains -> FindMovedWalls, ReviseFurniture, FindPaintedParts -> change -> mesh with the change
 //
 // Nothing is looked for where fewer than three views are registered. Metres, world frame.
 // Source: inverse/furniture/moved_walls.h, inverse/furniture/missing_pieces.h, inverse/furniture/painted_parts.h.

@@ -62,14 +62,6 @@ Eigen::Vector3d RayOf(const SignatureView& view, int column, int row) {
   return view.cam_from_world.linear().transpose() * (view.pixel_from_ray.inverse() * pixel).normalized();
 }
 
-Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world) {
-  const Eigen::Vector3d q = view.pixel_from_ray * (view.cam_from_world * p_in_world);
-  Eigen::Vector2d p = q.head<2>() / q.z();
-  if (q.z() > 0.05 && p.x() >= 1 && p.y() >= 1 && p.x() < view.width_px - 2 && p.y() < view.height_px - 2)
-    return p;
-  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-}
-
 std::vector<MeshAgreement> FindMeshAgreement(const RayScene& mesh, const std::vector<SignatureView>& views,
                                              double tolerance) {
   std::vector<MeshAgreement> cells(views.size());

@@ -51,9 +51,6 @@ std::vector<Eigen::Vector3d> EyesOf(const std::vector<SignatureView>& views);
 // Returns the unit direction of a cell's pixel, world frame.
 Eigen::Vector3d RayOf(const SignatureView& view, int column, int row);
 
-// Returns the pixel of a place; NaN where the view does not show it a pixel within its edges.
-Eigen::Vector2d PixelOf(const SignatureView& view, const Eigen::Vector3d& p_in_world);
-
 template <typename Sees>
 OthersAt CompareOthers(const std::vector<SignatureView>& views, size_t a, const Eigen::Vector3d& place,
                        double tolerance, Signatures& signatures, const Sees& sees) {
