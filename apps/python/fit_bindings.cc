@@ -186,7 +186,9 @@ void TakeEvidence(Evidence evidence, RoomObservations& given) {
   given.observations = std::move(evidence.observations);
   given.seen = std::move(evidence.seen);
   given.outlines = std::move(evidence.outlines);
+  given.views = std::move(evidence.views);
   given.pose_covariance = std::move(evidence.pose_covariance);
+  given.ambient_spread = evidence.ambient_spread;
 }
 
 // Says what registration and observation found, as `luxfit run` does.

@@ -18,6 +18,8 @@ std::string OwnerKey(ParameterKind kind) {
       return "material";
     case ParameterKind::kLogSensorGain:
       return "sensor";
+    case ParameterKind::kAmbientShare:
+      return "state";
     case ParameterKind::kLogCameraScale:
     case ParameterKind::kLogMeterScale:
       return "";

@@ -135,6 +135,7 @@ RoomObservations RoomObservationsOf(const Session& session, const LinearizedSess
   given.outlines = observed.outlines;
   given.views = observed.views;
   given.pose_covariance = observed.pose_covariance;
+  given.ambient_spread = observed.ambient_spread;
   const Eigen::Vector3d weights = LuminanceWeights(session);
   given.luminance_weights = weights / weights.sum();
   given.channels_are_of_sensor = !session.cameras.empty() && session.cameras[0].colours == kSensorColours;

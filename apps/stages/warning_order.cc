@@ -7,7 +7,8 @@
 namespace luxfit {
 namespace {
 
-constexpr std::array<std::string_view, 25> kCauses = {"colmap_failed",
+constexpr std::array<std::string_view, 26> kCauses = {"ambient_changed",
+                                                      "colmap_failed",
                                                       "colmap_missing",
                                                       "counts_cut_off",
                                                       "exposure_metadata",

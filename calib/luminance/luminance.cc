@@ -180,12 +180,14 @@ LuminanceImage WithCorrection(LuminanceImage image, const PhotoCorrection& corre
   return image;
 }
 
-LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambient) {
+LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambient, double share) {
   if (image.valid.rows() != ambient.valid.rows() || image.valid.cols() != ambient.valid.cols())
     throw std::invalid_argument("WithoutAmbient: expected images of one size");
-  for (size_t c = 0; c < 3; ++c) image.relative_rgb[c] -= ambient.relative_rgb[c];
-  image.relative_luminance -= ambient.relative_luminance;
-  if (image.variance.size() > 0 && ambient.variance.size() > 0) image.variance += ambient.variance;
+  const auto factor = static_cast<float>(share);
+  for (size_t c = 0; c < 3; ++c) image.relative_rgb[c] -= factor * ambient.relative_rgb[c];
+  image.relative_luminance -= factor * ambient.relative_luminance;
+  if (image.variance.size() > 0 && ambient.variance.size() > 0)
+    image.variance += factor * factor * ambient.variance;
   image.saturated = image.saturated || ambient.saturated;
   // Ambient pixels that are too dark stay valid: the light subtracted there is below the image's own dark
   // limit.

@@ -88,11 +88,11 @@ struct PhotoCorrection {
 // Returns the corrected image of a photo of exposure t. Pixels that are not positive stay as they are.
 LuminanceImage WithCorrection(LuminanceImage image, const PhotoCorrection& correction, double exposure_s);
 
-// Returns the light of `image` beyond that of `ambient`, the same view without that light. Channels are
+// Returns the light of `image` beyond a share of that of `ambient`, the same view without that light. Channels are
 // subtracted and variances added. A pixel is valid where it is valid in `image` and not saturated in
 // `ambient`.
 // Throws std::invalid_argument for images of different sizes.
-LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambient);
+LuminanceImage WithoutAmbient(LuminanceImage image, const LuminanceImage& ambient, double share = 1);
 
 }  // namespace luxfit
 

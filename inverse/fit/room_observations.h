@@ -71,6 +71,8 @@ struct RoomObservations {
   // Covers the views that SeenOutline::view numbers, 6 rows and columns each: rotation vector in world axes (rad), camera
   // centre in world (m) (calib/register/registration.h). Empty: poses are exact.
   Eigen::MatrixXd pose_covariance;
+  // Relative standard deviation of the ambient light that was subtracted, from photo to photo (AmbientLight::spread).
+  double ambient_spread = 0;
   Meter meter;
   std::vector<std::optional<double>> albedo;  // by material, where known; may be empty
   std::optional<double> camera_scale;         // relative luminance per cd/m2, where known

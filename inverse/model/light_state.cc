@@ -278,6 +278,8 @@ std::vector<Parameter> FreeParameters(const Room& room, const LightState& state)
   for (int i = 0; state.sensor_gains_free && i < static_cast<int>(state.sensor_gain.size()); ++i) {
     parameters.push_back({ParameterKind::kLogSensorGain, i, {}, -1, 1, std::to_string(i)});
   }
+  for (int s = 0; state.ambient_shares_free && s < static_cast<int>(state.ambient_share.size()); ++s)
+    parameters.push_back({ParameterKind::kAmbientShare, s, {}, -1, 1, std::to_string(s)});
   return parameters;
 }
 
@@ -297,6 +299,7 @@ Eigen::VectorXd PackParameters(const LightState& state, const std::vector<Parame
     if (p.kind == ParameterKind::kLogCameraScale) value = std::log(state.camera_scale);
     if (p.kind == ParameterKind::kLogMeterScale) value = std::log(state.meter_scale);
     if (p.kind == ParameterKind::kLogSensorGain) value = std::log(state.sensor_gain[p.index]);
+    if (p.kind == ParameterKind::kAmbientShare) value = state.ambient_share[p.index];
     if (IsPart(p)) {
       const Eigen::VectorXd shares = PartShares(state.luminaires[index], PartKindOf(p.quantity));
       value = shares[p.part] / shares[p.reference];
@@ -321,6 +324,7 @@ LightState WithParameters(LightState state, const std::vector<Parameter>& parame
     if (p.kind == ParameterKind::kLogCameraScale) state.camera_scale = std::exp(value);
     if (p.kind == ParameterKind::kLogMeterScale) state.meter_scale = std::exp(value);
     if (p.kind == ParameterKind::kLogSensorGain) state.sensor_gain[p.index] = std::exp(value);
+    if (p.kind == ParameterKind::kAmbientShare) state.ambient_share[p.index] = value;
     if (p.kind != ParameterKind::kLuminaire) continue;
     Luminaire& luminaire = state.luminaires[index];
     if (IsPart(p)) {

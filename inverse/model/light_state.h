@@ -31,6 +31,7 @@ struct Reading {
   double sigma_lx = 0;
   bool used = false;      // false: only predicted
   int sensor_index = -1;  // one of several sensors of a meter, each with its own gain; -1: the only sensor
+  double ambient_lx = 0;  // already subtracted from illuminance_lx
 };
 
 // Ends a fit early, from LightData::checkpoint. what() says why.
@@ -106,6 +107,10 @@ struct LightState {
   bool meter_scale_free = false;   // needs a prior: nothing else tells it from the fluxes
   Eigen::VectorXd sensor_gain;     // by Reading::sensor; empty: 1
   bool sensor_gains_free = false;  // need priors likewise
+  // By state: what is left in its photos of the ambient light, over what was subtracted (Observation::relative_ambient); below 0
+  // where too much was subtracted. Empty: 0.
+  Eigen::VectorXd ambient_share;
+  bool ambient_shares_free = false;  // need priors likewise
   BodyPresence bodies = BodyPresence::kNone;
   // Albedo in red, green and blue over the albedo, by material; empty: the light between grey surfaces. Their
   // mean by LightData::luminance_weights is 1.

@@ -11,13 +11,14 @@ struct KindWords {
   const char* in_files;
   const char* for_people;
 };
-constexpr std::array<KindWords, 6> kKinds{
+constexpr std::array<KindWords, 7> kKinds{
     {{ParameterKind::kLuminaire, "luminaire", ""},
      {ParameterKind::kLogFlux, "log_flux", "log flux"},
      {ParameterKind::kAlbedo, "albedo", "albedo"},
      {ParameterKind::kLogCameraScale, "log_camera_scale", "log camera scale"},
      {ParameterKind::kLogMeterScale, "log_meter_scale", "log meter scale"},
-     {ParameterKind::kLogSensorGain, "log_sensor_gain", "log gain"}}};
+     {ParameterKind::kLogSensorGain, "log_sensor_gain", "log gain"},
+     {ParameterKind::kAmbientShare, "ambient_share", "share of ambient light"}}};
 
 struct QuantityWords {
   LuminaireQuantity quantity;
@@ -65,6 +66,7 @@ std::string NameOf(const ParameterId& id) {
     if (HasParts(id.quantity)) name += " " + std::to_string(id.part);
   }
   if (id.kind == ParameterKind::kLogSensorGain) return name + " of sensor " + id.owner;
+  if (id.kind == ParameterKind::kAmbientShare) return name + " in state " + id.owner;
   return id.owner.empty() ? name : name + " of " + id.owner;
 }
 

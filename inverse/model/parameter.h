@@ -16,14 +16,23 @@
 
 namespace luxfit {
 
-enum class ParameterKind { kLuminaire, kLogFlux, kAlbedo, kLogCameraScale, kLogMeterScale, kLogSensorGain };
+enum class ParameterKind {
+  kLuminaire,
+  kLogFlux,
+  kAlbedo,
+  kLogCameraScale,
+  kLogMeterScale,
+  kLogSensorGain,
+  kAmbientShare
+};
 
 // Returns whether the quantity is a share of one of several parts: kGammaNode, kCell and kSide.
 bool HasParts(LuminaireQuantity quantity);
 
 struct ParameterId {
   ParameterKind kind = ParameterKind::kLuminaire;
-  std::string owner;  // id of the luminaire, name of the material, number of the sensor; empty for scales
+  std::string
+      owner;  // id of the luminaire, name of the material, number of the sensor or state; empty for scales
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;  // for kLuminaire
   int part = 0;                                                // where HasParts
 };
@@ -49,7 +58,7 @@ struct AimFrame {
 // Describes one free parameter of a fit.
 struct Parameter {
   ParameterKind kind = ParameterKind::kLuminaire;
-  int index = 0;  // index of the luminaire, the material or the sensor
+  int index = 0;  // index of the luminaire, the material, the sensor or the state
   LuminaireQuantity quantity = LuminaireQuantity::kPositionX;
   double lower = 0, upper = 0;
   std::string owner;  // as in ParameterId

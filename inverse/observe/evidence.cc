@@ -8,45 +8,11 @@
 #include "calib/luminance/bright_blobs.h"
 #include "calib/luminance/surround.h"
 #include "inverse/observe/as_if/internal/explained_observations.h"
+#include "inverse/observe/internal/ambient_photos.h"
 #include "inverse/observe/internal/expect_known.h"
 
 namespace luxfit {
 namespace {
-
-// A state is never dark where nobody names the luminaires: some of them are on.
-bool IsDark(const StateTable& states, int state) {
-  return !states.luminaires.empty() && (states.dimming[static_cast<size_t>(state)].array() == 0).all();
-}
-
-// Returns the photo of each photo's view with all luminaires off; nothing where there is none.
-std::vector<std::optional<size_t>> AmbientOf(const RoomPhotos& photos, const StateTable& states) {
-  std::vector<std::optional<size_t>> ambient(photos.photos.size());
-  for (size_t i = 0; i < ambient.size(); ++i) {
-    const RoomPhoto& photo = photos.photos[i];
-    const auto dark = std::find_if(photos.photos.begin(), photos.photos.end(), [&](const RoomPhoto& other) {
-      return other.view == photo.view && other.camera == photo.camera && IsDark(states, other.state);
-    });
-    if (dark != photos.photos.end()) ambient[i] = static_cast<size_t>(dark - photos.photos.begin());
-  }
-  return ambient;
-}
-
-std::vector<std::string> ViewsWithout(const RoomPhotos& photos,
-                                      const std::vector<std::optional<size_t>>& ambient) {
-  std::vector<std::string> views;
-  for (size_t i = 0; i < ambient.size(); ++i) {
-    const std::string& view = photos.photos[i].view;
-    if (!ambient[i] && std::count(views.begin(), views.end(), view) == 0) views.push_back(view);
-  }
-  return views;
-}
-
-// Reads a photo's light of the luminaires alone. Returns null for a photo of ambient light, or where its view has none.
-std::shared_ptr<const LuminanceImage> ReadLuminaireLight(const RoomPhotos& photos, size_t photo,
-                                                         const std::optional<size_t>& ambient) {
-  if (!ambient || photos.photos[*ambient].state == photos.photos[photo].state) return nullptr;
-  return std::make_shared<const LuminanceImage>(WithoutAmbient(*photos.read(photo), *photos.read(*ambient)));
-}
 
 std::vector<PixelMap> MapsOfViews(const Room& room, const std::vector<Camera>& cameras,
                                   const std::vector<RegisteredView>& views,
@@ -89,23 +55,23 @@ std::vector<Surround::Values> SurroundOf(const PixelMap& map, const LuminanceIma
   return means;
 }
 
+// `ambient`: null where no photo shows ambient light alone.
 std::vector<SeenPhoto> SeePhotos(const std::vector<PixelMap>& maps, const RoomPhotos& photos,
-                                 const std::vector<RegisteredView>& views, bool has_ambient,
-                                 const std::vector<std::optional<size_t>>& ambient,
+                                 const std::vector<RegisteredView>& views, const AmbientPhotos* ambient,
                                  const std::function<void()>& on_photo) {
   std::vector<SeenPhoto> seen(photos.photos.size());
   tbb::parallel_for(size_t{0}, seen.size(), [&](size_t i) {
     const RoomPhoto& photo = photos.photos[i];
     if (on_photo) on_photo();
-    const auto view = std::find_if(views.begin(), views.end(),
-                                   [&](const RegisteredView& v) { return v.view == photo.view; });
-    if (view == views.end()) return;
-    const auto index = static_cast<int>(view - views.begin());
-    const auto image = has_ambient ? ReadLuminaireLight(photos, i, ambient[i]) : photos.read(i);
-    if (!image) return;
+    const auto view = ViewOf(photo, views);
+    if (!view) return;
+    const auto index = static_cast<int>(*view);
+    if (ambient && ambient->IsDark(photo.state)) return;
+    const auto image = ambient ? ambient->Read(photos, i, index) : photos.read(i);
     seen[i].blobs = {index, photo.state, FindBrightBlobs(*image)};
-    seen[i].observations = ObservePhoto(maps[static_cast<size_t>(index)], *image, index, photo.state);
-    seen[i].surround = SurroundOf(maps[static_cast<size_t>(index)], *image, seen[i].observations);
+    seen[i].observations = ObservePhoto(maps[*view], *image, index, photo.state);
+    if (ambient) seen[i].observations = ambient->Noted(seen[i].observations, photos, i);
+    seen[i].surround = SurroundOf(maps[*view], *image, seen[i].observations);
     seen[i].mean = PictureMeanOf(*image);
   });
   return seen;
@@ -118,11 +84,10 @@ CountedShares CountedSharesOf(const RoomPhotos& photos, const std::vector<Regist
   if (photos.cameras.empty() || has_ambient) return shares;
   const std::vector<double> gains = StatedGains(photos);
   for (const RoomPhoto& photo : photos.photos) {
-    const auto view = std::find_if(views.begin(), views.end(),
-                                   [&](const RegisteredView& v) { return v.view == photo.view; });
+    const auto view = ViewOf(photo, views);
     const auto c = static_cast<size_t>(photo.camera);
-    if (view == views.end() || !photos.cameras[c].response_is_open) continue;
-    shares[{static_cast<int>(view - views.begin()), photo.state}] = photo.exposure_s * gains[c];
+    if (!view || !photos.cameras[c].response_is_open) continue;
+    shares[{static_cast<int>(*view), photo.state}] = photo.exposure_s * gains[c];
   }
   return shares;
 }
@@ -190,12 +155,17 @@ ObservedPhotos Observe(const Room& room, const RoomPhotos& photos, const std::ve
   if (views.empty()) return {};
   ObservedPhotos observed;
   Evidence& evidence = observed.evidence;
-  const std::vector<std::optional<size_t>> ambient = AmbientOf(photos, states);
-  observed.has_ambient = std::any_of(photos.photos.begin(), photos.photos.end(),
-                                     [&](const RoomPhoto& photo) { return IsDark(states, photo.state); });
-  if (observed.has_ambient) observed.views_without_ambient = ViewsWithout(photos, ambient);
-  std::vector<SeenPhoto> seen = SeePhotos(MapsOfViews(room, cameras, views, options.tags), photos, views,
-                                          observed.has_ambient, ambient, options.on_photo);
+  observed.has_ambient = HasAmbient(photos, states);
+  const std::vector<PixelMap> maps = MapsOfViews(room, cameras, views, options.tags);
+  std::optional<AmbientPhotos> ambient;
+  if (observed.has_ambient) {
+    ambient.emplace(room, maps, photos, views, states);
+    observed.ambient = ambient->light();
+    observed.views_without_ambient = ambient->ViewsWithout(photos);
+    evidence.ambient_spread = observed.ambient.spread;
+  }
+  std::vector<SeenPhoto> seen =
+      SeePhotos(maps, photos, views, ambient ? &*ambient : nullptr, options.on_photo);
   evidence.observations = WithoutVeilsOf(seen, CamerasOf(views), static_cast<int>(cameras.size()), observed);
   {
     const std::shared_ptr<void> step = options.on_self_calibration ? options.on_self_calibration() : nullptr;

@@ -26,6 +26,7 @@
 #include "calib/register/registration.h"
 #include "calib/targets/tags.h"
 #include "forward/light/room.h"
+#include "inverse/observe/ambient_light.h"
 #include "inverse/observe/as_if/photos_as_if.h"
 #include "inverse/observe/as_if/states_as_if.h"
 #include "inverse/observe/camera/photo_radiometry.h"
@@ -45,6 +46,7 @@ struct Evidence {
   std::vector<SeenOutline> outlines;
   std::vector<Watcher> views;                  // the registered ones, with the states of their photos
   Eigen::MatrixXd pose_covariance;             // PoseErrorsOf
+  double ambient_spread = 0;                   // AmbientLight::spread
   std::vector<PhotoAsIf> photos_as_if;         // left out of the above
   std::vector<StateExplanation> states_as_if;  // what the table of states gets wrong
 };
@@ -62,6 +64,7 @@ struct ObservedPhotos {
   Evidence evidence;
   std::vector<size_t> elements;  // number of elements observed in each photo
   bool has_ambient = false;      // whether some photo shows ambient light alone
+  AmbientLight ambient;          // how that light changed from photo to photo
   std::vector<std::string> views_without_ambient;
   std::optional<PhotoRadiometry> radiometry;             // absent where nothing was observed
   std::vector<std::optional<ToneMapping>> tone_mapping;  // by camera; absent where it is not judged

@@ -55,11 +55,13 @@ MergedObservations MergeViews(const std::vector<Observation>& observations,
       weights += 1 / o.variance;
       mean.relative_luminance += o.relative_luminance / o.variance;
       mean.relative_rgb += o.relative_rgb / o.variance;
+      mean.relative_ambient += o.relative_ambient / o.variance;
       mean.pixels += o.pixels;
     }
     if (weights == 0) continue;
     mean.relative_luminance /= weights;
     mean.relative_rgb /= weights;
+    mean.relative_ambient /= weights;
     mean.variance = 1 / weights;
     merged.observations.push_back(mean);
   }

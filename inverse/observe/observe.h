@@ -65,6 +65,8 @@ struct Observation {
   // Luminance that light from other surfaces gives a white element there
   // (inverse/model/internal/measured_indirect.h). 0: not computed.
   double relative_indirect = 0;
+  // Luminance of ambient light that was subtracted (inverse/observe/ambient_light.h). 0: none.
+  double relative_ambient = 0;
 };
 
 // Returns the observations of one photo.

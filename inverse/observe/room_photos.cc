@@ -35,6 +35,13 @@ std::vector<double> StatedGains(const RoomPhotos& photos) {
   return gains;
 }
 
+std::optional<size_t> ViewOf(const RoomPhoto& photo, const std::vector<RegisteredView>& views) {
+  const auto view =
+      std::find_if(views.begin(), views.end(), [&](const RegisteredView& v) { return v.view == photo.view; });
+  if (view == views.end()) return std::nullopt;
+  return static_cast<size_t>(view - views.begin());
+}
+
 std::vector<Observation> InOneUnit(std::vector<Observation> observations, const RoomPhotos& photos,
                                    const std::vector<RegisteredView>& views) {
   const std::vector<double> gains = StatedGains(photos);
@@ -42,6 +49,7 @@ std::vector<Observation> InOneUnit(std::vector<Observation> observations, const 
     const double gain = gains.at(static_cast<size_t>(views.at(static_cast<size_t>(o.view)).camera));
     o.relative_luminance /= gain;
     o.relative_rgb /= gain;
+    o.relative_ambient /= gain;
     o.variance /= gain * gain;
   }
   return observations;

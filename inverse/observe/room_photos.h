@@ -58,6 +58,9 @@ std::optional<double> StatedScale(const RoomPhotos& photos);
 // Returns the gain of each camera; 1 where it or the unit's has no stated k. Expects a camera.
 std::vector<double> StatedGains(const RoomPhotos& photos);
 
+// Returns the index of the photo's view among the registered ones; nothing where it is not there.
+std::optional<size_t> ViewOf(const RoomPhoto& photo, const std::vector<RegisteredView>& views);
+
 // Returns the observations of each camera divided by its stated gain.
 std::vector<Observation> InOneUnit(std::vector<Observation> observations, const RoomPhotos& photos,
                                    const std::vector<RegisteredView>& views);

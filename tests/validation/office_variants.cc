@@ -16,6 +16,9 @@
 // ambient: the light of luminaire D stands in for daylight. It is added to the photos and readings of A, B
 // and C, and photographed and measured alone as the state off.
 //
+// dusk: the same daylight, which falls by 30 % from the first photo to the last, and from the first reading to the last. Each view's
+// photos follow one another. dusk_by_state: all photos of a state do. clouds: it goes up and down by 30 % from photo to photo.
+//
 // textured: carpet on the floor, posters on the walls, wood on desks and cabinet, of the same mean reflectances
 // (tests/validation/office_texture.h). The light that reaches each surface stays that of the plain room. Shot
 // noise is multiplied as the light is. Prints the mean factor of each material.
@@ -195,8 +198,14 @@ std::string EightBits(const fs::path& office, const fs::path& out, std::ofstream
   return Replaced(ReadText(office / "session.toml"), "response = \"linear\"", "response = \"estimate\"");
 }
 
-// Readings of A, B and C with those of D added, and D's as the state off.
-void WriteAmbientReadings(const fs::path& office, const fs::path& out) {
+// Says how much of its first daylight is left as a share of the photos, or of the readings, is done.
+using Daylight = double (*)(double share_done);
+double Steady(double /*share_done*/) { return 1; }
+double Falling(double share_done) { return 1 - 0.3 * share_done; }
+double Cloudy(double share_done) { return 1 + 0.3 * std::sin(100 * share_done); }
+
+// Readings of A, B and C with those of D added, and D's as the state off. `daylight` falls from row to row.
+void WriteAmbientReadings(const fs::path& office, const fs::path& out, Daylight daylight) {
   std::ifstream table(office / "luxmeter.csv");
   std::ofstream written(out / "luxmeter.csv");
   std::string line;
@@ -208,41 +217,46 @@ void WriteAmbientReadings(const fs::path& office, const fs::path& out) {
     rows.push_back(Fields(line));
     if (rows.back().at(7) == "D") ambient[rows.back()[0]] = std::stod(rows.back().at(8));
   }
-  for (std::vector<std::string> row : rows) {
+  for (size_t r = 0; r < rows.size(); ++r) {
+    std::vector<std::string> row = rows[r];
     if (row[7] == "all" || row[7] == "evening") continue;
+    const double share = daylight(static_cast<double>(r) / static_cast<double>(rows.size()));
     if (row[7] == "D") {
       row[7] = "off";
+      row[8] = std::to_string(share * ambient.at(row[0]));
     } else {
-      row[8] = std::to_string(std::stod(row[8]) + ambient.at(row[0]));
+      row[8] = std::to_string(std::stod(row[8]) + share * ambient.at(row[0]));
     }
     for (size_t i = 0; i < row.size(); ++i) written << (i > 0 ? "," : "") << row[i];
     written << '\n';
   }
 }
 
-std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& table) {
-  const std::vector<Row> rows = ReadRows(office);
+// The office with D as daylight, its photos taken in the order of `rows`.
+std::string WithDaylight(const fs::path& office, const fs::path& out, std::ofstream& table,
+                         const std::vector<Row>& rows, Daylight daylight) {
   std::map<std::string, Row> ambient;
   for (const Row& row : rows) {
     if (row.state == "D") ambient.emplace(row.view, row);
   }
-  for (const Row& row : rows) {
+  for (size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
     if (row.state == "all" || row.state == "evening" || ambient.count(row.view) == 0) continue;
+    const auto share =
+        static_cast<float>(daylight(static_cast<double>(r) / static_cast<double>(rows.size())));
     const Row& off = ambient.at(row.view);
-    if (row.state == "D") {
-      fs::copy_file(office / row.file, out / row.file, fs::copy_options::overwrite_existing);
-      table << row.file << ',' << row.camera << ',' << row.view << ",off," << row.exposure_s << '\n';
-      continue;
-    }
+    const cv::Mat seen = ReadLinear(office / off.file);
     // The sum saturates where either does; half the exposure leaves room for it.
-    const cv::Mat light = ReadLinear(office / row.file), daylight = ReadLinear(office / off.file);
-    cv::Mat sum = (light + daylight * (row.exposure_s / off.exposure_s)) / 2;
-    sum.setTo(cv::Scalar::all(1), (light >= 0.97f) | (daylight >= 0.97f));
+    const bool is_off = row.state == "D";
+    const cv::Mat light =
+        is_off ? cv::Mat(seen.size(), seen.type(), cv::Scalar::all(0)) : ReadLinear(office / row.file);
+    cv::Mat sum = (light + share * seen * (row.exposure_s / off.exposure_s)) / 2;
+    sum.setTo(cv::Scalar::all(1), (light >= 0.97f) | (seen >= 0.97f));
     Write16(out / row.file, sum);
-    table << row.file << ',' << row.camera << ',' << row.view << ',' << row.state << ',' << row.exposure_s / 2
-          << '\n';
+    table << row.file << ',' << row.camera << ',' << row.view << ',' << (is_off ? "off" : row.state) << ','
+          << row.exposure_s / 2 << '\n';
   }
-  WriteAmbientReadings(office, out);
+  WriteAmbientReadings(office, out, daylight);
   std::string session = ReadText(office / "session.toml");
   session = Replaced(session, "D = { D = 1.0 }", "off = {}");
   session = Replaced(session, "all = { A = 1.0, B = 1.0, C = 1.0, D = 1.0 }\n", "");
@@ -250,16 +264,36 @@ std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& 
   return Replaced(session, "L3@all", "L3@A");
 }
 
+std::string Ambient(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  return WithDaylight(office, out, table, ReadRows(office), Steady);
+}
+
+std::string Dusk(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  return WithDaylight(office, out, table, ReadRows(office), Falling);
+}
+
+std::string Clouds(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  return WithDaylight(office, out, table, ReadRows(office), Cloudy);
+}
+
+std::string DuskByState(const fs::path& office, const fs::path& out, std::ofstream& table) {
+  std::vector<Row> rows = ReadRows(office);
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.state > b.state; });
+  return WithDaylight(office, out, table, rows, Falling);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::map<std::string, std::string (*)(const fs::path&, const fs::path&, std::ofstream&)> variants{
-      {"vignetting", Vignetting}, {"vignetted", Vignetted}, {"bent", Bent},        {"tinted", Tinted},
-      {"eight_bits", EightBits},  {"ambient", Ambient},     {"textured", Textured}};
+      {"vignetting", Vignetting}, {"vignetted", Vignetted}, {"bent", Bent}, {"tinted", Tinted},
+      {"eight_bits", EightBits},  {"ambient", Ambient},     {"dusk", Dusk}, {"dusk_by_state", DuskByState},
+      {"clouds", Clouds},         {"textured", Textured}};
   if (argc != 4 || variants.count(argv[2]) == 0) {
     std::fprintf(stderr,
                  "usage: office_variants OFFICE_FOLDER "
-                 "vignetting|vignetted|bent|tinted|eight_bits|ambient|textured OUT_FOLDER\n");
+                 "vignetting|vignetted|bent|tinted|eight_bits|ambient|dusk|dusk_by_state|clouds|textured "
+                 "OUT_FOLDER\n");
     return 2;
   }
   const fs::path office = argv[1], out = argv[3];

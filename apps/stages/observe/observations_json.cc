@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr size_t kNumbers = 10;  // numbers of one observation
+constexpr size_t kNumbers = 11;  // numbers of one observation
 
 std::array<double, kNumbers> NumbersOf(const Observation& o) {
   return {static_cast<double>(o.element),
@@ -23,7 +23,8 @@ std::array<double, kNumbers> NumbersOf(const Observation& o) {
           o.relative_rgb[0],
           o.relative_rgb[1],
           o.relative_rgb[2],
-          o.relative_indirect};
+          o.relative_indirect,
+          o.relative_ambient};
 }
 
 Observation FromNumbers(const std::array<double, kNumbers>& n) {
@@ -36,6 +37,7 @@ Observation FromNumbers(const std::array<double, kNumbers>& n) {
   o.variance = n[5];
   o.relative_rgb = {n[6], n[7], n[8]};
   o.relative_indirect = n[9];
+  o.relative_ambient = n[10];
   return o;
 }
 
@@ -143,6 +145,7 @@ json ObservationsJson(const Evidence& observed) {
           {"seen", seen},
           {"outlines", outlines},
           {"views", views},
+          {"ambient_spread", observed.ambient_spread},
           {"as_if", AsIfJson(observed)}};
 }
 
@@ -173,6 +176,7 @@ Evidence ObservationsFromJson(const json& in) {
     observed.seen.push_back(place);
   }
   for (const json& entry : in.value("views", json::array())) observed.views.push_back(ViewFromJson(entry));
+  observed.ambient_spread = in.at("ambient_spread");
   for (const json& entry : in.at("outlines")) observed.outlines.push_back(OutlineFromJson(entry));
   ReadAsIf(in.at("as_if"), observed);
   return observed;

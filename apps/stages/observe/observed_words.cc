@@ -14,15 +14,22 @@ namespace {
 
 void RecordAmbient(const ObservedPhotos& observed, Findings& findings) {
   if (!observed.has_ambient) return;
+  const AmbientLight& ambient = observed.ambient;
   findings.choices.push_back(
-      {"ambient light", "subtracted", {}, "photos of a state with all luminaires off are given"});
+      {"ambient light",
+       ambient.share.empty() ? "subtracted" : "subtracted, a share for each photo",
+       {"subtracted", "subtracted, a share for each photo"},
+       fmt::format("photos of a state with all luminaires off are given; what views of one place differ by "
+                   "on patches left out (mean squared normalised "
+                   "error): {:.3f} as subtracted, {:.3f} with a share for each photo",
+                   ambient.score_of_ones, ambient.score_of_shares)});
   if (observed.views_without_ambient.empty()) return;
-  findings.warnings.push_back(
-      {"ambient_missing",
-       "views " + ListNames(observed.views_without_ambient) +
-           " have no photo with all luminaires off: they show ambient light that cannot be "
-           "subtracted, and were not used",
-       "photograph these views with all luminaires off too"});
+  findings.warnings.push_back({"ambient_missing",
+                               "views " + ListNames(observed.views_without_ambient) +
+                                   " have no photo with all luminaires off: of places that other views show "
+                                   "so, these say how much ambient light was subtracted; the rest of "
+                                   "these views was not used",
+                               "photograph these views with all luminaires off too"});
 }
 
 // Returns whether photos of some camera went through local tone mapping.

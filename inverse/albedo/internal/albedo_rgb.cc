@@ -18,6 +18,7 @@ LightData ChannelData(const LightData& data, Eigen::Index channel) {
     const double ratio = o.relative_rgb[channel] / o.relative_luminance;
     if (!(ratio > 0)) continue;
     o.relative_luminance *= ratio;
+    o.relative_ambient *= ratio;
     o.variance *= ratio * ratio;
     of_channel.observations.push_back(o);
   }
@@ -44,6 +45,7 @@ Eigen::Matrix3Xd EstimateAlbedoRgb(const Room& room, const LightData& data, cons
   LightState light = fit.state;
   light.camera_scale_free = false;
   light.meter_scale_free = false;
+  light.ambient_shares_free = false;
   for (FreeQuantities& free : light.free) free = {false, false, false, false, false};
   const Eigen::VectorXd of_luminance = AlbedoIn(room, data, light);
   if (of_luminance.size() == 0) return rgb;

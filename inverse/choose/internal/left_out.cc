@@ -44,6 +44,7 @@ LightState StateOfProblem(const LightState& start, const std::vector<int>& membe
   if (!with_albedo) state.albedo_free.assign(state.albedo_free.size(), false);
   state.camera_scale_free = false;
   state.meter_scale_free = false;
+  state.ambient_shares_free = false;
   state.first_of_type.clear();
   if (only_members) {
     state.luminaires.clear(), state.free.clear();

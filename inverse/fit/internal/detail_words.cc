@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
 namespace luxfit {
 namespace {
+
+// Ambient light that varies by more, 1 sigma, is worth a word.
+constexpr double kAmbientChanged = 0.03;
 
 std::vector<std::string> NamesOf(const EffectChoice& choice) {
   std::vector<std::string> names;
@@ -99,6 +103,32 @@ void RecordDetail(const SceneDetail& detail, const TakenRows& taken, Findings& f
            100 * detail.model_error),
        "luxfit chart SESSION --fit shows how far results move with finer ones; leave out photos of surfaces "
        "close to a luminaire"});
+}
+
+void RecordAmbientLeft(const AmbientLeft& left, double spread, Findings& findings) {
+  if (left.states.empty()) return;
+  findings.choices.push_back(
+      {"ambient light in the fit",
+       left.IsNeeded() ? fmt::format("a share for each of {} states", left.states.size()) : "as subtracted",
+       {"as subtracted", "a share for each state"},
+       fmt::format("of what was subtracted from the photos of a state, {:.1f} to {:.1f} % are left, with "
+                   "sigmas up to {:.1f} %: "
+                   "{} (chi2 {:.3g}, 95 % of {:.3g})",
+                   100 * left.share.minCoeff(), 100 * left.share.maxCoeff(), 100 * left.sigma.maxCoeff(),
+                   left.IsNeeded() ? "more than chance makes" : "not told from none", left.chi2,
+                   left.chi2_95)});
+  const double all = std::hypot(left.Spread(), spread);
+  if (all < kAmbientChanged) return;
+  findings.warnings.push_back(
+      {"ambient_changed",
+       fmt::format("ambient light changed while photos were taken: views show that it varied by {:.0f} %, "
+                   "and of what was subtracted from "
+                   "the photos of a state, {:.0f} to {:.0f} % are left. The fit allows for both; the ambient "
+                   "part of each reading counts as "
+                   "uncertain by {:.0f} %",
+                   100 * spread, 100 * left.share.minCoeff(), 100 * left.share.maxCoeff(), 100 * all),
+       "take photos and readings with all luminaires off right beside the others of their view or place, or "
+       "wait until it is dark"});
 }
 
 }  // namespace luxfit

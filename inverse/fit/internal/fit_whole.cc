@@ -4,11 +4,14 @@
 #include <utility>
 
 #include "inverse/albedo/internal/albedo_rgb.h"
+#include "inverse/choose/internal/detail/ambient_left.h"
 #include "inverse/choose/internal/detail/choose_bodies.h"
 #include "inverse/choose/internal/detail/choose_colour.h"
 #include "inverse/choose/internal/two_sides.h"
+#include "inverse/fit/internal/detail_words.h"
 #include "inverse/fit/internal/outlines.h"
 #include "inverse/fit/internal/words.h"
+#include "inverse/observe/ambient_light.h"
 
 namespace luxfit {
 namespace {
@@ -29,6 +32,7 @@ class WholeFitter {
     near = WithoutUnexplained(part, std::move(near));
     near = WithoutNeedless(part, std::move(near));
     near = WithOneOfLikeTypes(part, std::move(near));
+    near = WithAmbientChosen(part, std::move(near));
     const ColourChoice colour =
         ChooseColour(room_, part, near, EstimateAlbedoRgb(room_, part, near), problem_.priors());
     RecordTransportColour(colour, findings_);
@@ -81,6 +85,15 @@ class WholeFitter {
     RecordTypes(typed, findings_);
     if (typed.merged.empty() && typed.turned_alike.empty()) return fit;
     return FitLuminaires(room_, part, typed.state, problem_.priors(), OfPart(&fit));
+  }
+
+  // Holds ambient light as it was subtracted where the fit does not tell that some is left; else readings, too, may hold some.
+  LuminaireFit WithAmbientChosen(LightData& part, LuminaireFit fit) {
+    const AmbientLeft left = AmbientLeftIn(fit, kShareSigma);
+    RecordAmbientLeft(left, given_.ambient_spread, findings_);
+    data_.readings = part.readings = WithAmbientSpread(std::move(part.readings), left.Spread());
+    if (left.states.empty() || left.IsNeeded()) return fit;
+    return FitLuminaires(room_, part, WithoutAmbientLeft(fit.state), problem_.priors(), OfPart(&fit));
   }
 
   // Lets photos tell squares from discs where the light did not.

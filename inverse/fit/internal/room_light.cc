@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "inverse/fit/internal/light_colours.h"
+#include "inverse/observe/ambient_light.h"
 
 namespace luxfit {
 namespace {
@@ -35,6 +36,18 @@ void AddSensorGains(double sigma, int sensors, RoomLight& light) {
   light.sensor_gains_free = light.used_readings > 0;
   for (int i = 0; light.sensor_gains_free && i < sensors; ++i)
     light.priors.push_back({ParameterKind::kLogSensorGain, i, {}, 0, sigma});
+}
+
+// Gives each state a share of ambient light that is left or missing in all of its photos.
+void AddAmbientShares(RoomLight& light) {
+  const auto& observations = light.data.observations;
+  const bool has_ambient = std::any_of(observations.begin(), observations.end(),
+                                       [](const Observation& o) { return o.relative_ambient > 0; });
+  if (!has_ambient) return;
+  const auto states = static_cast<int>(light.data.dimming.size());
+  light.ambient_share = Eigen::VectorXd::Zero(states);
+  for (int s = 0; s < states; ++s)
+    light.priors.push_back({ParameterKind::kAmbientShare, s, {}, 0, kShareSigma});
 }
 
 }  // namespace
@@ -73,13 +86,16 @@ RoomLight LightOf(const Room& room, const RoomObservations& given) {
     reading.illuminance_lx = taken.illuminance_lx;
     // The sigma covers the reading as it was taken and the ambient reading that was subtracted.
     const double taken_lx = std::hypot(taken.illuminance_lx + taken.ambient_lx, taken.ambient_lx);
-    reading.sigma_lx = relative * std::max(taken_lx, 1e-3);
+    reading.sigma_lx =
+        std::hypot(relative * std::max(taken_lx, 1e-3), given.ambient_spread * taken.ambient_lx);
+    reading.ambient_lx = taken.ambient_lx;
     reading.used = taken.used;
     reading.sensor_index = taken.sensor_index;
     light.used_readings += reading.used ? 1 : 0;
     light.data.readings.push_back(reading);
   }
   AddSensorGains(meter.sensor_sigma, meter.sensor_count, light);
+  AddAmbientShares(light);
   return light;
 }
 

@@ -21,11 +21,12 @@ struct RoomLight {
   BetweenViews between_views;          // error of each view that they were merged with
   Eigen::Vector3d balance;             // of the data's channels (light_colours.h)
   SurfaceLabels labels;                // which views show something else
-  std::vector<ParameterPrior> priors;  // for the meter's calibration and its sensors' gains
+  std::vector<ParameterPrior> priors;  // of the meter, its sensors and ambient light
   bool meter_scale_free = false;       // true: the calibration is one common scale factor
   Eigen::VectorXd sensor_gain;         // starting values, one for each named sensor
   bool sensor_gains_free = false;
-  int used_readings = 0;  // for the fit or the scale
+  Eigen::VectorXd ambient_share;  // starting values, one for each state; empty: there is no ambient light
+  int used_readings = 0;          // for the fit or the scale
 };
 
 // Returns the relative sigma of one reading. `common_sigma`: of the meter's calibration, 0 where its class is not given.

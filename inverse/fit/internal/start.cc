@@ -51,6 +51,8 @@ class Starter {
     start_.state.meter_scale_free = light.meter_scale_free;
     start_.state.sensor_gain = light.sensor_gain;
     start_.state.sensor_gains_free = light.sensor_gains_free;
+    start_.state.ambient_share = light.ambient_share;
+    start_.state.ambient_shares_free = light.ambient_share.size() > 0;
     FillReflectances();
     FillCameraScale();
   }

@@ -24,6 +24,7 @@ LightData WithoutTexture(const Room& room, LightData data, const LuminaireFit& f
     if (all.material_texture_sigma[room.patches.PatchOf(o.element).material] < kTextured) continue;
     const double factor = 1 / (1 + all.texture[static_cast<Eigen::Index>(i)]);
     o.relative_luminance *= factor;
+    o.relative_ambient *= factor;
     o.relative_rgb *= factor;
     o.variance *= factor * factor;
   }

@@ -94,6 +94,7 @@ std::vector<Observation> WithCorrections(std::vector<Observation> observations,
         std::exp(found.CorrectionOf(sample.photo, sample.camera).LogFactor(sample.log_share, sample.radius2));
     o.relative_luminance *= factor;
     o.relative_rgb *= factor;
+    o.relative_ambient *= factor;
     o.variance = o.variance * factor * factor +
                  found.covariance(sample.photo, sample.photo) * o.relative_luminance * o.relative_luminance;
   }

@@ -94,9 +94,12 @@ class SmallRoom : public testing::Test {
 TEST_F(SmallRoom, JacobianIsACentralDifferenceInEveryParameter) {
   state_.meter_scale_free = true;
   state_.meter_scale = 1.07;
+  state_.ambient_share = Eigen::Vector3d(0.05, -0.1, 0.2);
+  state_.ambient_shares_free = true;
+  for (Observation& o : data_.observations) o.relative_ambient = 0.1 + 0.001 * o.element;
   const std::vector<Parameter> parameters = FreeParameters(room_, state_);
-  // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera and meter scale.
-  ASSERT_EQ(parameters.size(), 18u);
+  // A: 3 position, exponent, 2 sizes, 2 tilts, flux; B: 3 position, flux; 3 albedos; camera and meter scale; ambient light by state.
+  ASSERT_EQ(parameters.size(), 21u);
   ExpectCentralDifferences(room_, data_, state_, parameters);
 }
 
@@ -306,6 +309,8 @@ LightState WithEverythingFree(LightState state) {
   state.free.insert(state.free.end(), {of_table, of_cells, of_sides});
   state.meter_scale_free = state.sensor_gains_free = true;
   state.sensor_gain = Eigen::Vector2d(1.02, 0.97);
+  state.ambient_share = Eigen::Vector3d(0.05, -0.1, 0.2);
+  state.ambient_shares_free = true;
   return state;
 }
 
@@ -348,7 +353,7 @@ TEST_F(SmallRoom, PackAndWithAreInverseInEveryParameter) {
   const std::vector<Parameter> parameters = FreeParameters(room_, state);
   std::set<std::pair<ParameterKind, LuminaireQuantity>> kinds;
   for (const Parameter& p : parameters) kinds.insert({p.kind, p.quantity});
-  EXPECT_EQ(kinds.size(), 12u + 5u);  // quantities of luminaires, and the other kinds
+  EXPECT_EQ(kinds.size(), 12u + 6u);  // quantities of luminaires, and the other kinds
   const Eigen::VectorXd x = PackParameters(state, parameters);
   Eigen::VectorXd moved = x;
   for (Eigen::Index i = 0; i < x.size(); ++i) {

@@ -24,6 +24,7 @@ struct CatalogueCase {
   Required required;
   std::vector<std::string> causes;  // codes of warnings, or words of the error, each of which names the cause
   std::function<void(const support::OfficeCopy&)> make;
+  std::string daylight = {};  // luminaire whose light stands in for daylight, and is not sought
 };
 
 std::vector<CatalogueCase> RegistrationCases();

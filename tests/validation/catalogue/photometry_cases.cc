@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "tests/support/local_tones.h"
 #include "tests/validation/catalogue/catalogue_case.h"
@@ -42,6 +45,13 @@ void Darken(cv::Mat& counts) {
     const double d2 = std::pow(at[1] - x, 2) + std::pow(at[0] - y, 2);
     pixel *= 1 - 0.3 * d2 / r2;
   });
+}
+
+// Makes the office anew with luminaire D as daylight (tests/validation/office_variants.cc).
+void AddDaylight(const OfficeCopy& office, const std::string& variant) {
+  const std::string command = fmt::format("'{}' '{}' {} '{}'", LUXFIT_OFFICE_VARIANTS, support::kOfficeFolder,
+                                          variant, office.Path("office"));
+  if (std::system(command.c_str()) != 0) throw std::runtime_error("expected to run " + command);
 }
 
 }  // namespace
@@ -98,6 +108,30 @@ std::vector<CatalogueCase> PhotometryCases() {
          int i = 0;
          EditPhotos(office, Every, [&](cv::Mat& counts) { counts *= 1 + 0.03 * std::sin(2.4 * ++i); });
        }},
+      {kGroup,
+       "daylight, photographed alone",
+       Required::kSolved,
+       {},
+       [](const OfficeCopy& office) { AddDaylight(office, "ambient"); },
+       "D"},
+      {kGroup,
+       "daylight that falls by 30 % from view to view",
+       Required::kNamed,
+       {"ambient_changed"},
+       [](const OfficeCopy& office) { AddDaylight(office, "dusk"); },
+       "D"},
+      {kGroup,
+       "daylight that falls by 30 % from state to state",
+       Required::kNamed,
+       {"ambient_changed"},
+       [](const OfficeCopy& office) { AddDaylight(office, "dusk_by_state"); },
+       "D"},
+      {kGroup,
+       "daylight that goes up and down by 30 %",
+       Required::kNamed,
+       {"ambient_changed"},
+       [](const OfficeCopy& office) { AddDaylight(office, "clouds"); },
+       "D"},
       {kGroup,
        "corners darker by 30 %",
        Required::kNamed,

@@ -21,7 +21,9 @@ PhotoBlock::PhotoBlock(const Room& room, const LightData& data) : room_(room), d
 RowResponse PhotoBlock::ResponseOf(const LightState& state, int row) const {
   const double rho = state.albedo[material_[static_cast<size_t>(row)]];
   const double indirect = data_.indirect_is_held ? Of(row).relative_indirect : 0;
-  return {state.camera_scale / M_PI * rho, rho * indirect};
+  const double ambient =
+      state.ambient_share.size() > 0 ? state.ambient_share[Of(row).state] * Of(row).relative_ambient : 0;
+  return {state.camera_scale / M_PI * rho, rho * indirect + ambient};
 }
 
 void PhotoBlock::AddOwnDerivatives(const LightState& state, const std::vector<Parameter>& parameters,
@@ -36,6 +38,8 @@ void PhotoBlock::AddOwnDerivatives(const LightState& state, const std::vector<Pa
       derivative += unit * state.albedo[material] * illuminance_lx;
     else if (parameter.kind == ParameterKind::kAlbedo && parameter.index == material)
       derivative += unit * illuminance_lx + (data_.indirect_is_held ? Of(row).relative_indirect : 0);
+    else if (parameter.kind == ParameterKind::kAmbientShare && parameter.index == Of(row).state)
+      derivative += Of(row).relative_ambient;
   }
 }
 

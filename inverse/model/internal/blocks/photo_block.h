@@ -1,9 +1,10 @@
 // Presents the luminance of elements in photos as rows of the fit.
 //
-//   Y_es = rho_m(e) (c / pi E_es + I_es)     relative luminance
+//   Y_es = rho_m(e) (c / pi E_es + I_es) + b_s A_e     relative luminance
 //
 // rho: albedo of the element's material, c: camera scale (relative luminance per cd/m2). I: indirect light
-// that was measured (LightData::indirect_is_held), else 0. Rows of one facet in one state share their model
+// that was measured (LightData::indirect_is_held), else 0. A: ambient light that was
+// subtracted there, b: what is left of it in the photos of state s, over that. Rows of one facet in one state share their model
 // error.
 #ifndef LUXFIT_INVERSE_MODEL_INTERNAL_BLOCKS_PHOTO_BLOCK_H_
 #define LUXFIT_INVERSE_MODEL_INTERNAL_BLOCKS_PHOTO_BLOCK_H_
