@@ -1,6 +1,7 @@
 luxfit_test(inverse/select one_standard_error_test LINK luxfit::inverse)
 luxfit_test(inverse/select spatial_blocks_test LINK luxfit::inverse)
 luxfit_test(inverse/select contradicted_test LINK luxfit::inverse)
+luxfit_test(inverse/select robust_rows_test LINK luxfit::inverse)
 luxfit_test(inverse/model cross_validation_test LINK luxfit::inverse)
 luxfit_test(inverse/fit room_observations_test LINK luxfit::inverse)
 luxfit_test(inverse/fit unmodelled_test LINK luxfit::inverse)

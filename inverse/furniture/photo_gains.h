@@ -7,7 +7,7 @@
 // walls that are where the mesh has them, and agree by chance on planes in front of them.
 //
 // Half of the places may be furniture that the mesh lacks: the fit starts from least absolute differences, and goes on with
-// weights that fall with the square. Where no correction is larger than a third of the tolerance with which signatures
+// weights that fall with the square (inverse/select/internal/robust_rows.h). Where no correction is larger than a third of the tolerance with which signatures
 // are compared, the views stay as they are.
 //
 // A factor common to a state is not determined, and is left alone. The final calibration of photos is another step, which

@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "inverse/observe/internal/share_rows.h"
+#include "inverse/select/internal/robust_rows.h"
 #include "inverse/select/one_standard_error.h"
 
 namespace luxfit {
@@ -65,8 +65,8 @@ class AmbientEstimator {
   int PatchOf(int element) const { return patches_.elements[static_cast<size_t>(element)].patch; }
 
   // Returns what off photos of two views differ by, of ln O. Unknowns: by view.
-  ShareRows RowsOfOff() const {
-    ShareRows rows;
+  RobustRows RowsOfOff() const {
+    RobustRows rows;
     for (const auto& [element, of_view] : off_)
       for (auto a = of_view.begin(); a != of_view.end(); ++a)
         for (auto b = std::next(a); b != of_view.end(); ++b)
@@ -112,7 +112,7 @@ class AmbientEstimator {
 
   AmbientLight WithShares(const Eigen::VectorXd& log_off) const {
     AmbientLight light;
-    ShareRows rows;
+    RobustRows rows;
     for (const auto& [state, elements] : lit_) AddPairs(state, elements, rows);
     AddSums(rows);
     if (rows.count() == 0) return light;
@@ -122,8 +122,8 @@ class AmbientEstimator {
     for (const auto& [state, elements] : lit_)
       for (const auto& [element, of_view] : elements)
         for (const auto& [view, value] : of_view) share[{view, state}] = x[UnknownOf(view, state)];
-    const GroupScores ones = ScoresOf(rows, rows.ScaleOf(x), std::nullopt),
-                      shares = ScoresOf(rows, rows.ScaleOf(x), untold);
+    const GroupScores ones = ScoresOf(rows, rows.NoiseAt(x), std::nullopt),
+                      shares = ScoresOf(rows, rows.NoiseAt(x), untold);
     SelectionOptions options;
     options.worth_having = kWorthHaving;
     const Selection selection = SimplestWithinOneStandardError(
@@ -137,7 +137,7 @@ class AmbientEstimator {
   }
 
   // Adds what views of an element differ by in a state.
-  void AddPairs(int state, const ByElement& lit, ShareRows& rows) const {
+  void AddPairs(int state, const ByElement& lit, RobustRows& rows) const {
     for (const auto& [element, of_view] : lit) {
       if (compared_.count(element) == 0) continue;
       for (auto a = of_view.begin(); a != of_view.end(); ++a) {
@@ -155,15 +155,15 @@ class AmbientEstimator {
   }
 
   // Adds what a view shows of an element in states whose light adds up to none.
-  void AddSums(ShareRows& rows) const {
+  void AddSums(RobustRows& rows) const {
     const Eigen::MatrixXd sums = SumsOfNoLight(dimming_);
     for (Eigen::Index sum = 0; sum < sums.cols(); ++sum)
       for (const int element : compared_)
         for (const auto& [view, off] : off_.at(element)) AddSum(sums.col(sum), element, off, rows);
   }
 
-  void AddSum(const Eigen::VectorXd& by_state, int element, const Observation& off, ShareRows& rows) const {
-    std::vector<ShareRows::Term> terms;
+  void AddSum(const Eigen::VectorXd& by_state, int element, const Observation& off, RobustRows& rows) const {
+    std::vector<RobustRows::Term> terms;
     double value = 0, squares = 0;
     for (Eigen::Index s = 0; s < by_state.size(); ++s) {
       const auto state = static_cast<int>(s);
@@ -206,16 +206,16 @@ class AmbientEstimator {
 
   // Returns the shares by the rows but those of a fold. Of what no row should tell, strays would tell something: a thing that only
   // one view shows differs there by the luminaires' light, too. It is set so that shares are about 1.
-  Eigen::VectorXd SharesOf(const ShareRows& rows, const Eigen::MatrixXd& untold, int without) const {
+  Eigen::VectorXd SharesOf(const RobustRows& rows, const Eigen::MatrixXd& untold, int without) const {
     const Eigen::VectorXd x = rows.Solve(1, kShareSigma, unknowns(), without);
     return x + untold * untold.colPivHouseholderQr().solve((1 - x.array()).matrix());
   }
 
   // Scores rows by fits without their fold; without `untold`, by shares of 1. `scale`: relative noise.
-  GroupScores ScoresOf(const ShareRows& rows, double scale,
+  GroupScores ScoresOf(const RobustRows& rows, double scale,
                        const std::optional<Eigen::MatrixXd>& untold) const {
     GroupScores scores;
-    for (int fold = 0; fold < ShareRows::kFolds; ++fold) {
+    for (int fold = 0; fold < RobustRows::kFolds; ++fold) {
       const Eigen::VectorXd x =
           untold ? SharesOf(rows, *untold, fold) : Eigen::VectorXd(Eigen::VectorXd::Ones(unknowns()));
       for (size_t i = 0; i < rows.count(); ++i)

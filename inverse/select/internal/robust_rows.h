@@ -1,12 +1,12 @@
-// Solves for shares of light, robustly.
+// Solves linear equations with strays among them, such as what two views show of one place.
 //
-//   value_i = sum_k c_ik x_k + noise of (relative noise) size_i,     x_k = mean +- sigma
+//   value_i = sum_k c_ik x_k + noise * size_i,     x_k = mean +- sigma
 //
-// by iteratively reweighted least squares, first of absolute residuals, then with Cauchy's loss. The relative noise is that of the
-// residuals' median.
+// by iteratively reweighted least squares, first of absolute residuals, then with Cauchy's loss. The noise is that of the
+// residuals' median over their sizes. Up to half of the rows may be strays.
 // Source: Holland and Welsch (1977), "Robust regression using iteratively reweighted least-squares".
-#ifndef LUXFIT_INVERSE_OBSERVE_INTERNAL_SHARE_ROWS_H_
-#define LUXFIT_INVERSE_OBSERVE_INTERNAL_SHARE_ROWS_H_
+#ifndef LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_ROWS_H_
+#define LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_ROWS_H_
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace luxfit {
 
-class ShareRows {
+class RobustRows {
  public:
   static constexpr int kFolds = 5;
   struct Term {
@@ -24,14 +24,16 @@ class ShareRows {
 
   // `group`: rows of one share their error, and are left out together.
   void Add(const std::vector<Term>& terms, double value, double size, int group);
+  // Adds all rows of another.
+  void Add(const RobustRows& rows);
   size_t count() const { return rows_.size(); }
   int GroupOf(size_t row) const { return rows_[row].group; }
   int FoldOf(size_t row) const { return rows_[row].group % kFolds; }
 
   // Returns what remains of a row over its size.
   double Residual(size_t row, const Eigen::VectorXd& x) const;
-  // Returns the relative noise.
-  double ScaleOf(const Eigen::VectorXd& x) const;
+  // Returns the noise of the rows but those of a fold; -1: of all.
+  double NoiseAt(const Eigen::VectorXd& x, int without = -1) const;
   // Fits x to the rows but those of a fold, by a prior of that mean and sigma for each.
   Eigen::VectorXd Solve(double mean, double sigma, Eigen::Index unknowns, int without) const;
 
@@ -52,4 +54,4 @@ class ShareRows {
 
 }  // namespace luxfit
 
-#endif  // LUXFIT_INVERSE_OBSERVE_INTERNAL_SHARE_ROWS_H_
+#endif  // LUXFIT_INVERSE_SELECT_INTERNAL_ROBUST_ROWS_H_
