@@ -24,6 +24,7 @@ double AmbientLeft::Spread() const {
 
 AmbientLeft AmbientLeftIn(const LuminaireFit& fit, double prior_sigma) {
   AmbientLeft left;
+  if (fit.covariance.rows() != static_cast<Eigen::Index>(fit.parameters.size())) return left;
   std::vector<Eigen::Index> rows;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

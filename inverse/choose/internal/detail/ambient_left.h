@@ -2,8 +2,8 @@
 //
 //   b^T C^-1 b <= chi2_95(states)      else the shares stay free
 //
-// b: LightState::ambient_share as fitted, of the states of which the data tell it, C: their covariance. Where all of them together are not told from 0,
-// they are held there.
+// b: LightState::ambient_share as fitted, of the states of which the data tell it, C: their covariance. Where all of them
+// together are not told from 0, they are held there.
 // Sources: Wald (1943), "Tests of statistical hypotheses concerning several parameters"; Wilson and Hilferty (1931), "The distribution of
 // chi-square", for its quantile.
 #ifndef LUXFIT_INVERSE_CHOOSE_INTERNAL_DETAIL_AMBIENT_LEFT_H_
@@ -24,7 +24,7 @@ struct AmbientLeft {
   double Spread() const;
 };
 
-// `fit` needs its covariance. `prior_sigma`: of each share.
+// None without a covariance. `prior_sigma`: of each share.
 AmbientLeft AmbientLeftIn(const LuminaireFit& fit, double prior_sigma);
 
 // Returns the readings with sigmas that hold ambient light which changed by `spread` (1 sigma, relative).
