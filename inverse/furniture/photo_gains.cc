@@ -130,14 +130,16 @@ RobustRows PairsOf(const Scene& mesh, const std::vector<SignatureView>& views) {
 PhotoGains EstimatePhotoGains(const Scene& mesh, const std::vector<SignatureView>& views, double tolerance) {
   if (views.empty()) return {};
   const GainNumbers numbers(views);
-  const Eigen::VectorXd x = PairsOf(mesh, views).Solve(0, kGainSigma, numbers.gains() + numbers.terms(), -1);
+  const RobustRows pairs = PairsOf(mesh, views);
+  const Eigen::VectorXd x = pairs.Solve(0, kGainSigma, numbers.gains() + numbers.terms(), -1);
   PhotoGains found;
   found.log_gain =
       x.head(numbers.gains()).reshaped(numbers.states(), static_cast<Eigen::Index>(views.size())).transpose();
   found.vignetting = x.tail(numbers.terms()).reshaped(kVignettingTerms, numbers.cameras());
   const double least = kMatters * tolerance;
-  found.matter = (found.log_gain.array().abs() > least).any() ||
-                 (found.vignetting.colwise().sum().array().abs() > least).any();
+  const bool are_large = (found.log_gain.array().abs() > least).any() ||
+                         (found.vignetting.colwise().sum().array().abs() > least).any();
+  found.matter = are_large && pairs.NoiseAt(x) <= std::sqrt(2) * tolerance;
   return found;
 }
 

@@ -8,7 +8,8 @@
 //
 // Half of the places may be furniture that the mesh lacks: the fit starts from least absolute differences, and goes on with
 // weights that fall with the square (inverse/select/internal/robust_rows.h). Where no correction is larger than a third of the tolerance with which signatures
-// are compared, the views stay as they are.
+// are compared, the views stay as they are; so they do where views differ afterwards by more than the tolerance of both (1 sigma): tones that
+// were mapped locally are no gains, and views without them would agree by chance.
 //
 // A factor common to a state is not determined, and is left alone. The final calibration of photos is another step, which
 // knows how luminaires add up (inverse/observe/camera/self_calibration.h): this one must stand a mesh that lacks furniture, and a
@@ -30,7 +31,7 @@ constexpr int kVignettingTerms = 2;
 struct PhotoGains {
   Eigen::MatrixXd log_gain;    // views x states, g
   Eigen::MatrixXd vignetting;  // kVignettingTerms x cameras, c
-  bool matter = false;         // some exceed a third of the tolerance
+  bool matter = false;         // some exceed a third of the tolerance, and explain what views differ by
 };
 
 // `tolerance`: of ln Y, as in FurnitureOptions.

@@ -125,6 +125,27 @@ TEST(PhotoGains, DarkCornersAreTakenOut) {
   ExpectSameFurniture(photos);
 }
 
+// Waves of light that differ from photo to photo, as maps of tones leave them.
+ImagePlane Waves(size_t photo, const ImagePlane& y) {
+  ImagePlane changed = 1.1F * y;
+  for (Eigen::Index v = 0; v < y.rows(); ++v)
+    for (Eigen::Index u = 0; u < y.cols(); ++u) {
+      const double phase = 0.05 * static_cast<double>(u) + 0.04 * static_cast<double>(v);
+      changed(v, u) *= static_cast<float>(1 + 0.1 * std::sin(phase + 2 * static_cast<double>(photo)));
+    }
+  return changed;
+}
+
+TEST(PhotoGains, WhatTheyDoNotExplainStaysAsItIs) {
+  const Office& office = TheOffice();
+  const RoomPhotos photos = office.Changed(Waves);
+  const auto given = SignaturesOf(photos, office.cameras, office.views, office.states);
+  EXPECT_GT(
+      EstimatePhotoGains(office.mesh, given, FurnitureOptions().tolerance).log_gain.cwiseAbs().maxCoeff(),
+      0.01);
+  EXPECT_EQ(WorstShift(office.Corrected(photos), given), 0);
+}
+
 TEST(PhotoGains, StatedGainsAreDividedOut) {
   const Office& office = TheOffice();
   RoomPhotos two = office.photos;
