@@ -3,7 +3,7 @@
 //   ln Y_avs - ln Y_bvs = g_as - g_bs + sum_k (c_ak r_a^2k - c_bk r_b^2k)        v: place of the mesh that views a and b see
 //
 // g: gain of a view in a state: light that flickers, an exposure that is off. c: vignetting of the view's camera; r: distance
-// of the pixel from the picture's centre over half its diagonal. Else views would contradict each other all over
+// of the pixel from the picture's centre over half its diagonal. Views that keep them contradict each other all over
 // walls that are where the mesh has them, and agree by chance on planes in front of them.
 //
 // Half of the places may be furniture that the mesh lacks: the fit starts from least absolute differences, and goes on with

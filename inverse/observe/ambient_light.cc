@@ -122,15 +122,15 @@ class AmbientEstimator {
     for (const auto& [state, elements] : lit_)
       for (const auto& [element, of_view] : elements)
         for (const auto& [view, value] : of_view) share[{view, state}] = x[UnknownOf(view, state)];
-    const GroupScores ones = ScoresOf(rows, rows.NoiseAt(x), std::nullopt),
-                      shares = ScoresOf(rows, rows.NoiseAt(x), untold);
+    const double noise = rows.NoiseAt(x);
+    const GroupScores ones = ScoresOf(rows, noise, std::nullopt), shares = ScoresOf(rows, noise, untold);
     SelectionOptions options;
     options.worth_having = kWorthHaving;
     const Selection selection = SimplestWithinOneStandardError(
         {{ones, 0, true}, {shares, static_cast<double>(share.size()), true}}, options);
     light.score_of_ones = selection.score[0];
     light.score_of_shares = selection.score[1];
-    // Of a view without an off photo nothing says that its share is 1.
+    // The light of a view without an off photo may differ from the mean of the others by any share.
     if (selection.chosen == 1 || has_off_.size() < static_cast<size_t>(views_))
       light.share = std::move(share);
     return light;
@@ -204,22 +204,22 @@ class AmbientEstimator {
     return untold;
   }
 
-  // Returns the shares by the rows but those of a fold. Of what no row should tell, strays would tell something: a thing that only
-  // one view shows differs there by the luminaires' light, too. It is set so that shares are about 1.
+  // Returns the shares by the rows but those of a fold. A thing that only one view shows differs by the luminaires' light, too, and
+  // would move what no row tells: that is set so that shares are about 1.
   Eigen::VectorXd SharesOf(const RobustRows& rows, const Eigen::MatrixXd& untold, int without) const {
     const Eigen::VectorXd x = rows.Solve(1, kShareSigma, unknowns(), without);
     return x + untold * untold.colPivHouseholderQr().solve((1 - x.array()).matrix());
   }
 
-  // Scores rows by fits without their fold; without `untold`, by shares of 1. `scale`: relative noise.
-  GroupScores ScoresOf(const RobustRows& rows, double scale,
+  // Scores rows by fits without their fold; without `untold`, by shares of 1. `noise`: relative.
+  GroupScores ScoresOf(const RobustRows& rows, double noise,
                        const std::optional<Eigen::MatrixXd>& untold) const {
     GroupScores scores;
     for (int fold = 0; fold < RobustRows::kFolds; ++fold) {
       const Eigen::VectorXd x =
           untold ? SharesOf(rows, *untold, fold) : Eigen::VectorXd(Eigen::VectorXd::Ones(unknowns()));
       for (size_t i = 0; i < rows.count(); ++i)
-        if (rows.FoldOf(i) == fold) scores[rows.GroupOf(i)].Add(rows.Residual(i, x) / scale);
+        if (rows.FoldOf(i) == fold) scores[rows.GroupOf(i)].Add(rows.Residual(i, x) / noise);
     }
     return scores;
   }
